@@ -1,0 +1,136 @@
+#include "emulator/beam.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace racebeam {
+namespace {
+
+constexpr int kCombEnd = kBlankClocks + 8;  // an HMOVE blanks up to this clock of the line
+
+// The sets of enabled objects, one bit an Object, for which the reference writes pixels in groups of four.
+bool writes_groups(unsigned enabled, std::uint8_t ctrlpf) {
+  constexpr unsigned p0 = 1U << kP0, p1 = 1U << kP1, m0 = 1U << kM0, m1 = 1U << kM1, bl = 1U << kBall,
+                     pf = 1U << kPlayfield;
+  switch (enabled) {
+    case pf: case p0: case p1: case p0 | p1: case m0: case m1: case bl:
+    case m0 | m1: case bl | m0: case bl | m1: case bl | p1:
+      return true;
+    case pf | p0: case pf | p1: case pf | bl:
+      return (ctrlpf & 2) == 0;
+    default:
+      return false;
+  }
+}
+
+// Where the enabled objects but the playfield stand, players whatever their graphics.
+PixelMask shapes(const TiaState& tia, const Line& line) {
+  PixelMask all = line.mask[kM0] | line.mask[kM1] | line.mask[kBall];
+  for (unsigned i = 0; i < 2; ++i)
+    if (line.enabled >> (kP0 + i) & 1) all = all | player_shape(tia.player[i]);
+  return all;
+}
+
+}  // namespace
+
+void Beam::begin_frame() {
+  tia_.cursor = start();
+  tia_.left = kLineClocks;
+  tia_.pixel = 0;
+  repeats_ = false;
+}
+
+void Beam::forget() {
+  stale_ = 0xFF;
+  repeats_ = false;
+}
+
+void Beam::draw_to(std::int32_t clock) {
+  const std::int32_t stop = end();
+  if (clock < start() || tia_.cursor >= stop || tia_.cursor >= clock) return;
+  clock = std::min(clock, stop);
+  do {
+    const int begin = kLineClocks - tia_.left;
+    const bool completes = clock > tia_.cursor + tia_.left;
+    const int clocks = completes ? tia_.left : clock - tia_.cursor;
+    tia_.cursor += clocks;
+    tia_.left = completes ? kLineClocks : tia_.left - clocks;
+    draw_span(begin, clocks);
+    if (completes) end_line();
+  } while (tia_.cursor < clock);
+}
+
+void Beam::draw_span(int begin, int clocks) {
+  const int end_clock = begin + clocks;
+  const int visible = std::min(std::max(begin, kBlankClocks), end_clock);
+  const int first = std::max(visible - kBlankClocks, 0);
+  const int last = std::max(end_clock - kBlankClocks, first);
+  std::uint8_t* row = picture_ + tia_.pixel - first;
+  if (last > first) {
+    const bool whole = first == 0 && last == kLinePixels;
+    if (whole && repeats_ && !tia_.comb_armed) {
+      std::memcpy(row, row - kLinePixels, kLinePixels);
+    } else {
+      draw_visible(row, first, last);
+      repeats_ = whole && !tia_.comb_armed;
+    }
+  }
+  if (tia_.comb_armed && visible < kCombEnd) blank_comb(row, visible, end_clock, first, last);
+  tia_.pixel += last - first;
+}
+
+void Beam::draw_visible(std::uint8_t* row, int first, int last) {
+  if (tia_.vblank) {
+    std::memset(row + first, 0, static_cast<std::size_t>(last - first));
+    return;
+  }
+  if (stale_ != 0) line_.refresh(tia_, stale_);
+  stale_ = 0;
+  tia_.collisions |= draw_pixels(line_, tia_, row, first, last);
+  if (exact_spans_) spill(row, first, last);
+}
+
+// The reference writes some pixels four at a time, and so up to three beyond the span (tia.md, "Provisional pixels").
+void Beam::spill(std::uint8_t* row, int first, int last) {
+  const int group = last & ~3;
+  if (group == last || group < first || !writes_groups(line_.enabled, tia_.ctrlpf)) return;
+  if (shapes(tia_, line_).meets(PixelMask::range(group, group + 4))) return;
+  std::memset(row + last, row[group], static_cast<std::size_t>(group + 4 - last));
+}
+
+// The eight pixels at the start of a line that an HMOVE leaves black. The reference blanks from the span's first pixel
+// on, past its end: seen only when drawing stops there.
+void Beam::blank_comb(std::uint8_t* row, int begin, int end, int first, int last) {
+  int blank_to = first + kCombEnd - begin;
+  if (!exact_spans_) blank_to = std::min(blank_to, last);
+  if (blank_to > first) std::memset(row + first, 0, static_cast<std::size_t>(blank_to - first));
+  if (end >= kCombEnd) tia_.comb_armed = 0;
+}
+
+void Beam::end_line() {
+  const std::uint8_t reflect = tia_.ctrlpf & 1;
+  if (tia_.reflect != reflect) {
+    tia_.reflect = reflect;
+    changed(1U << kPlayfield);
+  }
+  for (unsigned i = 0; i < 2; ++i) {
+    if (!tia_.player[i].skip) continue;
+    tia_.player[i].skip = 0;
+    changed(static_cast<std::uint8_t>(1U << (kP0 + i)));
+  }
+  if (tia_.cosmic) advance_cosmic();
+}
+
+// Missile 0 keeps moving 17 clocks a line, in a pattern of four (tia.md, section 9).
+void Beam::advance_cosmic() {
+  static constexpr std::uint8_t kStep[4] = {18, 33, 0, 17};
+  static constexpr CosmicShape kShape[4] = {CosmicShape::kNormal, CosmicShape::kStretched, CosmicShape::kHidden,
+                                            CosmicShape::kNormal};
+  tia_.cosmic_count = (tia_.cosmic_count + 1) & 3;
+  std::uint8_t& position = tia_.missile[0].position;
+  position = static_cast<std::uint8_t>((position + kLinePixels - kStep[tia_.cosmic_count]) % kLinePixels);
+  tia_.cosmic_shape = kShape[tia_.cosmic_count];
+  changed(1U << kM0);
+}
+
+}  // namespace racebeam

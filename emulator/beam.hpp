@@ -1,0 +1,67 @@
+// The beam: draws the picture up to a colour clock, line by line, from the registers as they stand
+// (spec: tia.md, sections 3, 5 and 6).
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/line.hpp"
+#include "emulator/state.hpp"
+
+namespace racebeam {
+
+constexpr int kLineClocks = 228;
+constexpr int kBlankClocks = 68;  // of each line, before its first pixel
+
+// How a console makes its picture; constant once its format is known.
+struct Video {
+  int ystart = 34;           // first line drawn
+  int height = 210;          // lines drawn
+  bool hmove_blanks = true;
+  bool pal = false;          // loses its colour on odd line counts, and may have more lines
+};
+
+class Beam {
+ public:
+  Beam(TiaState& state, const Video& video) : tia_(state), video_(video) {}
+
+  void begin_frame();                            // cursor to the window's start
+  void aim(std::uint8_t* picture) { picture_ = picture; }  // where pixels go: rows of 160
+
+  // Everything derived from the registers is made anew: after a reset or a restored state.
+  void forget();
+
+  // Draws with the registers as they are; a clock that is already passed draws nothing.
+  void draw_to(std::int32_t clock);
+
+  // A register of these objects (bit n: Object n) has changed; 0: something else that the pixels depend on.
+  void changed(std::uint8_t objects) {
+    stale_ |= objects;
+    repeats_ = false;
+  }
+
+  // Step by step as the reference draws, pixels beyond the end of a span included (tia.md, "Provisional pixels").
+  void set_exact_spans(bool on) { exact_spans_ = on; }
+  bool exact_spans() const { return exact_spans_; }
+
+  bool inside_window() const { return tia_.cursor > start() && tia_.cursor < end(); }
+  std::int32_t start() const { return tia_.origin + kLineClocks * video_.ystart; }
+  std::int32_t end() const { return start() + kLineClocks * video_.height; }
+
+ private:
+  void draw_span(int begin, int clocks);
+  void draw_visible(std::uint8_t* row, int first, int last);
+  void spill(std::uint8_t* row, int first, int last);
+  void blank_comb(std::uint8_t* row, int begin, int end, int first, int last);
+  void end_line();
+  void advance_cosmic();
+
+  TiaState& tia_;
+  const Video& video_;
+  std::uint8_t* picture_ = nullptr;
+  Line line_;
+  std::uint8_t stale_ = 0xFF;   // masks to make anew
+  bool repeats_ = false;        // the line above was drawn in one piece by exactly these registers
+  bool exact_spans_ = false;
+};
+
+}  // namespace racebeam

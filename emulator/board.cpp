@@ -1,0 +1,172 @@
+#include "emulator/board.hpp"
+
+#include <limits>
+
+#include "emulator/motion.hpp"
+#include "emulator/registers.hpp"
+#include "emulator/riot.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::uint64_t bit(unsigned reg) { return std::uint64_t{1} << reg; }
+
+// Registers with an effect on more than the picture.
+constexpr std::uint64_t kSpecialRegisters = bit(VSYNC) | bit(VBLANK) | bit(WSYNC) | bit(AUDC0) | bit(AUDC1) |
+                                            bit(AUDF0) | bit(AUDF1) | bit(AUDV0) | bit(AUDV1);
+
+constexpr int kLineLimit = 290, kLineLimitPal = 342;
+
+}  // namespace
+
+Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
+    : video{properties.ystart, properties.height, properties.hmove_blanks, false},
+      tia(state.tia, state.frame, video),
+      slot{*rom, detect_scheme(*rom), state.cartridge, map},
+      rom_(std::move(rom)),
+      ports_(properties),
+      plain_registers_(slot.scheme.owns_low_page ? 0 : ~kSpecialRegisters) {
+  map_memory();
+}
+
+// RAM shows wherever bits 12, 9 and 7 say so; the cartridge maps itself.
+void Board::map_memory() {
+  for (std::size_t page = 0; page < map.page.size(); ++page) {
+    const std::size_t address = page * MemoryMap::kPageSize;
+    map.page[page] = (address & 0x1280) == 0x0080 ? state.riot.ram.data() + (address & 0x40) : nullptr;
+  }
+  slot.scheme.map(slot);
+  tia.forget();
+  set_format_limits();
+}
+
+void Board::set_format_limits() {
+  const int limit = video.pal ? kLineLimitPal : kLineLimit;
+  overlong_cycle_ = state.tia.origin / 3 + kLineCycles * (limit + 1);
+}
+
+void Board::open_frame() {
+  const auto now = static_cast<std::uint32_t>(state.cycle);
+  const std::int32_t phase = (3 * state.cycle - state.tia.origin) % kLineClocks;
+  state.riot.timer_set -= now;
+  state.riot.late_read -= now;
+  state.frame.dump_release -= now;
+  state.frame.vsync_finish -= 3 * now;
+  state.tia.hmove_clock -= 3 * now;
+  state.cycle = 0;
+  state.tia.origin = -phase;
+  tia.begin_frame();
+  set_format_limits();
+}
+
+void Board::begin_step(std::uint8_t* picture) {
+  last_access_ = std::numeric_limits<std::int32_t>::min() / 4;
+  tia.begin_step(picture);
+}
+
+void Board::end_step() { tia.end_step(last_access_); }
+
+std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
+  if (address & 0x1000) return slot.scheme.read(slot, address);
+  return address & 0x0080 ? read_riot(address, cycle) : read_tia(address, latch, cycle);
+}
+
+std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
+  const bool cartridge = (address & 0x1000) != 0;
+  if (cartridge || (slot.scheme.owns_low_page && (address & 0x1FFF) < 0x40)) slot.scheme.write(slot, address, value);
+  if (cartridge && !slot.scheme.owns_low_page) return cycle;
+  if (cartridge || (address & 0x0080) == 0) return write_tia(address, value, cycle, after_read);
+  write_riot(address, value, cycle);
+  return cycle;
+}
+
+std::uint8_t Board::read_riot(std::uint16_t address, std::int32_t cycle) {
+  switch (address & 7) {
+    case 0: return ports_.swcha(state.inputs);
+    case 1: return state.riot.swacnt;
+    case 2: return state.inputs.switches;
+    case 3: return 0;
+    case 4: case 6: return Timer(state.riot, cycle).intim();
+    default: return Timer(state.riot, cycle).instat();
+  }
+}
+
+// The ports come first and ignore A4 (riot.md, section 1).
+void Board::write_riot(std::uint16_t address, std::uint8_t value, std::int32_t cycle) {
+  if ((address & 7) == 1) state.riot.swacnt = value;
+  else if ((address & 0x14) == 0x14) Timer(state.riot, cycle).set(value, kTimerShift[address & 3]);
+}
+
+// An access that draws up to its clock and changes nothing.
+void Board::touch_tia(std::int32_t cycle) {
+  last_access_ = cycle;
+  if (tia.log.has_room()) tia.log.append(cycle, kTouch, 0);
+}
+
+std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
+  const unsigned reg = address & 0x0F;
+  const FrameState& frame = state.frame;
+  std::uint8_t driven = 0;
+  if (reg < 8) {
+    driven = collision_bits(reg, cycle);
+  } else {
+    touch_tia(cycle);
+    if (reg < 12) {
+      driven = ports_.pot(state.inputs, static_cast<int>(reg - 8), static_cast<std::uint32_t>(cycle),
+                          frame.dump_release, frame.dumping) ? 0x80 : 0;
+    } else if (reg < 14) {
+      driven = ports_.fire_pin(state.inputs, static_cast<int>(reg - 12)) ? 0x80 : 0;
+    }
+  }
+  return static_cast<std::uint8_t>(driven | (latch & 0x3F));
+}
+
+// The only reads that need the picture: the log is played up to now.
+std::uint8_t Board::collision_bits(unsigned reg, std::int32_t cycle) {
+  last_access_ = cycle;
+  tia.catch_up(cycle);
+  return static_cast<std::uint8_t>((state.tia.collisions >> (2 * reg) & 3) << 6);
+}
+
+std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
+  const unsigned reg = address & 0x3F;
+  last_access_ = cycle;
+  if (cycle >= overlong_cycle_) {
+    state.frame.open = 0;
+    stop = true;
+  }
+  switch (reg) {
+    case WSYNC: return after_read ? next_line(cycle) : cycle;
+    case VSYNC: write_vsync(value, cycle); break;
+    case VBLANK: write_dump((value & 0x80) != 0, cycle); break;
+    case AUDC0: case AUDC1: case AUDF0: case AUDF1: case AUDV0: case AUDV1: sound.write(reg, value); break;
+    default: break;
+  }
+  tia.log.append(cycle, reg, value);
+  return cycle;
+}
+
+std::int32_t Board::next_line(std::int32_t cycle) const {
+  const std::int32_t into = (cycle - state.tia.origin / 3) % kLineCycles;
+  return into == 0 ? cycle : cycle + kLineCycles - into;
+}
+
+void Board::write_vsync(std::uint8_t value, std::int32_t cycle) {
+  FrameState& frame = state.frame;
+  const auto clock = 3 * static_cast<std::uint32_t>(cycle);
+  if (value & 2) {
+    frame.vsync_finish = clock + kLineClocks;
+  } else if (static_cast<std::int32_t>(clock) >= static_cast<std::int32_t>(frame.vsync_finish)) {
+    frame.vsync_finish = 0x7FFFFFFF;
+    frame.open = 0;
+    stop = true;
+  }
+}
+
+void Board::write_dump(bool on, std::int32_t cycle) {
+  FrameState& frame = state.frame;
+  if (frame.dumping && !on) frame.dump_release = static_cast<std::uint32_t>(cycle);
+  frame.dumping = on;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,66 @@
+// The board as the CPU sees it: decodes addresses and owns the chips (spec: cpu.md section 2, riot.md, tia.md).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "emulator/memory_map.hpp"
+#include "emulator/ports.hpp"
+#include "emulator/scheme.hpp"
+#include "emulator/sound.hpp"
+#include "emulator/state.hpp"
+#include "emulator/tia.hpp"
+
+namespace racebeam {
+
+class Board {
+ public:
+  Board(std::shared_ptr<const Rom> rom, const Properties& properties);
+  Board(const Board&) = delete;
+  Board& operator=(const Board&) = delete;
+
+  State state;
+  MemoryMap map;
+  Video video;
+  Tia tia;
+  Sound sound;
+  Slot slot;
+  bool stop = false;  // the frame has closed: the CPU ends after this instruction
+
+  // What the CPU does where there is no plain memory. `latch` is the data bus before the access.
+  std::uint8_t read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
+
+  // Returns the cycle after the write: WSYNC waits for the end of the line when the access before it was a read.
+  std::int32_t write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
+
+  // A TIA write that only concerns the picture: the log is all it needs.
+  bool is_plain_write(std::uint16_t address, std::int32_t cycle) const {
+    return (plain_registers_ >> (address & 0x3F) & 1) != 0 && cycle < overlong_cycle_;
+  }
+
+  void open_frame();  // tia.md section 2, step action 1, with the pictures exchanged already
+  void begin_step(std::uint8_t* picture);
+  void end_step();
+  void set_format_limits();  // after `video` or the frame's origin have changed
+
+  void map_memory();  // everything that is derived from the state: after a reset or a restored state
+
+ private:
+  std::uint8_t read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
+  std::uint8_t read_riot(std::uint16_t address, std::int32_t cycle);
+  void write_riot(std::uint16_t address, std::uint8_t value, std::int32_t cycle);
+  std::int32_t write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
+  void write_vsync(std::uint8_t value, std::int32_t cycle);
+  void write_dump(bool on, std::int32_t cycle);
+  std::int32_t next_line(std::int32_t cycle) const;
+  void touch_tia(std::int32_t cycle);
+  std::uint8_t collision_bits(unsigned reg, std::int32_t cycle);
+
+  std::shared_ptr<const Rom> rom_;
+  Ports ports_;
+  std::uint64_t plain_registers_;
+  std::int32_t overlong_cycle_ = 0;  // from this cycle on, a TIA write closes the frame
+  std::int32_t last_access_ = 0;     // cycle of the last TIA access, for how far the picture is drawn
+};
+
+}  // namespace racebeam

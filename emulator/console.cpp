@@ -1,0 +1,165 @@
+#include "emulator/console.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "emulator/board.hpp"
+#include "emulator/cpu.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr int kBufferRows = 384;             // the window and what a reset may shift it down by (tia.md, section 2)
+constexpr int kInstructionsPerStep = 25000;
+constexpr int kDetectionSteps = 60;
+
+using Picture = std::array<std::uint8_t, static_cast<std::size_t>(kBufferRows) * kLinePixels>;
+
+bool is_pal(Format format) { return format == Format::kPal || format == Format::kPal60; }
+
+}  // namespace
+
+struct Console::Impl {
+  Impl(std::shared_ptr<const Rom> rom, const Properties& given, PowerOn& source)
+      : properties(given), power_on(source), board(std::move(rom), given), format(given.format) {}
+
+  Properties properties;
+  PowerOn& power_on;
+  Board board;
+  Format format;
+  alignas(64) std::array<Picture, 2> picture{};
+  std::size_t current = 0;  // which of the two was drawn last
+
+  State& state() { return board.state; }
+  std::size_t picture_size() const { return static_cast<std::size_t>(height()) * kLinePixels; }
+  int height() const { return std::max(board.video.height, 200); }
+
+  void power_up();
+  void set_timer();
+  void reset();
+  void step();
+  Format detect_format();
+};
+
+// console.md, section 1.
+void Console::Impl::power_up() {
+  for (std::uint8_t& byte : state().riot.ram) byte = static_cast<std::uint8_t>(power_on.draw(state().drawn));
+  set_timer();
+  if (properties.left_difficulty_a) state().inputs.switches |= kSwitchLeftA;
+  if (properties.right_difficulty_a) state().inputs.switches |= kSwitchRightA;
+  if (format == Format::kAuto) format = detect_format();
+  board.video.pal = is_pal(format);
+  const bool taller = format == Format::kPal || format == Format::kSecam;
+  if (taller && board.video.height == 210) board.video.height = 250;
+  reset();
+}
+
+// riot.md, section 2: 25 to 99 intervals of 64 cycles.
+void Console::Impl::set_timer() {
+  RiotState& riot = state().riot;
+  riot.timer = static_cast<std::uint8_t>(25 + power_on.draw(state().drawn) % 75);
+  riot.shift = 6;
+  riot.timer_set = 0;
+  riot.late = 0;
+  riot.swacnt = 0;
+}
+
+// console.md, section 2. RIOT RAM, sound and an unfinished frame live through it.
+void Console::Impl::reset() {
+  const std::uint8_t open = state().frame.open, greyed = state().frame.greyed;
+  state().cycle = 0;
+  set_timer();
+  state().tia = TiaState{};
+  state().frame = FrameState{};
+  state().frame.open = open;
+  state().frame.greyed = greyed;
+  for (Picture& buffer : picture) buffer.fill(0);
+  const Scheme& scheme = board.slot.scheme;
+  power_on.fill_cartridge(std::span(state().cartridge.ram).first(scheme.ram), state().drawn);
+  scheme.reset(board.slot);
+  board.map_memory();
+  reset_cpu(board);
+}
+
+// tia.md, section 2.
+void Console::Impl::step() {
+  FrameState& frame = state().frame;
+  if (!frame.open) {
+    current ^= 1;
+    board.open_frame();
+    frame.greyed = 0;
+  }
+  frame.open = 1;
+  board.begin_step(picture[current].data());
+  run(board, kInstructionsPerStep);
+  board.end_step();
+  if (!frame.open) {
+    frame.lines = (3 * state().cycle - state().tia.origin) / kLineClocks;
+    frame.greyed = 0;
+  } else if (!frame.greyed) {
+    board.tia.grey(picture[current].data(), state().cycle);
+    frame.greyed = 1;
+  }
+}
+
+Format Console::Impl::detect_format() {
+  reset();
+  int long_frames = 0;
+  for (int i = 0; i < kDetectionSteps; ++i) {
+    step();
+    if (i >= 30 && (3 * state().cycle - state().tia.origin) / kLineClocks > 285) ++long_frames;
+  }
+  return long_frames >= 15 ? Format::kPal : Format::kNtsc;
+}
+
+Console::Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on)
+    : impl_(std::make_unique<Impl>(std::move(rom), properties, power_on)) {
+  impl_->power_up();
+}
+
+Console::~Console() = default;
+
+void Console::reset() { impl_->reset(); }
+void Console::step() { impl_->step(); }
+
+Inputs& Console::inputs() { return impl_->state().inputs; }
+Sound& Console::sound() { return impl_->board.sound; }
+const State& Console::state() const { return impl_->board.state; }
+
+void Console::restore(const State& state) {
+  impl_->board.state = state;
+  impl_->board.map_memory();
+}
+
+Format Console::format() const { return impl_->format; }
+int Console::height() const { return impl_->height(); }
+
+bool Console::has_paddles() const {
+  return impl_->properties.left == Controller::kPaddles || impl_->properties.right == Controller::kPaddles;
+}
+
+std::span<const std::uint8_t> Console::picture() const {
+  return std::span(impl_->picture[impl_->current]).first(impl_->picture_size());
+}
+
+std::span<const std::uint8_t> Console::previous_picture() const {
+  return std::span(impl_->picture[impl_->current ^ 1]).first(impl_->picture_size());
+}
+
+void Console::restore_pictures(std::span<const std::uint8_t> current, std::span<const std::uint8_t> previous) {
+  std::copy(current.begin(), current.end(), impl_->picture[impl_->current].begin());
+  std::copy(previous.begin(), previous.end(), impl_->picture[impl_->current ^ 1].begin());
+}
+
+std::span<const std::uint8_t, 128> Console::ram() const { return impl_->board.state.riot.ram; }
+
+void Console::set_ram(int index, std::uint8_t value) {
+  impl_->board.state.riot.ram[static_cast<std::size_t>(index)] = value;
+}
+
+std::uint8_t Console::peek(std::uint16_t address) const {
+  const std::uint8_t* page = impl_->board.map.page_of(address);
+  return page != nullptr ? page[address & 0x3F] : 0;
+}
+
+}  // namespace racebeam

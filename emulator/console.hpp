@@ -1,0 +1,53 @@
+// The board: a cartridge, the three chips, and the frame (spec: console.md, tia.md section 2).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "emulator/inputs.hpp"
+#include "emulator/power_on.hpp"
+#include "emulator/properties.hpp"
+#include "emulator/sound.hpp"
+#include "emulator/state.hpp"
+
+namespace racebeam {
+
+class Console {
+ public:
+  // Builds the console around an image, as console.md section 1 says: power-on RAM, format detection, system reset.
+  // Throws std::invalid_argument when no cartridge scheme fits the image. `power_on` must outlive the console.
+  Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on);
+  ~Console();
+
+  void reset();  // system reset, console.md section 2
+  void step();   // runs until a frame closes (tia.md section 2)
+
+  Inputs& inputs();               // what is pressed from now on
+  Sound& sound();
+  const State& state() const;     // the whole machine, one trivially copyable value
+
+  // The machine alone: exact in everything but what undrawn rows of the two pictures show.
+  void restore(const State& state);
+
+  Format format() const;          // kNtsc, kPal, kPal60 or kSecam: detected, or from the properties
+  bool has_paddles() const;       // either port
+  int height() const;             // rows given out: the picture's height, at least 200
+  std::span<const std::uint8_t> picture() const;           // height() x 160 palette indices, drawn last
+  std::span<const std::uint8_t> previous_picture() const;  // the picture before it
+
+  // Both buffers with their order, for a snapshot: 2 x height() x 160 bytes, current first.
+  void restore_pictures(std::span<const std::uint8_t> current, std::span<const std::uint8_t> previous);
+
+  std::span<const std::uint8_t, 128> ram() const;  // $80-$FF
+  void set_ram(int index, std::uint8_t value);
+  std::uint8_t peek(std::uint16_t address) const;  // RAM and cartridge, without any side effect; 0 elsewhere
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace racebeam

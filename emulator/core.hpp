@@ -1,0 +1,91 @@
+// The 6507's registers while instructions run, and its way to the bus. Everything is inlined into run() in cpu.cpp,
+// so that the registers are locals of one function.
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/board.hpp"
+
+#define RACEBEAM_INLINE [[gnu::always_inline]] inline
+
+namespace racebeam {
+
+struct Core {
+  Board& board;
+  std::int32_t cycle;      // T: at the end of the instruction from its second bus access on (cpu.md, section 3)
+  std::int32_t budget;     // instructions still to run
+  std::uint16_t PC;
+  std::uint8_t A, X, Y, SP;
+  std::uint8_t n, z;       // N is bit 7 of n; Z is set when z is 0
+  std::uint8_t C, V, D, I; // 0 or 1
+  std::uint8_t latch;      // the data bus after the last access
+
+  explicit Core(Board& on, std::int32_t instructions)
+      : board(on), cycle(on.state.cycle), budget(instructions), PC(on.state.cpu.PC), A(on.state.cpu.A),
+        X(on.state.cpu.X), Y(on.state.cpu.Y), SP(on.state.cpu.SP), latch(on.state.cpu.latch) {
+    set_status(on.state.cpu.P);
+  }
+
+  RACEBEAM_INLINE void store_state() const {
+    board.state.cycle = cycle;
+    CpuState& cpu = board.state.cpu;
+    cpu.PC = PC;
+    cpu.A = A;
+    cpu.X = X;
+    cpu.Y = Y;
+    cpu.SP = SP;
+    cpu.P = status() & 0xCF;
+    cpu.latch = latch;
+  }
+
+  // The status byte as it is pushed: bits 5 and 4 are always 1.
+  RACEBEAM_INLINE std::uint8_t status() const {
+    return static_cast<std::uint8_t>((n & 0x80) | V << 6 | 0x30 | D << 3 | I << 2 | (z == 0) << 1 | C);
+  }
+
+  RACEBEAM_INLINE void set_status(std::uint8_t p) {
+    n = p;
+    V = p >> 6 & 1;
+    D = p >> 3 & 1;
+    I = p >> 2 & 1;
+    z = static_cast<std::uint8_t>(~p & 2);
+    C = p & 1;
+  }
+
+  RACEBEAM_INLINE void set_nz(std::uint8_t value) { n = z = value; }
+
+  RACEBEAM_INLINE std::uint8_t read(std::uint16_t address) {
+    const std::uint8_t* page = board.map.page_of(address);
+    latch = page != nullptr ? page[address & 0x3F] : board.read_device(address, latch, cycle);
+    return latch;
+  }
+
+  RACEBEAM_INLINE std::uint8_t fetch() { return read(PC++); }
+
+  RACEBEAM_INLINE std::uint16_t fetch_word() {
+    const std::uint8_t low = fetch();
+    return static_cast<std::uint16_t>(low | fetch() << 8);
+  }
+
+  // after_read: the CPU access before this one was a read, which WSYNC asks for.
+  RACEBEAM_INLINE void write(std::uint16_t address, std::uint8_t value, bool after_read = true) {
+    if ((address & 0x1280) == 0x0080) {
+      board.state.riot.ram[address & 0x7F] = value;
+    } else if ((address & 0x1080) == 0 && board.is_plain_write(address, cycle)) {
+      board.tia.log.append(cycle, address & 0x3F, value);
+    } else {
+      cycle = board.write_device(address, value, cycle, after_read);
+      if (board.stop) budget = 0;
+    }
+    latch = value;
+  }
+
+  RACEBEAM_INLINE void push(std::uint8_t value, bool after_read = true) {
+    write(0x0100 | SP--, value, after_read);
+  }
+
+  RACEBEAM_INLINE std::uint8_t pull() { return read(0x0100 | ++SP); }
+  RACEBEAM_INLINE void read_stack_dummy() { read(0x0100 | SP); }
+};
+
+}  // namespace racebeam

@@ -1,0 +1,99 @@
+#include "emulator/cpu.hpp"
+
+#include "emulator/addressing.hpp"
+#include "emulator/operations.hpp"
+
+// Threaded dispatch: every handler ends with its own indirect jump, which a processor predicts far better than the one
+// of a switch. Labels as values are an extension of g++ and clang.
+#pragma GCC diagnostic ignored "-Wpedantic"
+
+namespace racebeam {
+namespace {
+
+// The shapes of an instruction, one for each kind of access in opcodes.inc.
+template <auto kMode, void (*kOperation)(Core&, std::uint8_t)>
+RACEBEAM_INLINE void Read(Core& cpu) {
+  const std::uint16_t address = kMode(cpu);
+  kOperation(cpu, cpu.read(address));
+}
+
+template <auto kMode, std::uint8_t (*kOperation)(Core&, std::uint16_t)>
+RACEBEAM_INLINE void Write(Core& cpu) {
+  const std::uint16_t address = kMode(cpu);
+  cpu.write(address, kOperation(cpu, address));
+}
+
+template <auto kMode, std::uint8_t (*kOperation)(Core&, std::uint8_t)>
+RACEBEAM_INLINE void Modify(Core& cpu) {
+  const std::uint16_t address = kMode(cpu);
+  cpu.write(address, kOperation(cpu, cpu.read(address)));
+}
+
+template <auto, std::uint8_t (*kOperation)(Core&, std::uint8_t)>
+RACEBEAM_INLINE void Accumulator(Core& cpu) {
+  cpu.A = kOperation(cpu, cpu.A);
+}
+
+template <auto, void (*kOperation)(Core&)>
+RACEBEAM_INLINE void Implied(Core& cpu) {
+  kOperation(cpu);
+}
+
+template <auto kMode, void (*kOperation)(Core&, std::uint16_t)>
+RACEBEAM_INLINE void Jump(Core& cpu) {
+  kOperation(cpu, kMode(cpu));
+}
+
+template <auto, bool (*kTaken)(Core&)>
+RACEBEAM_INLINE void Branch(Core& cpu) {
+  const auto offset = static_cast<std::int8_t>(cpu.fetch());
+  if (!kTaken(cpu)) return;
+  const auto target = static_cast<std::uint16_t>(cpu.PC + offset);
+  cpu.cycle += (target ^ cpu.PC) > 0xFF ? 2 : 1;
+  cpu.PC = target;
+}
+
+constexpr bool is_read(char first_letter_of_kind) { return first_letter_of_kind == 'R'; }
+
+}  // namespace
+
+void reset_cpu(Board& board) {
+  board.state.cpu = CpuState{};
+  Core cpu(board, 0);
+  cpu.PC = 0xFFFC;
+  cpu.PC = cpu.fetch_word();
+  cpu.store_state();
+}
+
+void run(Board& board, std::int32_t instructions) {
+  if (board.state.cpu.jammed) return;
+  board.stop = false;
+
+  static constexpr void* kHandlers[256] = {
+#define OP(code, operation, mode, access, cycles) &&op_##code,
+#include "emulator/opcodes.inc"
+#undef OP
+  };
+
+  Core cpu(board, instructions);
+
+#define NEXT()                         \
+  do {                                 \
+    if (cpu.budget-- <= 0) goto done;  \
+    goto* kHandlers[cpu.fetch()];      \
+  } while (false)
+
+  NEXT();
+#define OP(code, name, mode_name, access, cycles)                                \
+  op_##code : cpu.cycle += cycles;                                               \
+  access<mode::mode_name<is_read(#access[0])>, operation::name>(cpu);            \
+  NEXT();
+#include "emulator/opcodes.inc"
+#undef OP
+#undef NEXT
+
+done:
+  cpu.store_state();
+}
+
+}  // namespace racebeam

@@ -1,0 +1,128 @@
+#include "emulator/line.hpp"
+
+#include <bit>
+#include <cstring>
+
+namespace racebeam {
+namespace {
+
+enum Color : unsigned { kColup0, kColup1, kColupf, kColubk };
+
+constexpr std::uint8_t kScoreMode = 2, kPriorityMode = 4;  // bits of CTRLPF
+
+constexpr std::uint8_t bit(Object object) { return static_cast<std::uint8_t>(1U << object); }
+
+struct Pair {
+  Object a, b;
+  Collisions latch;
+};
+
+constexpr Pair pair(Object a, Object b, unsigned reg, unsigned data_bit) {
+  return {a, b, static_cast<Collisions>(1U << (2 * reg + (data_bit - 6)))};
+}
+
+constexpr std::array<Pair, 15> kPairs = {{
+    pair(kM0, kP1, 0, 7), pair(kM0, kP0, 0, 6),           // CXM0P
+    pair(kM1, kP0, 1, 7), pair(kM1, kP1, 1, 6),           // CXM1P
+    pair(kP0, kPlayfield, 2, 7), pair(kP0, kBall, 2, 6),  // CXP0FB
+    pair(kP1, kPlayfield, 3, 7), pair(kP1, kBall, 3, 6),  // CXP1FB
+    pair(kM0, kPlayfield, 4, 7), pair(kM0, kBall, 4, 6),  // CXM0FB
+    pair(kM1, kPlayfield, 5, 7), pair(kM1, kBall, 5, 6),  // CXM1FB
+    pair(kBall, kPlayfield, 6, 7),                        // CXBLPF
+    pair(kP0, kP1, 7, 7), pair(kM0, kM1, 7, 6),           // CXPPMM
+}};
+
+const PixelMask kLeftHalf = PixelMask::range(0, kLinePixels / 2);
+const PixelMask kRightHalf = PixelMask::range(kLinePixels / 2, kLinePixels);
+
+// Each bit of a byte as a byte of ones, bit 0 in the lowest.
+constexpr std::array<std::uint64_t, 256> make_spread() {
+  std::array<std::uint64_t, 256> table{};
+  for (unsigned i = 0; i < 256; ++i)
+    for (unsigned b = 0; b < 8; ++b)
+      if (i >> b & 1) table[i] |= std::uint64_t{0xFF} << (8 * b);
+  return table;
+}
+constexpr auto kSpread = make_spread();
+
+// Eight pixels at a time: where the mask has any, the colour replaces what is there.
+void paint(std::uint8_t* row, const PixelMask& mask, std::uint8_t color) {
+  const std::uint64_t ink = color * 0x0101010101010101U;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::uint64_t rest = mask.word[i]; rest != 0;) {
+      const int byte = std::countr_zero(rest) / 8;
+      const std::uint64_t cover = kSpread[rest >> (8 * byte) & 0xFF];
+      std::uint8_t* at = row + 64 * i + 8 * byte;
+      std::uint64_t pixels;
+      std::memcpy(&pixels, at, sizeof pixels);
+      pixels = (pixels & ~cover) | (ink & cover);
+      std::memcpy(at, &pixels, sizeof pixels);
+      rest &= ~(std::uint64_t{0xFF} << (8 * byte));
+    }
+  }
+}
+
+// Three layers, from the back to the front, make every priority mode.
+struct Layer {
+  PixelMask mask;
+  Color color;
+};
+
+std::array<Layer, 3> layers(const Line& line, std::uint8_t ctrlpf) {
+  const auto& m = line.mask;
+  const PixelMask first = m[kP0] | m[kM0], second = m[kP1] | m[kM1], playfield = m[kPlayfield] | m[kBall];
+  const bool score = (ctrlpf & kScoreMode) != 0;
+  if (ctrlpf & kPriorityMode) {
+    if (score && line.enabled == bit(kPlayfield))
+      return {{{m[kPlayfield] & kRightHalf, kColup1}, {m[kPlayfield] & kLeftHalf, kColup0}, {}}};
+    return {{{second, kColup1}, {first, kColup0}, {playfield, kColupf}}};
+  }
+  if (score)
+    return {{{m[kBall], kColupf},
+             {second | (m[kPlayfield] & kRightHalf), kColup1},
+             {first | (m[kPlayfield] & kLeftHalf), kColup0}}};
+  return {{{playfield, kColupf}, {second, kColup1}, {first, kColup0}}};
+}
+
+Collisions meetings(const Line& line, const PixelMask& clip, bool whole, Collisions known) {
+  if (std::popcount(line.covered) < 2) return 0;
+  Collisions found = 0;
+  for (const Pair& p : kPairs) {
+    const std::uint8_t both = bit(p.a) | bit(p.b);
+    if ((line.covered & both) != both || (known & p.latch)) continue;
+    const PixelMask& a = line.mask[p.a];
+    if (whole ? a.meets(line.mask[p.b]) : (a & clip).meets(line.mask[p.b])) found |= p.latch;
+  }
+  return found;
+}
+
+}  // namespace
+
+void Line::refresh(const TiaState& tia, std::uint8_t objects) {
+  const auto set = [this](Object object, bool is_enabled, const PixelMask& pixels) {
+    mask[object] = pixels;
+    covered = static_cast<std::uint8_t>((covered & ~bit(object)) | (pixels.any() ? bit(object) : 0));
+    enabled = static_cast<std::uint8_t>((enabled & ~bit(object)) | (is_enabled ? bit(object) : 0));
+  };
+  for (unsigned i = 0; i < 2; ++i) {
+    if (objects >> (kP0 + i) & 1)
+      set(static_cast<Object>(kP0 + i), shown_graphics(tia.player[i]) != 0, player_mask(tia.player[i]));
+    if (objects >> (kM0 + i) & 1)
+      set(static_cast<Object>(kM0 + i), missile_enabled(tia.missile[i]), missile_mask(tia, i));
+  }
+  if (objects & bit(kBall)) set(kBall, ball_enabled(tia.ball), ball_mask(tia));
+  if (objects & bit(kPlayfield)) set(kPlayfield, playfield_bits(tia) != 0, playfield_mask(tia));
+}
+
+Collisions draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
+  std::memset(row + first, tia.color[kColubk], static_cast<std::size_t>(last - first));
+  if (line.covered == 0) return 0;
+  const bool whole = first == 0 && last == kLinePixels;
+  const PixelMask clip = PixelMask::range(first, last);
+  for (const Layer& layer : layers(line, tia.ctrlpf)) {
+    if (layer.mask.any()) paint(row, whole ? layer.mask : layer.mask & clip, tia.color[layer.color]);
+  }
+  return meetings(line, clip, whole, tia.collisions);
+}
+
+}  // namespace racebeam

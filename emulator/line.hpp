@@ -1,0 +1,27 @@
+// One line's objects, turned into pixels and collisions (spec: tia.md, sections 10 and 11).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "emulator/objects.hpp"
+#include "emulator/pixel_mask.hpp"
+#include "emulator/state.hpp"
+
+namespace racebeam {
+
+// Pairs of objects that meet, two bits a collision register: bit 2r+1 is D7 of register r, bit 2r its D6.
+using Collisions = std::uint16_t;
+
+struct Line {
+  std::array<PixelMask, kObjects> mask;  // by Object
+  std::uint8_t covered = 0;              // bit n: mask n has pixels
+  std::uint8_t enabled = 0;              // bit n: Object n is enabled, even if it has no pixel on this line
+
+  void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew
+};
+
+// Writes pixels `first` to `last` - 1 of a row; returns the pairs that meet there.
+Collisions draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last);
+
+}  // namespace racebeam

@@ -1,0 +1,150 @@
+// The table of schemes, and which one an image has (spec: cartridges.md, section 2).
+#include <algorithm>
+#include <initializer_list>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "emulator/mappers/activision.hpp"
+#include "emulator/mappers/atari.hpp"
+#include "emulator/mappers/parker.hpp"
+#include "emulator/mappers/tigervision.hpp"
+#include "emulator/scheme.hpp"
+
+namespace racebeam {
+namespace {
+
+std::uint8_t no_hidden_page(Slot&, std::uint16_t) { return 0; }
+
+// F4SC's hot spots react to reads only.
+void write_f4sc(Slot& slot, std::uint16_t address, std::uint8_t value) { atari::write_ram(slot, address, value); }
+
+constexpr Scheme kSchemes[] = {
+    // name  hotspot  banks initial ram  low page  reset                map                read            write
+    {"2K",   2048,      1, 0,   0, false, atari::reset,       atari::map_plain,  no_hidden_page, atari::ignore_write},
+    {"4K",   4096,      1, 0,   0, false, atari::reset,       atari::map_plain,  no_hidden_page, atari::ignore_write},
+    {"F8",   0xFF8,     2, 1,   0, false, atari::reset,       atari::map,        atari::read,    atari::write},
+    {"F8SC", 0xFF8,     2, 1, 128, false, atari::reset,       atari::map,        atari::read,    atari::write},
+    {"F6",   0xFF6,     4, 0,   0, false, atari::reset,       atari::map,        atari::read,    atari::write},
+    {"F6SC", 0xFF6,     4, 0, 128, false, atari::reset,       atari::map,        atari::read,    atari::write},
+    {"F4",   0xFF4,     8, 0,   0, false, atari::reset,       atari::map,        atari::read,    atari::write},
+    {"F4SC", 0xFF4,     8, 0, 128, false, atari::reset,       atari::map,        atari::read,    write_f4sc},
+    {"E0",   0,         0, 0,   0, false, parker::reset,      parker::map,       parker::read,   parker::write},
+    {"FE",   0,         0, 0,   0, false, activision::reset,  activision::map,   no_hidden_page, atari::ignore_write},
+    {"3F",   0,         0, 0,   0, true,  tigervision::reset, tigervision::map,  no_hidden_page, tigervision::write},
+};
+
+// Recognised, so that nothing is taken for what it is not, and refused.
+constexpr std::string_view kNotBuilt[] = {"E7", "FASC", "3E", "UA", "DPC", "AR", "CV", "MB", "MC"};
+
+using Signature = std::initializer_list<std::uint8_t>;
+
+// As the reference searches: the last possible position is not examined, and after a hit one byte more is skipped.
+bool contains(const Rom& rom, Signature signature, int hits = 1) {
+  const std::size_t length = signature.size();
+  for (std::size_t i = 0; i + length + 1 <= rom.size(); ++i) {
+    if (!std::equal(signature.begin(), signature.end(), rom.begin() + static_cast<std::ptrdiff_t>(i))) continue;
+    if (--hits == 0) return true;
+    i += length;
+  }
+  return false;
+}
+
+bool contains_any(const Rom& rom, std::initializer_list<Signature> signatures) {
+  return std::any_of(signatures.begin(), signatures.end(), [&](const Signature& s) { return contains(rom, s); });
+}
+
+bool all_equal(std::span<const std::uint8_t> bytes) {
+  return std::all_of(bytes.begin(), bytes.end(), [&](std::uint8_t b) { return b == bytes.front(); });
+}
+
+bool halves_equal(const Rom& rom) {
+  const auto middle = rom.begin() + static_cast<std::ptrdiff_t>(rom.size() / 2);
+  return std::equal(rom.begin(), middle, middle);
+}
+
+// On-board RAM hides the first 256 bytes of each bank, which are therefore left the same.
+bool is_sc(const Rom& rom) {
+  const std::span<const std::uint8_t> bytes(rom);
+  for (std::size_t bank = 0; bank < rom.size(); bank += 4096)
+    if (!all_equal(bytes.subspan(bank, 256))) return false;
+  return true;
+}
+
+bool is_cv(const Rom& rom) { return contains_any(rom, {{0x9D, 0xFF, 0xF3}, {0x99, 0x00, 0xF4}}); }
+bool is_3e(const Rom& rom) { return contains(rom, {0x85, 0x3E, 0xA9, 0x00}); }
+bool is_3f(const Rom& rom) { return contains(rom, {0x85, 0x3F}, 2); }
+bool is_ua(const Rom& rom) { return contains(rom, {0x8D, 0x40, 0x02}); }
+
+bool is_e0(const Rom& rom) {
+  return contains_any(rom, {{0x8D, 0xE0, 0x1F}, {0x8D, 0xE0, 0x5F}, {0x8D, 0xE9, 0xFF},
+                            {0xAD, 0xE9, 0xFF}, {0xAD, 0xED, 0xFF}, {0xAD, 0xF3, 0xBF}});
+}
+
+bool is_fe(const Rom& rom) {
+  return contains_any(rom, {{0x20, 0x00, 0xD0, 0xC6, 0xC5}, {0x20, 0xC3, 0xF8, 0xA5, 0x82},
+                            {0xD0, 0xFB, 0x20, 0x73, 0xFE}, {0x20, 0x00, 0xF0, 0x84, 0xD6}});
+}
+
+bool is_e7(const Rom& rom) {
+  const auto differs = [&](std::size_t from) {
+    return std::any_of(rom.begin() + static_cast<std::ptrdiff_t>(from),
+                       rom.begin() + static_cast<std::ptrdiff_t>(from + 32), [&](std::uint8_t b) { return b != rom[0x3800]; });
+  };
+  return all_equal(std::span(rom).subspan(0x3800, 0x200)) && (differs(0x37E0) || differs(0x3A00));
+}
+
+std::string_view name_8k(const Rom& rom) {
+  if (is_sc(rom)) return "F8SC";
+  if (halves_equal(rom)) return "4K";
+  if (is_e0(rom)) return "E0";
+  if (is_3e(rom)) return "3E";
+  if (is_3f(rom)) return "3F";
+  if (is_ua(rom)) return "UA";
+  return is_fe(rom) ? "FE" : "F8";
+}
+
+std::string_view name_16k(const Rom& rom) {
+  if (is_sc(rom)) return "F6SC";
+  if (is_e7(rom)) return "E7";
+  if (is_3e(rom)) return "3E";
+  return is_3f(rom) ? "3F" : "F6";
+}
+
+// The two that any size may have, else what the size says.
+std::string_view name_large(const Rom& rom, std::string_view otherwise) {
+  if (is_3e(rom)) return "3E";
+  return is_3f(rom) ? "3F" : otherwise;
+}
+
+}  // namespace
+
+std::string_view scheme_name(const Rom& rom) {
+  if (!rom.empty() && rom.size() % 8448 == 0) return "AR";
+  switch (rom.size()) {
+    case 2048: return is_cv(rom) ? "CV" : "2K";
+    case 4096: return is_cv(rom) ? "CV" : halves_equal(rom) ? "2K" : "4K";
+    case 8192: return name_8k(rom);
+    case 10240: case 10495: case 10496: return "DPC";
+    case 12288: return "FASC";
+    case 16384: return name_16k(rom);
+    case 32768: return is_sc(rom) ? "F4SC" : name_large(rom, "F4");
+    case 65536: return name_large(rom, "MB");
+    case 131072: return name_large(rom, "MC");
+    default: return rom.size() < tigervision::kBankSize ? "" : name_large(rom, "");
+  }
+}
+
+const Scheme& detect_scheme(const Rom& rom) {
+  const std::string_view name = scheme_name(rom);
+  for (const Scheme& scheme : kSchemes)
+    if (scheme.name == name) return scheme;
+  const std::string size = std::to_string(rom.size()) + " bytes";
+  if (std::find(std::begin(kNotBuilt), std::end(kNotBuilt), name) != std::end(kNotBuilt))
+    throw std::invalid_argument("the image (" + size + ") needs the cartridge scheme " + std::string(name) +
+                                ", which is not emulated yet");
+  throw std::invalid_argument("no cartridge scheme fits an image of " + size +
+                              "; 2048, 4096, 8192, 16384 and 32768 bytes are usual");
+}
+
+}  // namespace racebeam

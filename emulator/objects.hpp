@@ -1,0 +1,38 @@
+// The six objects of a line as masks, made from the registers (spec: tia.md, section 7).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "emulator/pixel_mask.hpp"
+#include "emulator/state.hpp"
+
+namespace racebeam {
+
+enum Object : unsigned { kP0, kP1, kM0, kM1, kBall, kPlayfield, kObjects };
+
+// The 20 bits of PF0, PF1, PF2 in the order of the screen: bit 0 is the leftmost block.
+std::uint32_t playfield_bits(const TiaState& tia);
+
+// What is enabled, wherever it stands: graphics not zero, ENAxx set, RESMPx clear (one bit an Object).
+std::uint8_t shown_graphics(const PlayerState& player);  // after VDELPx, before REFPx
+bool missile_enabled(const MissileState& missile);
+bool ball_enabled(const BallState& ball);
+
+PixelMask playfield_mask(const TiaState& tia);
+PixelMask player_mask(const PlayerState& player);
+PixelMask missile_mask(const TiaState& tia, unsigned which);
+PixelMask ball_mask(const TiaState& tia);
+
+// The pixels of an object's shape whatever its graphics (tia.md section 6, "Provisional pixels").
+PixelMask player_shape(const PlayerState& player);
+
+// Offsets of the copies that NUSIZx bits 0-2 ask for; unused places repeat offset 0.
+struct Copies {
+  unsigned count;
+  std::array<std::uint8_t, 3> offset;
+  unsigned scale;  // width of a player's pixel
+};
+extern const std::array<Copies, 8> kCopies;
+
+}  // namespace racebeam

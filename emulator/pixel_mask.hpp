@@ -1,0 +1,52 @@
+// Which of the 160 pixels of a line an object covers: bit i is pixel i.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace racebeam {
+
+constexpr int kLinePixels = 160;
+
+struct PixelMask {
+  std::array<std::uint64_t, 3> word{};  // the last word uses its low 32 bits
+
+  // Adds up to 33 pixels, bit 0 first, from pixel `at` (0-159) on; what leaves the line comes in at its left.
+  void add(std::uint64_t pixels, unsigned at) {
+    const unsigned shift = at % 64;
+    const std::size_t first = at / 64;
+    std::array<std::uint64_t, 4> wide{};
+    wide[first] = pixels << shift;
+    if (shift != 0) wide[first + 1] = pixels >> (64 - shift);
+    word[0] |= wide[0] | wide[2] >> 32;
+    word[1] |= wide[1];
+    word[2] |= wide[2] & 0xFFFFFFFF;
+  }
+
+  // The pixels from `first` up to, not including, `last`.
+  static PixelMask range(int first, int last) {
+    PixelMask mask;
+    for (int i = 0; i < 3; ++i) mask.word[static_cast<std::size_t>(i)] = below(last - 64 * i) & ~below(first - 64 * i);
+    return mask;
+  }
+
+  bool any() const { return (word[0] | word[1] | word[2]) != 0; }
+  bool meets(const PixelMask& other) const {
+    return ((word[0] & other.word[0]) | (word[1] & other.word[1]) | (word[2] & other.word[2])) != 0;
+  }
+
+  friend PixelMask operator|(const PixelMask& a, const PixelMask& b) {
+    return {{a.word[0] | b.word[0], a.word[1] | b.word[1], a.word[2] | b.word[2]}};
+  }
+  friend PixelMask operator&(const PixelMask& a, const PixelMask& b) {
+    return {{a.word[0] & b.word[0], a.word[1] & b.word[1], a.word[2] & b.word[2]}};
+  }
+
+ private:
+  static std::uint64_t below(int bit) {
+    if (bit <= 0) return 0;
+    return bit >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bit) - 1;
+  }
+};
+
+}  // namespace racebeam
