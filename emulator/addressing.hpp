@@ -21,12 +21,12 @@ RACEBEAM_INLINE Address pointer(Core& cpu, std::uint8_t p) {
   return static_cast<Address>(low | cpu.read(static_cast<Address>(p + 1)) << 8);
 }
 
-// These three have no address; the names are there for the table.
+// These have no address; the names are there for the table.
 template <bool> RACEBEAM_INLINE Address implied(Core&) { return 0; }
 template <bool> RACEBEAM_INLINE Address accumulator(Core&) { return 0; }
 template <bool> RACEBEAM_INLINE Address relative(Core&) { return 0; }
+template <bool> RACEBEAM_INLINE Address immediate(Core&) { return 0; }
 
-template <bool> RACEBEAM_INLINE Address immediate(Core& cpu) { return cpu.PC++; }
 template <bool> RACEBEAM_INLINE Address zero_page(Core& cpu) { return cpu.fetch(); }
 template <bool> RACEBEAM_INLINE Address zero_page_x(Core& cpu) {
   return static_cast<std::uint8_t>(cpu.fetch() + cpu.X);

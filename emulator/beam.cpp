@@ -60,12 +60,31 @@ void Beam::draw_to(std::int32_t clock) {
   } while (tia_.cursor < clock);
 }
 
+void Beam::finish_line() {
+  const int begin = kLineClocks - tia_.left;
+  const int clocks = tia_.left;
+  tia_.cursor += clocks;
+  tia_.left = kLineClocks;
+  draw_span(begin, clocks);
+  end_line();
+}
+
+void Beam::take_line(const LineRecord& record) {
+  tia_.collisions |= record.meetings;
+  tia_.comb_armed = record.comb_armed;
+  tia_.cursor += kLineClocks;
+  tia_.pixel += kLinePixels;
+  end_line();
+  repeats_ = record.repeats;
+}
+
 void Beam::draw_span(int begin, int clocks) {
   const int end_clock = begin + clocks;
   const int visible = std::min(std::max(begin, kBlankClocks), end_clock);
   const int first = std::max(visible - kBlankClocks, 0);
   const int last = std::max(end_clock - kBlankClocks, first);
-  std::uint8_t* row = picture_ + tia_.pixel - first;
+  std::uint8_t* row = picture_->pixel.data() + tia_.pixel - first;
+  record().count = LineRecord::kInvalid;
   if (last > first) {
     const bool whole = first == 0 && last == kLinePixels;
     if (whole && repeats_ && !tia_.comb_armed) {

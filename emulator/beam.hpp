@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "emulator/line.hpp"
+#include "emulator/picture.hpp"
 #include "emulator/state.hpp"
 
 namespace racebeam {
@@ -25,7 +26,7 @@ class Beam {
   Beam(TiaState& state, const Video& video) : tia_(state), video_(video) {}
 
   void begin_frame();                            // cursor to the window's start
-  void aim(std::uint8_t* picture) { picture_ = picture; }  // where pixels go: rows of 160
+  void aim(Picture& picture) { picture_ = &picture; }  // where pixels go
 
   // Everything derived from the registers is made anew: after a reset or a restored state.
   void forget();
@@ -38,6 +39,15 @@ class Beam {
     stale_ |= objects;
     repeats_ = false;
   }
+
+  // Line by line, for lines that are drawn as a whole.
+  bool at_line_start() const { return tia_.left == kLineClocks && tia_.cursor >= start(); }
+  std::int32_t line_end() const { return tia_.cursor + tia_.left; }
+  bool line_can_end() const { return line_end() < end(); }  // the window's last line never does
+  void finish_line();                                       // draws the rest of the line and acts on its end
+  LineRecord& record() { return picture_->line[static_cast<std::size_t>(tia_.pixel / kLinePixels)]; }
+  bool repeats() const { return repeats_; }
+  void take_line(const LineRecord& record);                 // the line is as the record says
 
   // Step by step as the reference draws, pixels beyond the end of a span included (tia.md, "Provisional pixels").
   void set_exact_spans(bool on) { exact_spans_ = on; }
@@ -57,7 +67,7 @@ class Beam {
 
   TiaState& tia_;
   const Video& video_;
-  std::uint8_t* picture_ = nullptr;
+  Picture* picture_ = nullptr;
   Line line_;
   std::uint8_t stale_ = 0xFF;   // masks to make anew
   bool repeats_ = false;        // the line above was drawn in one piece by exactly these registers

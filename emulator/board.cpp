@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "emulator/motion.hpp"
+#include "emulator/opcodes.hpp"
 #include "emulator/registers.hpp"
 #include "emulator/riot.hpp"
 
@@ -36,6 +37,7 @@ void Board::map_memory() {
     map.page[page] = (address & 0x1280) == 0x0080 ? state.riot.ram.data() + (address & 0x40) : nullptr;
   }
   slot.scheme.map(slot);
+  code = {};
   tia.forget();
   set_format_limits();
 }
@@ -59,21 +61,50 @@ void Board::open_frame() {
   set_format_limits();
 }
 
-void Board::begin_step(std::uint8_t* picture) {
+void Board::begin_step(Picture& picture) {
   last_access_ = std::numeric_limits<std::int32_t>::min() / 4;
   tia.begin_step(picture);
 }
 
 void Board::end_step() { tia.end_step(last_access_); }
 
+const std::uint8_t* Board::locate_code(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
+  if (map.page_of(pc) == nullptr) return fetch_slowly(pc, latch, cycle);
+  const CodeWindow window = map.window_around(pc);
+  const auto offset = static_cast<std::uint16_t>(pc - window.first);
+  if (offset >= window.span) return fetch_slowly(pc, latch, cycle);
+  code = window;
+  return window.memory + offset;
+}
+
+// The opcode is read before its cycles are counted, the operand after (cpu.md, section 3).
+const std::uint8_t* Board::fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
+  const std::uint8_t opcode = fetched_[0] = read(pc, latch, cycle);
+  latch = opcode;
+  for (unsigned i = 1; i < kOpcodes[opcode].length; ++i)
+    fetched_[i] = latch = read(static_cast<std::uint16_t>(pc + i), latch, cycle + kOpcodes[opcode].cycles);
+  return fetched_.data();
+}
+
+std::uint8_t Board::read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
+  const std::uint8_t* page = map.page_of(address);
+  return page != nullptr ? page[address & 0x3F] : read_device(address, latch, cycle);
+}
+
 std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
-  if (address & 0x1000) return slot.scheme.read(slot, address);
+  if (address & 0x1000) {
+    code = {};  // the bank may change
+    return slot.scheme.read(slot, address);
+  }
   return address & 0x0080 ? read_riot(address, cycle) : read_tia(address, latch, cycle);
 }
 
 std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
   const bool cartridge = (address & 0x1000) != 0;
-  if (cartridge || (slot.scheme.owns_low_page && (address & 0x1FFF) < 0x40)) slot.scheme.write(slot, address, value);
+  if (cartridge || (slot.scheme.owns_low_page && (address & 0x1FFF) < 0x40)) {
+    code = {};
+    slot.scheme.write(slot, address, value);
+  }
   if (cartridge && !slot.scheme.owns_low_page) return cycle;
   if (cartridge || (address & 0x0080) == 0) return write_tia(address, value, cycle, after_read);
   write_riot(address, value, cycle);

@@ -25,10 +25,15 @@ class Board {
   Tia tia;
   Sound sound;
   Slot slot;
+  CodeWindow code;    // where the CPU fetches; nowhere after the map has changed
   bool stop = false;  // the frame has closed: the CPU ends after this instruction
 
   // What the CPU does where there is no plain memory. `latch` is the data bus before the access.
   std::uint8_t read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
+
+  // The bytes of the instruction at `pc`: moves the code window there, or, where there is no plain memory or too little
+  // of it, reads them over the bus.
+  const std::uint8_t* locate_code(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
 
   // Returns the cycle after the write: WSYNC waits for the end of the line when the access before it was a read.
   std::int32_t write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
@@ -39,7 +44,7 @@ class Board {
   }
 
   void open_frame();  // tia.md section 2, step action 1, with the pictures exchanged already
-  void begin_step(std::uint8_t* picture);
+  void begin_step(Picture& picture);
   void end_step();
   void set_format_limits();  // after `video` or the frame's origin have changed
 
@@ -56,10 +61,14 @@ class Board {
   void touch_tia(std::int32_t cycle);
   std::uint8_t collision_bits(unsigned reg, std::int32_t cycle);
 
+  const std::uint8_t* fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
+  std::uint8_t read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
+
   std::shared_ptr<const Rom> rom_;
   Ports ports_;
   std::uint64_t plain_registers_;
   std::int32_t overlong_cycle_ = 0;  // from this cycle on, a TIA write closes the frame
+  std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
   std::int32_t last_access_ = 0;     // cycle of the last TIA access, for how far the picture is drawn
 };
 

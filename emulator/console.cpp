@@ -9,11 +9,8 @@
 namespace racebeam {
 namespace {
 
-constexpr int kBufferRows = 384;             // the window and what a reset may shift it down by (tia.md, section 2)
 constexpr int kInstructionsPerStep = 25000;
 constexpr int kDetectionSteps = 60;
-
-using Picture = std::array<std::uint8_t, static_cast<std::size_t>(kBufferRows) * kLinePixels>;
 
 bool is_pal(Format format) { return format == Format::kPal || format == Format::kPal60; }
 
@@ -27,7 +24,7 @@ struct Console::Impl {
   PowerOn& power_on;
   Board board;
   Format format;
-  alignas(64) std::array<Picture, 2> picture{};
+  std::array<Picture, 2> picture;
   std::size_t current = 0;  // which of the two was drawn last
 
   State& state() { return board.state; }
@@ -73,7 +70,10 @@ void Console::Impl::reset() {
   state().frame = FrameState{};
   state().frame.open = open;
   state().frame.greyed = greyed;
-  for (Picture& buffer : picture) buffer.fill(0);
+  for (Picture& buffer : picture) {
+    buffer.pixel.fill(0);
+    buffer.forget_lines();
+  }
   const Scheme& scheme = board.slot.scheme;
   power_on.fill_cartridge(std::span(state().cartridge.ram).first(scheme.ram), state().drawn);
   scheme.reset(board.slot);
@@ -90,14 +90,14 @@ void Console::Impl::step() {
     frame.greyed = 0;
   }
   frame.open = 1;
-  board.begin_step(picture[current].data());
+  board.begin_step(picture[current]);
   run(board, kInstructionsPerStep);
   board.end_step();
   if (!frame.open) {
     frame.lines = (3 * state().cycle - state().tia.origin) / kLineClocks;
     frame.greyed = 0;
   } else if (!frame.greyed) {
-    board.tia.grey(picture[current].data(), state().cycle);
+    board.tia.grey(picture[current], state().cycle);
     frame.greyed = 1;
   }
 }
@@ -124,6 +124,7 @@ void Console::step() { impl_->step(); }
 
 Inputs& Console::inputs() { return impl_->state().inputs; }
 Sound& Console::sound() { return impl_->board.sound; }
+const Sound& Console::sound() const { return impl_->board.sound; }
 const State& Console::state() const { return impl_->board.state; }
 
 void Console::restore(const State& state) {
@@ -139,16 +140,20 @@ bool Console::has_paddles() const {
 }
 
 std::span<const std::uint8_t> Console::picture() const {
-  return std::span(impl_->picture[impl_->current]).first(impl_->picture_size());
+  return std::span(impl_->picture[impl_->current].pixel).first(impl_->picture_size());
 }
 
 std::span<const std::uint8_t> Console::previous_picture() const {
-  return std::span(impl_->picture[impl_->current ^ 1]).first(impl_->picture_size());
+  return std::span(impl_->picture[impl_->current ^ 1].pixel).first(impl_->picture_size());
 }
 
 void Console::restore_pictures(std::span<const std::uint8_t> current, std::span<const std::uint8_t> previous) {
-  std::copy(current.begin(), current.end(), impl_->picture[impl_->current].begin());
-  std::copy(previous.begin(), previous.end(), impl_->picture[impl_->current ^ 1].begin());
+  const auto put = [](std::span<const std::uint8_t> pixels, Picture& buffer) {
+    std::copy(pixels.begin(), pixels.end(), buffer.pixel.begin());
+    buffer.forget_lines();
+  };
+  put(current, impl_->picture[impl_->current]);
+  put(previous, impl_->picture[impl_->current ^ 1]);
 }
 
 std::span<const std::uint8_t, 128> Console::ram() const { return impl_->board.state.riot.ram; }

@@ -27,6 +27,7 @@ class Console {
 
   Inputs& inputs();               // what is pressed from now on
   Sound& sound();
+  const Sound& sound() const;
   const State& state() const;     // the whole machine, one trivially copyable value
 
   // The machine alone: exact in everything but what undrawn rows of the two pictures show.

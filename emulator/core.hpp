@@ -19,6 +19,7 @@ struct Core {
   std::uint8_t n, z;       // N is bit 7 of n; Z is set when z is 0
   std::uint8_t C, V, D, I; // 0 or 1
   std::uint8_t latch;      // the data bus after the last access
+  const std::uint8_t* code = nullptr;  // the bytes of the instruction that runs
 
   explicit Core(Board& on, std::int32_t instructions)
       : board(on), cycle(on.state.cycle), budget(instructions), PC(on.state.cpu.PC), A(on.state.cpu.A),
@@ -60,11 +61,29 @@ struct Core {
     return latch;
   }
 
-  RACEBEAM_INLINE std::uint8_t fetch() { return read(PC++); }
+  // The instruction at PC: its bytes, wherever they are, and the cycles up to its end but penalties.
+  RACEBEAM_INLINE std::uint8_t fetch_opcode() {
+    const auto offset = static_cast<std::uint16_t>(PC - board.code.first);
+    code = offset < board.code.span ? board.code.memory + offset : board.locate_code(PC, latch, cycle);
+    latch = code[0];
+    return latch;
+  }
+
+  RACEBEAM_INLINE void begin(std::int32_t base_cycles) {
+    ++PC;
+    cycle += base_cycles;
+  }
+
+  // Its operand.
+  RACEBEAM_INLINE std::uint8_t fetch() {
+    ++PC;
+    return latch = code[1];
+  }
 
   RACEBEAM_INLINE std::uint16_t fetch_word() {
-    const std::uint8_t low = fetch();
-    return static_cast<std::uint16_t>(low | fetch() << 8);
+    PC += 2;
+    latch = code[2];
+    return static_cast<std::uint16_t>(code[1] | latch << 8);
   }
 
   // after_read: the CPU access before this one was a read, which WSYNC asks for.

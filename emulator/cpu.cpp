@@ -17,6 +17,11 @@ RACEBEAM_INLINE void Read(Core& cpu) {
   kOperation(cpu, cpu.read(address));
 }
 
+template <auto, void (*kOperation)(Core&, std::uint8_t)>
+RACEBEAM_INLINE void Immediate(Core& cpu) {
+  kOperation(cpu, cpu.fetch());
+}
+
 template <auto kMode, std::uint8_t (*kOperation)(Core&, std::uint16_t)>
 RACEBEAM_INLINE void Write(Core& cpu) {
   const std::uint16_t address = kMode(cpu);
@@ -60,8 +65,8 @@ constexpr bool is_read(char first_letter_of_kind) { return first_letter_of_kind 
 void reset_cpu(Board& board) {
   board.state.cpu = CpuState{};
   Core cpu(board, 0);
-  cpu.PC = 0xFFFC;
-  cpu.PC = cpu.fetch_word();
+  const std::uint8_t low = cpu.read(0xFFFC);
+  cpu.PC = static_cast<std::uint16_t>(low | cpu.read(0xFFFD) << 8);
   cpu.store_state();
 }
 
@@ -80,12 +85,12 @@ void run(Board& board, std::int32_t instructions) {
 #define NEXT()                         \
   do {                                 \
     if (cpu.budget-- <= 0) goto done;  \
-    goto* kHandlers[cpu.fetch()];      \
+    goto* kHandlers[cpu.fetch_opcode()];\
   } while (false)
 
   NEXT();
 #define OP(code, name, mode_name, access, cycles)                                \
-  op_##code : cpu.cycle += cycles;                                               \
+  op_##code : cpu.begin(cycles);                                                 \
   access<mode::mode_name<is_read(#access[0])>, operation::name>(cpu);            \
   NEXT();
 #include "emulator/opcodes.inc"

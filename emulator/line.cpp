@@ -32,8 +32,8 @@ constexpr std::array<Pair, 15> kPairs = {{
     pair(kP0, kP1, 7, 7), pair(kM0, kM1, 7, 6),           // CXPPMM
 }};
 
-const PixelMask kLeftHalf = PixelMask::range(0, kLinePixels / 2);
-const PixelMask kRightHalf = PixelMask::range(kLinePixels / 2, kLinePixels);
+constexpr PixelMask kLeftHalf = {{~std::uint64_t{0}, 0xFFFF, 0}};
+constexpr PixelMask kRightHalf = {{0, ~std::uint64_t{0xFFFF}, 0xFFFFFFFF}};
 
 // Each bit of a byte as a byte of ones, bit 0 in the lowest.
 constexpr std::array<std::uint64_t, 256> make_spread() {
@@ -84,14 +84,29 @@ std::array<Layer, 3> layers(const Line& line, std::uint8_t ctrlpf) {
   return {{{playfield, kColupf}, {second, kColup1}, {first, kColup0}}};
 }
 
-Collisions meetings(const Line& line, const PixelMask& clip, bool whole, Collisions known) {
-  if (std::popcount(line.covered) < 2) return 0;
+// For each set of covered objects, the latches that they can set.
+constexpr auto make_possible() {
+  std::array<Collisions, 64> table{};
+  for (unsigned objects = 0; objects < 64; ++objects)
+    for (const Pair& p : kPairs)
+      if ((objects & bit(p.a)) && (objects & bit(p.b))) table[objects] |= p.latch;
+  return table;
+}
+constexpr auto kPossible = make_possible();
+
+// kPairs by the number of the latch's bit. (Bit 12, D6 of CXBLPF, is nobody's.)
+constexpr auto make_pair_of_latch() {
+  std::array<Pair, 16> table{};
+  for (const Pair& p : kPairs) table[static_cast<std::size_t>(std::countr_zero(p.latch))] = p;
+  return table;
+}
+constexpr auto kPairOfLatch = make_pair_of_latch();
+
+Collisions meetings(const Line& line, const PixelMask& clip, Collisions known) {
   Collisions found = 0;
-  for (const Pair& p : kPairs) {
-    const std::uint8_t both = bit(p.a) | bit(p.b);
-    if ((line.covered & both) != both || (known & p.latch)) continue;
-    const PixelMask& a = line.mask[p.a];
-    if (whole ? a.meets(line.mask[p.b]) : (a & clip).meets(line.mask[p.b])) found |= p.latch;
+  for (unsigned left = kPossible[line.covered] & ~known; left != 0; left &= left - 1) {
+    const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(left))];
+    if ((line.mask[p.a] & clip).meets(line.mask[p.b])) found |= p.latch;
   }
   return found;
 }
@@ -122,7 +137,7 @@ Collisions draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row,
   for (const Layer& layer : layers(line, tia.ctrlpf)) {
     if (layer.mask.any()) paint(row, whole ? layer.mask : layer.mask & clip, tia.color[layer.color]);
   }
-  return meetings(line, clip, whole, tia.collisions);
+  return meetings(line, clip, tia.collisions);
 }
 
 }  // namespace racebeam

@@ -7,12 +7,28 @@
 
 namespace racebeam {
 
+// Where the instructions are: `memory` shows the addresses from `first` on, and for `span` of them two more bytes follow.
+struct CodeWindow {
+  const std::uint8_t* memory = nullptr;
+  std::uint16_t first = 0;
+  std::uint16_t span = 0;
+};
+
 struct MemoryMap {
   static constexpr int kPageSize = 64;
 
   std::array<const std::uint8_t*, 256> page{};
 
   const std::uint8_t* page_of(std::uint16_t address) const { return page[address >> 6 & 0xFF]; }
+
+  // The longest run of plain memory around an address that has some.
+  CodeWindow window_around(std::uint16_t address) const {
+    unsigned low = address >> 6 & 0xFF, high = low;
+    while ((low & 0x3F) != 0 && page[low - 1] != nullptr && page[low - 1] + kPageSize == page[low]) --low;
+    while ((high & 0x3F) != 0x3F && page[high + 1] == page[high] + kPageSize) ++high;
+    const auto first = static_cast<std::uint16_t>((address & 0xC000) | low << 6);
+    return {page[low], first, static_cast<std::uint16_t>((high - low + 1) * kPageSize - 2)};
+  }
 
   // Shows `memory` from cartridge address `from` (0-$FFF) on, for `size` bytes, whatever bits 13 and 15-14 are.
   void show(unsigned from, const std::uint8_t* memory, unsigned size) {

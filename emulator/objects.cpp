@@ -2,6 +2,24 @@
 
 namespace racebeam {
 
+namespace {
+
+constexpr std::uint64_t bits_below(int bit) {
+  if (bit <= 0) return 0;
+  return bit >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bit) - 1;
+}
+
+std::array<PixelMask, kLinePixels + 1> make_below() {
+  std::array<PixelMask, kLinePixels + 1> table;
+  for (int n = 0; n <= kLinePixels; ++n)
+    table[static_cast<std::size_t>(n)].word = {bits_below(n), bits_below(n - 64), bits_below(n - 128)};
+  return table;
+}
+
+}  // namespace
+
+const std::array<PixelMask, kLinePixels + 1> PixelMask::kBelow = make_below();
+
 const std::array<Copies, 8> kCopies = {{
     {1, {0, 0, 0}, 1},
     {2, {0, 16, 0}, 1},

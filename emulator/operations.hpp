@@ -222,7 +222,7 @@ RACEBEAM_INLINE void rts(Core& cpu, Address) {
   cpu.read_stack_dummy();
   const Byte low = cpu.pull();
   cpu.PC = static_cast<Address>(low | cpu.pull() << 8);
-  cpu.fetch();
+  cpu.read(cpu.PC++);
 }
 RACEBEAM_INLINE void rti(Core& cpu, Address) {
   cpu.read_stack_dummy();
@@ -231,7 +231,7 @@ RACEBEAM_INLINE void rti(Core& cpu, Address) {
   cpu.PC = static_cast<Address>(low | cpu.pull() << 8);
 }
 RACEBEAM_INLINE void brk(Core& cpu, Address) {
-  cpu.fetch();
+  cpu.read(cpu.PC++);
   cpu.push(byte(cpu.PC >> 8));
   cpu.push(byte(cpu.PC & 0xFF), false);
   cpu.push(cpu.status(), false);

@@ -106,7 +106,8 @@ std::uint8_t nearest(const Palette& entries, Rgb x, Rgb y) {
   const int r = mix(x.r, y.r), g = mix(x.g, y.g), b = mix(x.b, y.b);
   std::array<int, 128> distances;
   for (std::size_t k = 0; k < distances.size(); ++k) distances[k] = distance(entries[2 * k], r, g, b);
-  return static_cast<std::uint8_t>(2 * (std::min_element(distances.begin(), distances.end()) - distances.begin()));
+  return static_cast<std::uint8_t>(
+      2 * (std::min_element(distances.begin(), distances.end()) - distances.begin()));
 }
 
 }  // namespace

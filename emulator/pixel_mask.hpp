@@ -25,9 +25,9 @@ struct PixelMask {
 
   // The pixels from `first` up to, not including, `last`.
   static PixelMask range(int first, int last) {
-    PixelMask mask;
-    for (int i = 0; i < 3; ++i) mask.word[static_cast<std::size_t>(i)] = below(last - 64 * i) & ~below(first - 64 * i);
-    return mask;
+    const PixelMask &to_last = kBelow[static_cast<std::size_t>(last)], &to_first = kBelow[static_cast<std::size_t>(first)];
+    return {{to_last.word[0] & ~to_first.word[0], to_last.word[1] & ~to_first.word[1],
+             to_last.word[2] & ~to_first.word[2]}};
   }
 
   bool any() const { return (word[0] | word[1] | word[2]) != 0; }
@@ -43,10 +43,7 @@ struct PixelMask {
   }
 
  private:
-  static std::uint64_t below(int bit) {
-    if (bit <= 0) return 0;
-    return bit >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bit) - 1;
-  }
+  static const std::array<PixelMask, kLinePixels + 1> kBelow;  // [n]: pixels 0 to n - 1
 };
 
 }  // namespace racebeam

@@ -37,41 +37,56 @@ struct PlayerState {
   std::uint8_t position = 0;  // 0-159
   std::uint8_t motion = 0;    // HMPx >> 4
   std::uint8_t skip = 0;      // the first copy is left out until the end of the line
+
+  bool operator==(const PlayerState&) const = default;
 };
 
 struct MissileState {
   std::uint8_t enabled = 0, locked = 0;  // ENAMx, RESMPx
   std::uint8_t position = 0, motion = 0;
+
+  bool operator==(const MissileState&) const = default;
 };
 
 struct BallState {
   std::uint8_t enabled = 0, old_enabled = 0, vdel = 0;
   std::uint8_t position = 0, motion = 0;
+
+  bool operator==(const BallState&) const = default;
 };
 
 enum class CosmicShape : std::uint8_t { kNormal, kStretched, kHidden };
 
-// The picture side of the TIA: what drawing depends on.
-struct TiaState {
+// What determines the pixels of a line, and changes with register writes and at the end of a line.
+struct TiaRegisters {
+  std::array<std::uint8_t, 4> color{};  // COLUP0 COLUP1 COLUPF COLUBK
+  std::uint8_t ctrlpf = 0;
+  std::uint8_t reflect = 0;             // latch of CTRLPF bit 0
+  std::array<std::uint8_t, 3> pf{};     // PF0 PF1 PF2
+  std::array<PlayerState, 2> player{};
+  std::array<MissileState, 2> missile{};
+  BallState ball;
+  std::uint8_t vblank = 0;         // VBLANK bit 1
+  std::uint8_t comb_armed = 0;     // the next line start is blanked by an HMOVE
+  std::uint8_t cosmic = 0;         // missile 0 moves by itself (tia.md, "Cosmic Ark mode")
+  std::uint8_t cosmic_count = 0;
+  CosmicShape cosmic_shape = CosmicShape::kNormal;
+  std::uint8_t spare = 0;
+
+  bool operator==(const TiaRegisters&) const = default;
+};
+
+// The picture side of the TIA: registers, and where the beam is.
+struct TiaState : TiaRegisters {
   std::int32_t origin = 0;         // F: colour clock at which line 0 of the frame starts, <= 0
   std::int32_t cursor = 0;         // L: drawn up to this colour clock
   std::int32_t left = 228;         // E: clocks left on the cursor's line; 0: line end not yet acted on
   std::int32_t pixel = 0;          // drawn pixels of the picture: where the next one goes
   std::uint32_t hmove_clock = 0;   // of the last HMOVE
   std::uint16_t collisions = 0;    // one bit a pair of objects, see line.hpp
-  std::uint8_t vblank = 0;         // VBLANK bit 1
-  std::uint8_t comb_armed = 0;     // the next line start is blanked by an HMOVE
-  std::uint8_t cosmic = 0;         // missile 0 moves by itself (tia.md, "Cosmic Ark mode")
-  std::uint8_t cosmic_count = 0;
-  CosmicShape cosmic_shape = CosmicShape::kNormal;
-  std::array<std::uint8_t, 4> color{};  // COLUP0 COLUP1 COLUPF COLUBK
-  std::uint8_t ctrlpf = 0;
-  std::uint8_t reflect = 0;        // latch of CTRLPF bit 0
-  std::array<std::uint8_t, 3> pf{};     // PF0 PF1 PF2
-  std::array<PlayerState, 2> player{};
-  std::array<MissileState, 2> missile{};
-  BallState ball;
-  std::uint8_t spare[3]{};
+  std::uint8_t spare_bytes[2]{};
+
+  TiaRegisters& registers() { return *this; }
 };
 
 // What of the TIA the CPU sees at once: frames, and the capacitors behind the paddles.
@@ -101,6 +116,7 @@ struct State {
   Inputs inputs;
 };
 
+static_assert(sizeof(TiaRegisters) == 44);  // compared as a whole, for every line of a frame
 static_assert(std::is_trivially_copyable_v<State>);
 static_assert(std::has_unique_object_representations_v<State>);  // no padding, no floats
 static_assert(sizeof(State) <= 2048);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "emulator/line_key.hpp"
 #include "emulator/motion.hpp"
 #include "emulator/registers.hpp"
 
@@ -12,6 +13,12 @@ namespace {
 constexpr std::uint8_t object(unsigned first, unsigned which) { return static_cast<std::uint8_t>(1U << (first + which)); }
 constexpr std::uint8_t kBallBit = 1U << kBall, kPlayfieldBit = 1U << kPlayfield;
 constexpr std::uint8_t kNoObject = 0;
+
+// Does the same write on the same line always do the same? CXCLR acts on lines before, and what may be the start of
+// Cosmic Ark mode depends on when the last HMOVE was.
+constexpr bool is_repeatable(const TiaAccess& access) {
+  return access.reg != CXCLR && !(access.reg == HMM0 && access.value >> 4 == 6);
+}
 
 std::uint8_t moved(int position, int by) {
   return static_cast<std::uint8_t>((position + by + kLinePixels) % kLinePixels);
@@ -25,11 +32,10 @@ void Tia::begin_frame() {
   for (std::uint8_t& color : tia_.color) color = static_cast<std::uint8_t>((color & 0xFE) | color_loss());
 }
 
-void Tia::begin_step(std::uint8_t* picture) {
+void Tia::begin_step(Picture& picture) {
   log.size = 0;
   played_ = 0;
   reached_ = std::numeric_limits<std::int32_t>::min();
-  picture_ = picture;
   beam_.aim(picture);
   beam_.changed(kNoObject);
   at_begin_ = tia_;
@@ -55,12 +61,78 @@ void Tia::end_step(std::int32_t last_access) {
 }
 
 void Tia::play_until(std::size_t end) {
-  for (; played_ < end; ++played_) play(log.entry[played_]);
+  while (played_ < end) {
+    if (!play_line(end)) play(log.entry[played_++]);
+  }
+}
+
+// Plays a whole line at once, if the beam is at its start and the next access is known to lie beyond its end. A line
+// that starts with the same registers and meets the same writes as when this row of the buffer was drawn last is there
+// already.
+bool Tia::play_line(std::size_t end) {
+  const std::int32_t clock = 3 * log.entry[played_].cycle;
+  if (clock <= beam_.start() || !beam_.line_can_end() || beam_.exact_spans()) return false;
+  if (!beam_.at_line_start()) {
+    if (clock <= beam_.line_end()) return false;
+    beam_.finish_line();
+    return true;
+  }
+  if (reached_ > tia_.cursor) return false;
+  LineRecord line;
+  const std::size_t next = gather_events(end, line);
+  if (next == end) return false;
+  if (beam_.record().same_line(line)) recall_line(next);
+  else draw_line(next, line);
+  return true;
+}
+
+// The accesses of the cursor's line, and its key. Returns the first one beyond it, or `end` when the line can't be taken
+// as a whole.
+std::size_t Tia::gather_events(std::size_t end, LineRecord& line) const {
+  const std::int32_t line_end = beam_.line_end();
+  const std::int32_t first_cycle = line_end / 3 - kLineCycles;
+  std::uint8_t involved = 0;
+  unsigned count = 0;
+  for (std::size_t i = played_; i < end; ++i) {
+    const TiaAccess& access = log.entry[i];
+    const std::int32_t cycle = access.cycle - first_cycle;
+    if (cycle > kLineCycles) {
+      line.count = static_cast<std::uint8_t>(count);
+      line.key = line_key(tia_.registers(), involved);
+      return i;
+    }
+    const LineEffect effect = kLineEffects[access.reg];
+    if (!effect.draws) continue;
+    if (count == line.event.size() || cycle > effect.last_cycle || !is_repeatable(access)) break;
+    involved |= effect.involved;
+    line.event[count++] = LineEvent(cycle, access.reg, access.value);
+  }
+  return end;
+}
+
+void Tia::recall_line(std::size_t next) {
+  drawn_already_ = true;
+  while (played_ < next) play(log.entry[played_++]);
+  drawn_already_ = false;
+  beam_.take_line(beam_.record());
+}
+
+void Tia::draw_line(std::size_t next, LineRecord& line) {
+  LineRecord& record = beam_.record();
+  const std::uint16_t collisions = tia_.collisions;
+  tia_.collisions = 0;  // the record keeps those of this line
+  while (played_ < next) play(log.entry[played_++]);
+  beam_.finish_line();
+  line.meetings = tia_.collisions;
+  line.repeats = beam_.repeats();
+  line.comb_armed = tia_.comb_armed;
+  tia_.collisions |= collisions;
+  record = line;
 }
 
 void Tia::draw_to(std::int32_t clock) {
   reach(clock);
-  beam_.draw_to(reached_);
+  if (!drawn_already_) beam_.draw_to(reached_);
 }
 
 template <class T>
@@ -300,11 +372,12 @@ void Tia::clear_collisions(std::int32_t clock) {
 }
 
 // tia.md, section 2, "Greying": what is seen when the processor stands still in the middle of a picture.
-void Tia::grey(std::uint8_t* picture, std::int32_t cycle) const {
+void Tia::grey(Picture& picture, std::int32_t cycle) const {
   const int line = (3 * cycle - tia_.origin) / kLineClocks;
   const int first = std::max(line, video_.ystart) - video_.ystart;
   for (int i = first * kLinePixels; i < video_.height * kLinePixels; ++i)
-    picture[i] = static_cast<std::uint8_t>((picture[i] & 15) >> 1);
+    picture.pixel[static_cast<std::size_t>(i)] = (picture.pixel[static_cast<std::size_t>(i)] & 15) >> 1;
+  picture.forget_lines();
 }
 
 }  // namespace racebeam

@@ -18,15 +18,19 @@ class Tia {
   WriteLog log;
 
   void begin_frame();                       // the cursor, and the colour loss of PAL (tia.md, section 12)
-  void begin_step(std::uint8_t* picture);   // an empty log; pixels go to `picture`
+  void begin_step(Picture& picture);        // an empty log; pixels go to `picture`
   void catch_up(std::int32_t cycle);        // play all that was written, and draw up to `cycle`
   void end_step(std::int32_t last_access);  // the same, and leave the picture exact if it stopped inside the window
   void forget() { beam_.forget(); }         // the registers were replaced as a whole
-  void grey(std::uint8_t* picture, std::int32_t cycle) const;  // rows not drawn when a step ended open
+  void grey(Picture& picture, std::int32_t cycle) const;  // rows not drawn when a step ended open
 
  private:
   void play_until(std::size_t end);
   void play(const TiaAccess& access);
+  bool play_line(std::size_t end);
+  std::size_t gather_events(std::size_t end, LineRecord& line) const;
+  void recall_line(std::size_t next);
+  void draw_line(std::size_t next, LineRecord& line);
 
   // Draws what stood before a write at `clock`, if the write changes anything; remembers how far the beam is.
   template <class T>
@@ -59,8 +63,8 @@ class Tia {
   const Video& video_;
   Beam beam_;
   std::size_t played_ = 0;
+  bool drawn_already_ = false;     // registers change, but the pixels are there
   std::int32_t reached_ = 0;       // the beam as the reference has it: ours may be behind, with the same registers
-  std::uint8_t* picture_ = nullptr;
   TiaState at_begin_;              // of the step, for playing it again
 };
 

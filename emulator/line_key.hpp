@@ -1,0 +1,25 @@
+// What of the registers can be seen on a line, given the writes that it meets: two lines with the same key and the same
+// writes have the same pixels and collisions. A disabled object that drifts about does not make a line another one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "emulator/state.hpp"
+
+namespace racebeam {
+
+// What a write of a register may do to the line that it falls on.
+struct LineEffect {
+  bool draws;               // it may change the picture at all
+  std::int8_t last_cycle;   // of the line, at which it still takes effect on the same line
+  std::uint8_t involved;    // bit n: it may make Object n visible; and the two below
+};
+constexpr std::uint8_t kMovesObjects = 1U << 6, kBlanks = 1U << 7;
+
+extern const std::array<LineEffect, 64> kLineEffects;
+
+// `registers` with everything set to zero that can't be seen.
+TiaRegisters line_key(const TiaRegisters& registers, std::uint8_t involved_by_events);
+
+}  // namespace racebeam

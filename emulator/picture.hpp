@@ -1,0 +1,56 @@
+// One of the two picture buffers, and for each of its rows what produced it: a row whose line starts with the same
+// registers and meets the same writes need not be drawn, for its pixels are there already. The records are derived
+// and belong to the buffer, not to the machine's state.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "emulator/line.hpp"
+#include "emulator/state.hpp"
+
+namespace racebeam {
+
+// A write: CPU cycle within the line (0-75), register and value, packed to be compared at once.
+class LineEvent {
+ public:
+  LineEvent() = default;
+  LineEvent(std::int32_t cycle, std::uint8_t reg, std::uint8_t value)
+      : packed_(static_cast<std::uint32_t>(cycle) << 16 | static_cast<std::uint32_t>(reg << 8) | value) {}
+
+  bool operator==(const LineEvent&) const = default;
+
+ private:
+  std::uint32_t packed_;
+};
+
+struct LineRecord {
+  static constexpr std::uint8_t kInvalid = 0xFF;
+
+  TiaRegisters key;                // line_key() at the start of the line
+  Collisions meetings;             // pairs that met on the line
+  std::uint8_t count = kInvalid;   // of events
+  std::uint8_t repeats;            // drawn in one piece by the registers as the line left them
+  std::uint8_t comb_armed;         // what the line left
+  std::array<LineEvent, 15> event;
+
+  bool same_line(const LineRecord& other) const {
+    return count == other.count && key == other.key && std::equal(event.begin(), event.begin() + count, other.event.begin());
+  }
+};
+static_assert(sizeof(LineRecord) <= 112);
+
+struct Picture {
+  static constexpr int kRows = 320;  // the window, and what a reset may shift it down by (tia.md, section 2)
+
+  alignas(64) std::array<std::uint8_t, static_cast<std::size_t>(kRows) * kLinePixels> pixel{};
+  std::array<LineRecord, kRows> line;
+
+  // The pixels were written by somebody else.
+  void forget_lines() {
+    for (LineRecord& record : line) record.count = LineRecord::kInvalid;
+  }
+};
+
+}  // namespace racebeam
