@@ -1,0 +1,93 @@
+#include "cli/classic.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include "cli/classic_settings.hpp"
+#include "cli/options.hpp"
+#include "games/catalogue.hpp"
+#include "server/log.hpp"
+#include "server/streams.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr auto kAbout = "Serve as ALE 0.4 to 0.6 did, given its command line: for old launchers";
+
+constexpr auto kUsage = R"(racebeam classic -game_controller fifo|fifo_named [-key value]... IMAGE
+
+  -game_controller NAME                  fifo: standard streams; fifo_named: ale_fifo_out and ale_fifo_in
+  -random_seed N                         0 or time: from the clock
+  -run_length_encoding true|false        how a screen is written (true)
+  -frame_skip N                          frames that an action lasts (1)
+  -repeat_action_probability P           that a frame repeats the action before it (0.25)
+  -max_num_frames N                      frames after which the session ends (0: none)
+  -max_num_frames_per_episode N          frames after which an episode ends (0: none)
+  -color_averaging true|false            blend each picture with the one before it (false)
+  -config FILE                           lines of key = value, which win over the command line
+
+Other keys are ignored. ale.cfg in the working directory is read first. The image's name tells the game.)";
+
+// What these did needs a window or a sound card.
+constexpr const char* kIgnored[] = {"display_screen", "sound", "record_screen_dir", "record_sound_filename"};
+
+void mention_ignored(const ClassicSettings& settings) {
+  for (const char* key : kIgnored) {
+    const std::string value = settings.text(key);
+    if (!value.empty() && value != "false" && value != "0") log(std::string("-") + key + " is ignored");
+  }
+}
+
+MachineOptions machine_options(const ClassicSettings& settings) {
+  MachineOptions options;
+  options.rom = settings.image();
+  options.settings.classic = true;
+  options.settings.random_seed = resolve_seed(static_cast<std::uint32_t>(settings.number("random_seed", 0)));
+  options.settings.frame_skip = std::max(1, settings.number("frame_skip", 1));
+  options.settings.sticky = std::clamp(settings.real("repeat_action_probability", 0.25F), 0.0F, 1.0F);
+  options.settings.max_episode_frames = std::max(0, settings.number("max_num_frames_per_episode", 0));
+  options.settings.color_averaging = settings.truth("color_averaging", false);
+  return options;
+}
+
+// By the file's stem alone, whatever the image.
+Cartridge open_by_name(const std::string& path) {
+  const auto image = load_image(path);
+  const auto game = find_game(image->stem);
+  if (!game)
+    throw std::invalid_argument("no game is called '" + image->stem + "', as the image " + path + " is");
+  if (!game->accepts(image->md5)) log("the MD5 of " + path + " is not one that is known for " + game->name);
+  return {image, game};
+}
+
+int run(const std::vector<std::string>& words) {
+  if (ClassicSettings::asks_for_help(words)) {
+    std::cerr << kUsage << "\n";
+    return kExitFailure;
+  }
+  const ClassicSettings settings(words);
+  const std::string controller = settings.text("game_controller");
+  if (controller != "fifo" && controller != "fifo_named") {
+    throw std::invalid_argument(
+        controller == "rlglue" ? "-game_controller rlglue is not built yet; there are fifo and fifo_named"
+                               : "-game_controller '" + controller + "' is neither fifo nor fifo_named");
+  }
+  mention_ignored(settings);
+  const MachineOptions machine = machine_options(settings);
+  const Cartridge cartridge = open_by_name(machine.rom);
+  const ClassicService service{
+      [&] { return power_on(cartridge, machine); },
+      {settings.truth("run_length_encoding", true), settings.number("max_num_frames", 0)}};
+  return controller == "fifo" ? serve_standard_streams(service) : serve_classic_pipes(service);
+}
+
+}  // namespace
+
+void add_classic(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("classic", kAbout);
+  command->set_help_flag();
+  command->prefix_command();  // the words are not CLI11's to understand
+  command->callback([command] { throw CLI::RuntimeError(run(command->remaining())); });
+}
+
+}  // namespace racebeam

@@ -1,0 +1,83 @@
+#include "cli/classic_settings.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+#include "protocol/text.hpp"
+#include "server/log.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr auto kBlanks = " \t\r";
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+bool is_key(const std::string& word) { return word.starts_with('-'); }
+
+}  // namespace
+
+ClassicSettings::ClassicSettings(const std::vector<std::string>& words) {
+  read_file("ale.cfg");
+  read_words(words);
+  const std::string config = text("config");
+  if (!config.empty() && !read_file(config))
+    log("cannot read the configuration " + config + "; going on without it");
+}
+
+bool ClassicSettings::asks_for_help(const std::vector<std::string>& words) {
+  for (std::size_t at = 0; at < words.size() && is_key(words[at]); at += 2) {
+    if (words[at] == "-help" || words[at] == "--help") return true;
+  }
+  return false;
+}
+
+// A key takes the next word, whatever it is; the first word that is no key is the image, and nothing counts
+// after it.
+void ClassicSettings::read_words(const std::vector<std::string>& words) {
+  std::size_t at = 0;
+  for (; at < words.size() && is_key(words[at]); at += 2) {
+    if (at + 1 == words.size()) throw std::invalid_argument(words[at] + " has no value");
+    values_[words[at].substr(1)] = words[at + 1];
+  }
+  if (at >= words.size())
+    throw std::invalid_argument("no image is given; it comes after all keys and their values");
+  image_ = words[at];
+}
+
+bool ClassicSettings::read_file(const std::string& path) {
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos || line.starts_with('#') || line.starts_with(';')) continue;
+    values_[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+  }
+  return file.eof();
+}
+
+std::string ClassicSettings::text(const std::string& key) const {
+  const auto found = values_.find(key);
+  return found == values_.end() ? std::string{} : found->second;
+}
+
+int ClassicSettings::number(const std::string& key, int otherwise) const {
+  const std::string value = text(key);
+  return value.empty() ? otherwise : parse_integer(value);
+}
+
+float ClassicSettings::real(const std::string& key, float otherwise) const {
+  const std::string value = text(key);
+  return value.empty() ? otherwise : std::strtof(value.c_str(), nullptr);
+}
+
+bool ClassicSettings::truth(const std::string& key, bool otherwise) const {
+  const std::string value = text(key);
+  return value.empty() ? otherwise : value == "1" || value == "true";
+}
+
+}  // namespace racebeam

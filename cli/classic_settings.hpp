@@ -1,0 +1,33 @@
+// The command line and the configuration files of ALE 0.4-0.6 (spec: classic-protocol.md, section 7).
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace racebeam {
+
+class ClassicSettings {
+ public:
+  // Reads ale.cfg, then the words, then the file that `config` names; what is read later wins. Throws
+  // std::invalid_argument if there is no image.
+  explicit ClassicSettings(const std::vector<std::string>& words);
+
+  static bool asks_for_help(const std::vector<std::string>& words);
+
+  const std::string& image() const { return image_; }
+
+  std::string text(const std::string& key) const;  // empty if it is not set
+  int number(const std::string& key, int otherwise) const;
+  float real(const std::string& key, float otherwise) const;
+  bool truth(const std::string& key, bool otherwise) const;
+
+ private:
+  void read_words(const std::vector<std::string>& words);
+  bool read_file(const std::string& path);
+
+  std::map<std::string, std::string> values_;
+  std::string image_;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,12 @@
+// racebeam games: what the catalogue holds.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace racebeam {
+
+void add_games(CLI::App& app);
+
+}  // namespace racebeam

@@ -1,0 +1,75 @@
+// racebeam: one program, a subcommand for each thing to do with it.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "cli/bench.hpp"
+#include "cli/classic.hpp"
+#include "cli/games.hpp"
+#include "cli/options.hpp"
+#include "cli/png.hpp"
+#include "cli/roms.hpp"
+#include "cli/serve.hpp"
+#include "cli/trace.hpp"
+
+namespace {
+
+constexpr auto kAbout =
+    "A headless Atari 2600 as a server: agents in any language play its games over a pipe or a socket.";
+
+constexpr auto kFooter = R"(Try first:
+  racebeam games                                          which games there are
+  racebeam serve --classic --stdio --rom builtin:NAME     play one by hand: type 0,0,0,1 then 3,18
+  racebeam trace --rom builtin:NAME --actions FILE        what a list of actions leads to, frame by frame
+
+Each of them explains itself: racebeam serve --help.
+
+Exit status: 0 done; 1 it could not be done, with one line on standard error that says why;
+2 the command line makes no sense; 255 a classic client asked for an action that does not exist.)";
+
+std::string subcommand_names(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  return names;
+}
+
+// What is wrong with the command line, and where to read more.
+std::string explain(const CLI::App& app, const CLI::ParseError& error) {
+  const auto chosen = app.get_subcommands();
+  if (chosen.empty()) return "a subcommand is needed: " + subcommand_names(app) + " (see racebeam --help)";
+  const std::string sentence = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)
+                                   ? "not understood: " + CLI::detail::join(chosen[0]->remaining(), " ")
+                                   : std::string(error.what());
+  return sentence + " (see racebeam " + chosen[0]->get_name() + " --help)";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{kAbout, "racebeam"};
+  app.set_version_flag("--version", "racebeam " RACEBEAM_VERSION);
+  app.footer(kFooter);
+  app.require_subcommand(1);
+  racebeam::add_serve(app);
+  racebeam::add_classic(app);
+  racebeam::add_trace(app);
+  racebeam::add_bench(app);
+  racebeam::add_games(app);
+  racebeam::add_roms(app);
+  racebeam::add_png(app);
+  try {
+    app.parse(argc, argv);  // runs the subcommand
+    return 0;
+  } catch (const CLI::RuntimeError& ended) {  // how a subcommand sets the exit status
+    return ended.get_exit_code();
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    std::cerr << "racebeam: " << explain(app, error) << "\n";
+    return racebeam::kExitUsage;
+  } catch (const std::exception& error) {
+    std::cerr << "racebeam: " << error.what() << "\n";
+    return racebeam::kExitFailure;
+  }
+}

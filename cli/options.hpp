@@ -1,0 +1,49 @@
+// The options that every subcommand with a machine takes, and the machine they describe.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "environment/environment.hpp"
+
+namespace racebeam {
+
+constexpr int kExitFailure = 1;  // what was asked for could not be done
+constexpr int kExitUsage = 2;    // the command line makes no sense
+
+struct MachineOptions {
+  std::string rom;                       // a file, or builtin:NAME
+  std::optional<std::string> game;       // the rule to use, by name
+  std::optional<std::string> game_file;  // the rule to use, from a file of the user's
+  Settings settings;
+  std::optional<int> mode, difficulty;  // the game's defaults if not given
+};
+
+// Adds --rom --game --game-file --seed --system-seed --frame-skip --sticky --color-averaging --mode
+// --difficulty. Set `options` to the subcommand's defaults first; it must outlive the parsing.
+void add_machine_options(CLI::App& app, MachineOptions& options);
+
+// A whole number of at least `least`: frames, and so on.
+CLI::Option* add_count(CLI::App& app, const std::string& name, int& value, int least,
+                       const std::string& help);
+
+// An image and its game; both are const, so that any number of machines share them.
+struct Cartridge {
+  std::shared_ptr<const Image> image;
+  std::shared_ptr<const Game> game;
+};
+
+// Loads the image and recognises the game; doubts about it go to standard error.
+Cartridge open_cartridge(const MachineOptions& options);
+
+// A machine that is switched on, with mode and difficulty in place.
+Environment power_on(const Cartridge& cartridge, const MachineOptions& options);
+
+Environment open_environment(const MachineOptions& options);
+
+// The seed itself; a seed from the clock, which is never 0, for 0.
+std::uint32_t resolve_seed(std::uint32_t seed);
+
+}  // namespace racebeam

@@ -1,0 +1,12 @@
+// racebeam png: a screen as a client received it, turned into a picture.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace racebeam {
+
+void add_png(CLI::App& app);
+
+}  // namespace racebeam

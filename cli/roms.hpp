@@ -1,0 +1,12 @@
+// racebeam roms: which images in a folder are known.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace racebeam {
+
+void add_roms(CLI::App& app);
+
+}  // namespace racebeam

@@ -1,0 +1,46 @@
+#include "cli/snapshot_bench.hpp"
+
+#include <array>
+
+#include "cli/cpu_clock.hpp"
+#include "emulator/console.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr int kFramesBefore = 120;
+
+template <typename Action>
+double nanoseconds_each(int times, Action action) {
+  const double start = cpu_seconds();
+  for (int i = 0; i < times; ++i) action(static_cast<std::size_t>(i));
+  return (cpu_seconds() - start) / times * 1e9;
+}
+
+// The copies go to different places, so that it is memory that is measured and not a value kept in registers.
+double time_machine(const Cartridge& cartridge, std::uint32_t system_seed) {
+  SystemGenerator generator{system_seed};
+  Console console{cartridge.image->bytes, cartridge.game->properties_for(cartridge.image->md5), generator};
+  console.reset();
+  for (int frame = 0; frame < kFramesBefore; ++frame) console.step();
+  std::array<State, 64> saved;
+  return nanoseconds_each(1'000'000, [&](std::size_t i) {
+    State& place = saved[i % saved.size()];
+    place = console.state();
+    console.restore(place);
+  });
+}
+
+double time_client(const Cartridge& cartridge, const MachineOptions& options) {
+  Environment environment = power_on(cartridge, options);
+  for (int frame = 0; frame < kFramesBefore; ++frame) environment.act(0);
+  return nanoseconds_each(20'000, [&](std::size_t) { environment.restore(*environment.save()); });
+}
+
+}  // namespace
+
+SnapshotTimes time_snapshots(const Cartridge& cartridge, const MachineOptions& options) {
+  return {sizeof(State), time_machine(cartridge, options.settings.system_seed), time_client(cartridge, options)};
+}
+
+}  // namespace racebeam

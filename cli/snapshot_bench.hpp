@@ -1,0 +1,17 @@
+// What saving and restoring costs.
+#pragma once
+
+#include "cli/options.hpp"
+
+namespace racebeam {
+
+struct SnapshotTimes {
+  std::size_t machine_bytes = 0;  // the machine's state
+  double machine_ns = 0;          // to copy it out and put it back
+  double client_ns = 0;           // Environment::save and restore, with the pictures
+};
+
+// Plays some frames of the cartridge first, so that the state is one from the middle of a game.
+SnapshotTimes time_snapshots(const Cartridge& cartridge, const MachineOptions& options);
+
+}  // namespace racebeam

@@ -1,0 +1,51 @@
+// One agent step (spec: environment.md, sections 4 and 5).
+#include <algorithm>
+
+#include "environment/impl.hpp"
+
+namespace racebeam {
+
+int Environment::Impl::act(const Presses& asked) {
+  std::int64_t reward = 0;
+  for (int n = std::max(settings.frame_skip, 1); n > 0; --n) {
+    sticky.draw(random, asked, play.held);
+    if (over()) continue;
+    run_frame(legal.replace(play.held));
+    count_frame();
+    reward += rule.reward();
+  }
+  if (settings.sound) console.sound().generate(audio);
+  return static_cast<int>(std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max));
+}
+
+void Environment::Impl::run_frame(const Presses& presses) {
+  hands.press(console.inputs(), presses, play.difficulty, play.paddles);
+  step_console();
+  rule.step(memory());
+}
+
+void Environment::Impl::step_console() {
+  console.step();
+  play.ram_is_stale = 0;
+  blend_is_due = true;
+}
+
+void Environment::Impl::count_frame() {
+  ++play.frames;
+  ++play.episode_frames;
+}
+
+bool Environment::Impl::truncated() const {
+  const auto episode_frames = static_cast<std::int32_t>(play.episode_frames);
+  if (settings.max_episode_frames > 0 && episode_frames >= settings.max_episode_frames) return true;
+  return settings.truncate_on_life_loss && rule.lives() < lives_at_start;
+}
+
+Memory Environment::Impl::memory() const {
+  const auto peek = [](const void* machine, std::uint16_t address) {
+    return static_cast<const Console*>(machine)->peek(address);
+  };
+  return {console.ram().data(), peek, &console};
+}
+
+}  // namespace racebeam

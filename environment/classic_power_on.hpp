@@ -1,0 +1,34 @@
+// Random contents as in ALE 0.4 to 0.6, where one generator served the machine and the sticky actions
+// (spec: classic-protocol.md, section 6, rules 1 and 2).
+#pragma once
+
+#include <random>
+
+#include "emulator/power_on.hpp"
+
+namespace racebeam {
+
+// The generator's position is not part of a machine's state: a restored machine goes on where the generator stands.
+class ClassicPowerOn : public PowerOn {
+ public:
+  explicit ClassicPowerOn(std::mt19937& shared) : shared_(shared) {}
+
+  std::uint32_t draw(std::uint32_t& drawn) override {
+    ++drawn;
+    return static_cast<std::uint32_t>(shared_());
+  }
+
+  // Once, when the image is loaded; resets leave it alone.
+  void fill_cartridge(std::span<std::uint8_t> ram, std::uint32_t&) override {
+    if (filled_) return;
+    filled_ = true;
+    std::mt19937 own;  // with the default seed
+    for (std::uint8_t& byte : ram) byte = static_cast<std::uint8_t>(own());
+  }
+
+ private:
+  std::mt19937& shared_;
+  bool filled_ = false;
+};
+
+}  // namespace racebeam

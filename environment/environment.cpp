@@ -1,0 +1,167 @@
+#include "environment/environment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "emulator/palette.hpp"
+#include "environment/classic_power_on.hpp"
+#include "environment/impl.hpp"
+
+namespace racebeam {
+namespace {
+
+PaddleLimits paddle_limits(const Settings& settings, const Game& game) {
+  PaddleLimits limits;
+  if (settings.paddle_min != -1) limits.min = settings.paddle_min;
+  if (settings.paddle_max != -1) limits.max = settings.paddle_max;
+  if (game.paddle_max != -1) limits.max = game.paddle_max;
+  return limits;
+}
+
+void refuse_unless(bool good, const std::string& sentence) {
+  if (!good) throw std::invalid_argument(sentence);
+}
+
+const Settings& checked(const Settings& settings, const Game& game) {
+  refuse_unless(settings.frame_skip >= 0,
+                "frame_skip is " + std::to_string(settings.frame_skip) + "; it must be 1 or more");
+  refuse_unless(!std::isnan(settings.sticky), "the probability of sticky actions is not a number");
+  refuse_unless(settings.reward_min <= settings.reward_max,
+                "reward_min (" + std::to_string(settings.reward_min) + ") is above reward_max (" +
+                    std::to_string(settings.reward_max) + ")");
+  const PaddleLimits limits = paddle_limits(settings, game);
+  refuse_unless(limits.min >= 0 && limits.min <= limits.max,
+                "paddle_min (" + std::to_string(limits.min) + ") must be between 0 and paddle_max (" +
+                    std::to_string(limits.max) + ")");
+  return settings;
+}
+
+std::unique_ptr<PowerOn> make_power_on(const Settings& settings, std::mt19937& random) {
+  if (settings.classic) return std::make_unique<ClassicPowerOn>(random);
+  return std::make_unique<SystemGenerator>(settings.system_seed);
+}
+
+void check_offered(int number, const std::vector<int>& offered, const std::string& what, const Game& game) {
+  if (std::ranges::find(offered, number) != offered.end()) return;
+  std::string list;
+  for (const int one : offered) list += (list.empty() ? "" : ", ") + std::to_string(one);
+  throw std::invalid_argument(game.name + " has no " + what + " " + std::to_string(number) + "; it offers " + list);
+}
+
+std::size_t ram_index(int index) {
+  if (index >= 0 && index < kRamSize) return static_cast<std::size_t>(index);
+  throw std::out_of_range("RAM has no byte " + std::to_string(index) + "; there are 0 to 127");
+}
+
+}  // namespace
+
+Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_ptr<const Game> game_given,
+                        const Settings& settings_given)
+    : image(std::move(image_given)),
+      game(std::move(game_given)),
+      settings(checked(settings_given, *game)),
+      identity(*image, *game),
+      random(settings.random_seed),
+      power_on(make_power_on(settings, random)),
+      console(image->bytes, game->properties_for(image->md5), *power_on),
+      rule(*game),
+      legal(game->legal_actions, console.has_paddles()),
+      sticky(settings.sticky),
+      hands(console.has_paddles(), paddle_limits(settings, *game)),
+      lives_at_start(rule.initial_lives()),
+      blend(settings.color_averaging ? &racebeam::blend(console.format()) : nullptr) {
+  random.seed(settings.random_seed);  // in classic mode the console has drawn from it
+  play.mode = game->default_mode;
+  reset();
+}
+
+std::span<const std::uint8_t> Environment::Impl::screen() {
+  if (blend == nullptr) return console.picture();
+  if (blend_is_due) {
+    blended.resize(console.picture().size());
+    (*blend)(console.picture(), console.previous_picture(), blended);
+    blend_is_due = false;
+  }
+  return blended;
+}
+
+Environment::Environment(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings)
+    : impl_(std::make_unique<Impl>(std::move(image), std::move(game), settings)) {}
+
+Environment::~Environment() = default;
+Environment::Environment(Environment&&) noexcept = default;
+Environment& Environment::operator=(Environment&&) noexcept = default;
+
+int Environment::act(int a, int b, float strength_a, float strength_b) {
+  const Presses asked{{a, strength_a}, {b, strength_b}};
+  impl_->legal.check(asked);
+  return impl_->act(asked);
+}
+
+void Environment::reset_game() { impl_->reset(); }
+
+void Environment::set_mode(int mode) {
+  check_offered(mode, game().modes, "mode", game());
+  impl_->play.mode = mode;
+}
+
+void Environment::set_difficulty(int difficulty) {
+  check_offered(difficulty, game().difficulties, "difficulty", game());
+  impl_->play.difficulty = difficulty;
+}
+
+int Environment::mode() const { return impl_->play.mode; }
+int Environment::difficulty() const { return impl_->play.difficulty; }
+
+bool Environment::game_over() const { return impl_->over(); }
+bool Environment::terminal() const { return impl_->rule.terminal(); }
+bool Environment::truncated() const { return impl_->truncated(); }
+int Environment::lives() const { return impl_->rule.lives(); }
+int Environment::frame_number() const { return static_cast<int>(impl_->play.frames); }
+int Environment::episode_frame_number() const { return static_cast<int>(impl_->play.episode_frames); }
+
+int Environment::height() const { return impl_->console.height(); }
+std::span<const std::uint8_t> Environment::screen() const { return impl_->screen(); }
+std::span<const std::uint8_t, kAudioSize> Environment::audio() const { return impl_->audio; }
+
+std::span<const std::uint8_t, kRamSize> Environment::ram() const {
+  if (impl_->play.ram_is_stale != 0) return impl_->play.stale_ram;
+  return impl_->console.ram();
+}
+
+void Environment::set_ram(int index, std::uint8_t value) {
+  const std::size_t at = ram_index(index);
+  impl_->console.set_ram(index, value);
+  impl_->play.stale_ram[at] = value;
+}
+
+void Environment::screen_rgb(std::vector<std::uint8_t>& rgb) const {
+  const Palette& colours = palette(impl_->console.format());
+  const auto pixels = screen();
+  rgb.resize(3 * pixels.size());
+  std::uint8_t* out = rgb.data();
+  for (const std::uint8_t pixel : pixels) {
+    const auto [r, g, b] = colours[pixel];
+    *out++ = r;
+    *out++ = g;
+    *out++ = b;
+  }
+}
+
+void Environment::screen_grey(std::vector<std::uint8_t>& grey) const {
+  const GreyTable& table = grey_table(impl_->console.format());
+  const auto pixels = screen();
+  grey.resize(pixels.size());
+  std::ranges::transform(pixels, grey.begin(), [&](std::uint8_t pixel) { return table[pixel]; });
+}
+
+const Game& Environment::game() const { return *impl_->game; }
+const Image& Environment::image() const { return *impl_->image; }
+const Settings& Environment::settings() const { return impl_->settings; }
+
+std::shared_ptr<const Environment::Saved> Environment::save(bool with_random) const { return impl_->save(with_random); }
+void Environment::restore(const Saved& saved) { impl_->restore(saved); }
+void Environment::restore_classic(const Saved& saved) { impl_->restore_classic(saved); }
+
+}  // namespace racebeam

@@ -1,0 +1,31 @@
+// Actions on their way to the console's ports and switches (spec: environment.md, section 2; console.md, section 5).
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/inputs.hpp"
+#include "environment/paddles.hpp"
+#include "environment/presses.hpp"
+
+namespace racebeam {
+
+class Hands {
+ public:
+  Hands(bool use_paddles, PaddleLimits limits) : use_paddles_(use_paddles), limits_(limits) {}
+
+  PaddleValues middle() const { return limits_.middle(); }
+
+  // For one frame. An action that nobody has presses nothing; player A's 40 is the RESET switch.
+  void press(Inputs& inputs, const Presses& presses, int difficulty, PaddleValues& paddles) const;
+
+  // Holds SELECT alone. The paddles stay where they are.
+  static void press_select(Inputs& inputs, int difficulty);
+
+ private:
+  void turn_paddles(Inputs& inputs, const Presses& presses, PaddleValues& paddles) const;
+
+  bool use_paddles_;
+  PaddleLimits limits_;
+};
+
+}  // namespace racebeam

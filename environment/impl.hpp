@@ -1,0 +1,71 @@
+// The inside of an Environment. Its parts are in act.cpp, reset.cpp and save.cpp.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "emulator/console.hpp"
+#include "environment/environment.hpp"
+#include "environment/hands.hpp"
+#include "environment/legal_actions.hpp"
+#include "environment/play.hpp"
+#include "environment/presses.hpp"
+#include "environment/saved.hpp"
+#include "games/rule.hpp"
+
+namespace racebeam {
+
+class Blend;
+
+struct Environment::Impl {
+  Impl(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings);
+
+  const std::shared_ptr<const Image> image;
+  const std::shared_ptr<const Game> game;
+  const Settings settings;
+  const Identity identity;
+
+  std::mt19937 random;  // of sticky actions; of the machine too, in classic mode
+  const std::unique_ptr<PowerOn> power_on;
+  Console console;
+  Rule rule;
+  const LegalActions legal;
+  const Sticky sticky;
+  const Hands hands;
+  const int lives_at_start;
+  Play play;
+  std::array<std::uint8_t, kAudioSize> audio{};
+
+  // With colour averaging, the screen is made when it is first asked for.
+  const Blend* const blend;  // null: no averaging
+  std::vector<std::uint8_t> blended;
+  bool blend_is_due = true;
+
+  // act.cpp
+  int act(const Presses& asked);
+  void run_frame(const Presses& presses);  // and the rule after it
+  void step_console();                     // without the rule
+  void count_frame();
+  bool truncated() const;
+  bool over() const { return rule.terminal() || truncated(); }
+  Memory memory() const;
+
+  // reset.cpp
+  void reset();
+  void soft_reset();
+  void run_frames(int action, int count);
+  void select(int frames);
+  void set_up_mode();
+
+  // save.cpp
+  std::shared_ptr<const Saved> save(bool with_random) const;
+  void check(const Saved& saved) const;
+  void restore(const Saved& saved);
+  void restore_classic(const Saved& saved);
+
+  std::span<const std::uint8_t> screen();
+};
+
+}  // namespace racebeam

@@ -1,0 +1,27 @@
+// What lives on from act to act beside the machine and the rule's tally. One trivially copyable value, so that saving
+// it is a copy and nothing can be left out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "environment/paddles.hpp"
+#include "environment/presses.hpp"
+
+namespace racebeam {
+
+struct Play {
+  Presses held;                  // what a sticky frame repeats
+  PaddleValues paddles{};
+  std::uint32_t frames = 0;      // counted since loading
+  std::uint32_t episode_frames = 0;
+  std::int32_t mode = 0;         // takes effect at the next reset
+  std::int32_t difficulty = 0;
+  std::uint32_t ram_is_stale = 0;           // RAM is answered from the next member: Environment::restore_classic()
+  std::array<std::uint8_t, 128> stale_ram{};
+};
+
+static_assert(std::is_trivially_copyable_v<Play>);
+
+}  // namespace racebeam

@@ -1,0 +1,82 @@
+// States in memory: copies of values (spec: environment.md, section 13, for what the reference leaves out).
+#include <algorithm>
+#include <stdexcept>
+
+#include "environment/impl.hpp"
+
+namespace racebeam {
+namespace {
+
+void put(std::span<char> field, const std::string& text) {
+  std::copy_n(text.begin(), std::min(text.size(), field.size()), field.begin());
+}
+
+std::string text_of(std::span<const char> field) { return {field.begin(), std::ranges::find(field, '\0')}; }
+
+}  // namespace
+
+Identity::Identity(const Image& image, const Game& its_game) {
+  put(md5, image.md5);
+  put(game, its_game.name);
+}
+
+std::string Identity::md5_text() const { return text_of(md5); }
+std::string Identity::game_name() const { return text_of(game); }
+
+void check_identity(const Identity& saved, const Identity& running) {
+  if (saved.md5 != running.md5) {
+    throw std::invalid_argument("the state is of the image with MD5 " + saved.md5_text() +
+                                "; the one that runs has MD5 " + running.md5_text());
+  }
+  if (saved.game != running.game) {
+    throw std::invalid_argument("the state is of the game " + saved.game_name() + "; the one that runs is " +
+                                running.game_name());
+  }
+}
+
+std::shared_ptr<const Environment::Saved> Environment::Impl::save(bool with_random) const {
+  auto saved = std::make_shared<Saved>();
+  saved->identity = identity;
+  saved->values = {console.state(), play, rule.tally(), console.sound(), audio};
+  saved->pictures.reserve(2 * console.picture().size());
+  for (const auto picture : {console.picture(), console.previous_picture()}) {
+    saved->pictures.insert(saved->pictures.end(), picture.begin(), picture.end());
+  }
+  if (with_random) saved->random = random;
+  return saved;
+}
+
+void Environment::Impl::restore(const Saved& saved) {
+  check(saved);
+  console.restore(saved.values.machine);
+  const auto pictures = std::span(saved.pictures);
+  console.restore_pictures(pictures.first(pictures.size() / 2), pictures.last(pictures.size() / 2));
+  console.sound() = saved.values.sound;
+  rule.restore(saved.values.tally);
+  play = saved.values.play;
+  audio = saved.values.audio;
+  if (saved.random) random = *saved.random;
+  blend_is_due = true;
+}
+
+// The same game can have been given other properties.
+void Environment::Impl::check(const Saved& saved) const {
+  check_identity(saved.identity, identity);
+  if (saved.pictures.size() == 2 * console.picture().size()) return;
+  throw std::invalid_argument("the state's pictures have another height than those of the console that runs");
+}
+
+// The reference copies RAM after frames only, and keeps pictures, sound and sticky actions out of its states.
+void Environment::Impl::restore_classic(const Saved& saved) {
+  check(saved);
+  Play restored = saved.values.play;
+  restored.held = play.held;
+  restored.ram_is_stale = 1;
+  restored.stale_ram = play.stale_ram;
+  if (play.ram_is_stale == 0) std::ranges::copy(console.ram(), restored.stale_ram.begin());
+  console.restore(saved.values.machine);
+  rule.restore(saved.values.tally);
+  play = restored;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,53 @@
+// What a saved state holds; see snapshot.hpp for its portable form.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <random>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "emulator/sound.hpp"
+#include "emulator/state.hpp"
+#include "environment/environment.hpp"
+#include "environment/play.hpp"
+#include "games/rule.hpp"
+
+namespace racebeam {
+
+// The image and the game that a state belongs to.
+struct Identity {
+  std::array<char, 32> md5{};
+  std::array<char, 64> game{};  // its name, padded with zeros
+
+  Identity() = default;
+  Identity(const Image& image, const Game& its_game);
+
+  std::string md5_text() const;
+  std::string game_name() const;
+  bool operator==(const Identity&) const = default;
+};
+
+class Environment::Saved {
+ public:
+  struct Values {
+    State machine;
+    Play play;
+    Tally tally;
+    Sound sound;
+    std::array<std::uint8_t, kAudioSize> audio{};
+  };
+
+  Identity identity;
+  Values values;
+  std::vector<std::uint8_t> pictures;  // current, then previous
+  std::optional<std::mt19937> random;
+};
+
+static_assert(std::is_trivially_copyable_v<Environment::Saved::Values>);
+
+// Throws std::invalid_argument when a state of `saved` is not one of `running`.
+void check_identity(const Identity& saved, const Identity& running);
+
+}  // namespace racebeam

@@ -1,0 +1,144 @@
+#include "environment/snapshot.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "environment/saved.hpp"
+
+namespace racebeam {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "a state's bytes are the memory of its values");
+
+using Values = Environment::Saved::Values;
+using GeneratorWords = std::array<std::uint32_t, std::mt19937::state_size + 1>;  // and the position in them
+
+struct Header {
+  char magic[8];
+  std::uint32_t version;
+  std::uint32_t values_size;  // another compilation of the same version could differ
+  std::uint32_t total_size;
+  std::uint32_t checksum;     // CRC-32 of all that follows the header
+};
+static_assert(sizeof(Header) == 24);
+
+struct Prefix {
+  Identity identity;
+  std::uint32_t pictures_size;
+  std::uint32_t has_random;
+};
+
+constexpr char kMagic[8] = {'R', 'B', 'S', 'T', 'A', 'T', 'E', '\n'};
+
+std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
+  return static_cast<std::uint32_t>(crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
+}
+
+template <class T>
+void append(std::vector<std::uint8_t>& bytes, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  const auto* first = reinterpret_cast<const std::uint8_t*>(&value);
+  bytes.insert(bytes.end(), first, first + sizeof value);
+}
+
+template <class T>
+T take(std::span<const std::uint8_t>& bytes) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  T value;
+  std::memcpy(&value, bytes.data(), sizeof value);
+  bytes = bytes.subspan(sizeof value);
+  return value;
+}
+
+// The standard's only way to look into a generator is text.
+GeneratorWords words_of(const std::mt19937& generator) {
+  std::stringstream text;
+  text << generator;
+  GeneratorWords words;
+  for (std::uint32_t& word : words) text >> word;
+  return words;
+}
+
+std::mt19937 generator_of(const GeneratorWords& words) {
+  std::stringstream text;
+  for (const std::uint32_t word : words) text << word << ' ';
+  std::mt19937 generator;
+  text >> generator;
+  return generator;
+}
+
+[[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
+
+void check(const Header& header, std::size_t size) {
+  if (!std::ranges::equal(header.magic, kMagic)) refuse("this is not a state saved by racebeam");
+  if (header.version != kSnapshotVersion || header.values_size != sizeof(Values)) {
+    refuse("the state was saved by another version of racebeam (format " + std::to_string(header.version) +
+           "; this one reads format " + std::to_string(kSnapshotVersion) + ")");
+  }
+  if (header.total_size != size) {
+    refuse("the state has " + std::to_string(size) + " bytes instead of " + std::to_string(header.total_size) +
+           "; it was cut, or something was added");
+  }
+}
+
+std::size_t size_after(const Prefix& prefix) {
+  return sizeof(Values) + prefix.pictures_size + (prefix.has_random != 0 ? sizeof(GeneratorWords) : 0);
+}
+
+void check(const Prefix& prefix, std::size_t size, const Environment& environment) {
+  check_identity(prefix.identity, Identity(environment.image(), environment.game()));
+  if (prefix.pictures_size != 2 * environment.screen().size()) {
+    refuse("the state's pictures have another height than those of the console that runs");
+  }
+  if (size != size_after(prefix)) refuse("the state contradicts itself about its size");
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved) {
+  Prefix prefix{};
+  prefix.identity = saved.identity;
+  prefix.pictures_size = static_cast<std::uint32_t>(saved.pictures.size());
+  prefix.has_random = saved.random.has_value();
+
+  std::vector<std::uint8_t> bytes(sizeof(Header));
+  bytes.reserve(sizeof(Header) + sizeof(Prefix) + size_after(prefix));
+  append(bytes, prefix);
+  append(bytes, saved.values);
+  bytes.insert(bytes.end(), saved.pictures.begin(), saved.pictures.end());
+  if (saved.random) append(bytes, words_of(*saved.random));
+
+  Header header{{}, kSnapshotVersion, sizeof(Values), static_cast<std::uint32_t>(bytes.size()),
+                checksum(std::span(bytes).subspan(sizeof(Header)))};
+  std::ranges::copy(kMagic, header.magic);
+  std::memcpy(bytes.data(), &header, sizeof header);
+  return bytes;
+}
+
+std::shared_ptr<const Environment::Saved> from_bytes(std::span<const std::uint8_t> bytes,
+                                                     const Environment& environment) {
+  if (bytes.size() < sizeof(Header) + sizeof(Prefix)) refuse("this is not a state saved by racebeam: it is too short");
+  const std::size_t size = bytes.size();
+  const auto header = take<Header>(bytes);
+  check(header, size);
+  if (header.checksum != checksum(bytes)) refuse("the state was altered: its checksum is wrong");
+  const auto prefix = take<Prefix>(bytes);
+  check(prefix, bytes.size(), environment);
+
+  auto saved = std::make_shared<Environment::Saved>();
+  saved->identity = prefix.identity;
+  saved->values = take<Values>(bytes);
+  const auto pictures = bytes.first(prefix.pictures_size);
+  saved->pictures.assign(pictures.begin(), pictures.end());
+  bytes = bytes.subspan(pictures.size());
+  if (prefix.has_random != 0) saved->random = generator_of(take<GeneratorWords>(bytes));
+  return saved;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,131 @@
+#include "games/catalogue.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "games/game_file.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::size_t kMaxGameFile = 1 << 20;
+constexpr std::size_t kSuggestions = 3;
+
+// The built-in image of a game is recognised by its MD5, which its file doesn't have to list.
+std::shared_ptr<const Game> parsed(std::size_t number) {
+  const CatalogueEntry& entry = catalogue()[number];
+  Game game = parse_game(entry.text, std::string(entry.name), std::string(entry.name) + ".toml");
+  return std::make_shared<const Game>(std::move(game));
+}
+
+const CatalogueImage* known_image(std::string_view md5) {
+  const auto images = catalogue_images();
+  const auto found = std::ranges::lower_bound(images, md5, {}, &CatalogueImage::md5);
+  return found != images.end() && found->md5 == md5 ? &*found : nullptr;
+}
+
+// Levenshtein's: how many letters to insert, delete or replace.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+[[noreturn]] void refuse_name(const std::string& name) {
+  std::string near;
+  for (const std::string& similar : similar_games(name))
+    near += (near.empty() ? "; did you mean " : " or ") + similar;
+  throw std::invalid_argument("there is no game '" + name + "'" +
+                              (near.empty() ? "; `racebeam games` lists them" : near + "?"));
+}
+
+Recognition given(std::shared_ptr<const Game> game, RecognisedBy how, const Image& image) {
+  const bool matches = game->accepts(image.md5);
+  return {std::move(game), how, matches};
+}
+
+// Nobody's game; but the image may be another dump of a known one, which needs the same controllers.
+Recognition unknown(const Image& image) {
+  Game game = game_without_rule(image.stem);
+  if (const CatalogueImage* known = known_image(image.md5))
+    game.images.push_back({image.md5, parsed(known->entry)->properties_for(image.md5)});
+  return {std::make_shared<const Game>(std::move(game)), RecognisedBy::kNothing, true};
+}
+
+std::string stem_of(const std::string& path) {
+  std::string stem = std::filesystem::path(path).stem().string();
+  std::ranges::transform(stem, stem.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return stem;
+}
+
+}  // namespace
+
+std::shared_ptr<const Game> find_game(std::string_view name) {
+  const auto games = catalogue();
+  const auto found = std::ranges::lower_bound(games, name, {}, &CatalogueEntry::name);
+  if (found == games.end() || found->name != name) return nullptr;
+  return parsed(static_cast<std::size_t>(found - games.begin()));
+}
+
+std::shared_ptr<const Game> find_game_by_md5(std::string_view md5) {
+  const CatalogueImage* known = known_image(md5);
+  return known && known->accepted ? parsed(known->entry) : nullptr;
+}
+
+std::vector<std::string> similar_games(std::string_view name) {
+  std::vector<std::pair<std::size_t, std::string>> near;
+  for (const CatalogueEntry& entry : catalogue()) {
+    const bool begins_alike = name.size() > 2 && entry.name.starts_with(name);
+    const std::size_t distance = begins_alike ? 1 : edit_distance(name, entry.name);
+    if (distance <= std::max<std::size_t>(2, name.size() / 3)) near.emplace_back(distance, entry.name);
+  }
+  std::sort(near.begin(), near.end());
+  near.resize(std::min(near.size(), kSuggestions));
+  std::vector<std::string> names;
+  for (auto& [distance, similar] : near) names.push_back(std::move(similar));
+  return names;
+}
+
+std::shared_ptr<const Game> load_game_file(const std::string& path) {
+  if (std::filesystem::is_directory(path))
+    throw std::invalid_argument("game file " + path + ": this is a directory, not a file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::invalid_argument("game file " + path + ": the file cannot be opened for reading");
+  std::string text;
+  text.resize(kMaxGameFile + 1);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kMaxGameFile) throw std::invalid_argument("game file " + path + ": larger than 1 MiB");
+  return std::make_shared<const Game>(parse_game(text, stem_of(path), path));
+}
+
+Recognition recognise(const Image& image, const std::optional<std::string>& game_name,
+                      const std::optional<std::string>& game_file) {
+  if (game_name && game_file) throw std::invalid_argument("give the name of a game or a game file, not both");
+  if (game_file) return given(load_game_file(*game_file), RecognisedBy::kGivenFile, image);
+  if (game_name) {
+    auto game = find_game(*game_name);
+    if (!game) refuse_name(*game_name);
+    return given(std::move(game), RecognisedBy::kGivenName, image);
+  }
+  if (auto game = find_game_by_md5(image.md5)) return {std::move(game), RecognisedBy::kMd5, true};
+  if (auto game = find_game(image.stem)) return given(std::move(game), RecognisedBy::kFileName, image);
+  return unknown(image);
+}
+
+}  // namespace racebeam

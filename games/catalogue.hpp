@@ -1,0 +1,59 @@
+// The games that are part of the program, and how an image is recognised as one of them.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "games/game.hpp"
+#include "games/image.hpp"
+
+namespace racebeam {
+
+// A game file as it was built in; `text` is parsed when the game is asked for.
+struct CatalogueEntry {
+  std::string_view name;
+  std::string_view title;
+  bool has_rule;
+  bool built_in;  // its image is part of the program: builtin:NAME
+  std::string_view text;
+};
+
+// An image by its MD5, with the number of its game in catalogue().
+struct CatalogueImage {
+  std::string_view md5;
+  std::size_t entry;
+  bool accepted;  // see GameImage
+};
+
+std::span<const CatalogueEntry> catalogue();         // in order of names
+std::span<const CatalogueImage> catalogue_images();  // in order of MD5s
+
+std::shared_ptr<const Game> find_game(std::string_view name);  // null if there is none
+std::shared_ptr<const Game> find_game_by_md5(
+    std::string_view md5);  // only accepted images; null if there is none
+
+// The names most like `name`, nearest first; none if nothing is near.
+std::vector<std::string> similar_games(std::string_view name);
+
+// A game file of the user's. Throws std::invalid_argument: "FILE:LINE: FIELD: sentence".
+std::shared_ptr<const Game> load_game_file(const std::string& path);
+
+enum class RecognisedBy { kMd5, kGivenName, kGivenFile, kFileName, kNothing };
+
+struct Recognition {
+  std::shared_ptr<const Game> game;  // never null; without a rule if the image is unknown
+  RecognisedBy how = RecognisedBy::kNothing;
+  bool md5_matches = true;  // false: the game's rule was written for another image; worth a warning
+};
+
+// What was given explicitly wins; else the MD5 decides, else the file's name.
+// Throws std::invalid_argument for an unknown name (suggesting others) or a broken file.
+Recognition recognise(const Image& image, const std::optional<std::string>& game_name = std::nullopt,
+                      const std::optional<std::string>& game_file = std::nullopt);
+
+}  // namespace racebeam

@@ -1,0 +1,12 @@
+// The digest by which images are known.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace racebeam {
+
+std::string md5_of(std::span<const std::uint8_t> bytes);  // lower-case hex
+
+}  // namespace racebeam

@@ -1,0 +1,47 @@
+// What is known about one game: images, actions, modes, and the rule that turns memory into reward.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/properties.hpp"
+#include "games/actions.hpp"
+#include "games/mode_program.hpp"
+#include "games/rule.hpp"
+
+namespace racebeam {
+
+struct GameImage {
+  std::string md5;        // lower-case hex; empty: any image
+  Properties properties;  // what the console is told about this image
+  bool accepted = true;   // false: another dump, known but not recognised as this game by its MD5
+};
+
+struct Game {
+  std::string name;  // snake case; also the file stem by which an unknown image is recognised
+  std::string title;
+  std::vector<GameImage> images;
+
+  std::vector<int> legal_actions = all_actions();    // player A's numbers, ascending
+  std::vector<int> minimal_actions = all_actions();  // the useful ones of these, ascending
+  std::vector<int> starting_actions;                 // one frame each, after the mode program; 40 is RESET
+
+  std::vector<int> modes{0};
+  int default_mode = 0;
+  std::vector<int> difficulties{
+      0};               // bit 0: left switch A; bit 1: right switch A. An environment starts with 0
+  int paddle_max = -1;  // a wider paddle than usual; -1: the usual
+
+  std::optional<RuleProgram> rule;
+  ModeProgram mode_program;
+
+  bool has_rule() const { return rule.has_value(); }
+  bool accepts(const std::string& md5) const;  // the rule was written for this image
+  Properties properties_for(const std::string& md5) const;
+};
+
+// The game of an image that nobody knows: no score, all actions, both difficulty switches.
+Game game_without_rule(const std::string& name);
+
+}  // namespace racebeam

@@ -1,0 +1,175 @@
+#include "games/game_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "games/game_lists.hpp"
+#include "games/rule_compiler.hpp"
+#include "games/toml_section.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr int kLargestMode = 65535, kLargestDifficulty = 3;
+constexpr int kPictureLines =
+    300;  // of the picture buffer (tia.md, section 2); PAL makes 250 lines of the usual 210
+constexpr int kLastYStart = kPictureLines - 250, kLeastHeight = 100, kMostHeight = 256;
+
+// Images
+
+constexpr std::size_t kMd5Length = 32;
+
+bool is_md5(const std::string& text) {
+  return text.size() == kMd5Length && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+Properties properties_of(const Section& section) {
+  const std::vector<std::string> controllers = {"joystick", "paddles"};
+  const std::vector<std::string> formats = {"auto", "NTSC", "PAL", "PAL60", "SECAM"};
+  const std::vector<std::string> difficulties = {"B", "A"};
+  Properties made;
+  made.left = static_cast<Controller>(section.choice("left", controllers).value_or(0));
+  made.right = static_cast<Controller>(section.choice("right", controllers).value_or(0));
+  made.swap_ports = section.flag("swap_ports").value_or(made.swap_ports);
+  made.swap_paddles = section.flag("swap_paddles").value_or(made.swap_paddles);
+  made.left_difficulty_a = section.choice("left_difficulty", difficulties) == 1;
+  made.right_difficulty_a = section.choice("right_difficulty", difficulties) == 1;
+  made.hmove_blanks = section.flag("hmove_blanks").value_or(made.hmove_blanks);
+  made.format = static_cast<Format>(section.choice("format", formats).value_or(0));
+  made.ystart = section.number("ystart").value_or(made.ystart);
+  made.height = section.number("height").value_or(made.height);
+  return made;
+}
+
+GameImage read_image(const TomlSource& source, const toml::table& table) {
+  const Section section(source, table, "image");
+  section.allow({"md5", "left", "right", "swap_ports", "swap_paddles", "left_difficulty", "right_difficulty",
+                 "hmove_blanks", "format", "ystart", "height", "accepted"});
+  GameImage image{.md5 = section.text("md5").value_or(""),
+                  .properties = properties_of(section),
+                  .accepted = section.flag("accepted").value_or(true)};
+  const auto in_range = [&](const char* key, int value, int low, int high) {
+    if (value < low || value > high)
+      section.refuse(*table.get(key), key, "must be " + std::to_string(low) + " to " + std::to_string(high));
+  };
+  in_range("ystart", image.properties.ystart, 0, kLastYStart);
+  in_range("height", image.properties.height, kLeastHeight, kMostHeight);
+  if (image.properties.ystart + image.properties.height > kPictureLines)
+    section.refuse(table, "height", "ystart and height must not be more than 300 lines together");
+  if (table.contains("md5") && !is_md5(image.md5))
+    section.refuse(*table.get("md5"), "md5", "must be 32 lower-case hexadecimal digits");
+  return image;
+}
+
+std::vector<GameImage> read_images(const TomlSource& source, const Section& section) {
+  std::vector<GameImage> images;
+  const toml::array* list = section.list("image");
+  if (!list) return images;
+  for (const toml::node& node : *list) {
+    if (!node.is_table()) section.refuse(node, "image", "must be tables: write [[image]]");
+    images.push_back(read_image(source, *node.as_table()));
+  }
+  return images;
+}
+
+// Rule and mode program
+
+void read_reset(const Section& section, const toml::table& table, RuleCompiler& compiler) {
+  for (const auto& [key, node] : table) {
+    const std::int32_t initial = *section.number(key.str());
+    section.guard(node, key.str(), [&] { compiler.reset_to(key.str(), initial); });
+  }
+}
+
+void read_keep(const Section& section, RuleCompiler& compiler) {
+  const toml::array* list = section.list("keep");
+  if (!list) return;
+  for (const toml::node& node : *list)
+    section.guard(node, "keep", [&] { compiler.keep(node.value_exact<std::string>().value_or("")); });
+}
+
+void read_answers(const Section& section, RuleCompiler& compiler) {
+  compiler.terminal("terminal");
+  compiler.lives(compiler.assigns("lives") ? "if(terminal, 0, lives)" : "if(terminal, 0, 1)");
+  section.compile("terminal", [&](std::string_view source) { compiler.terminal(source); });
+  section.compile("lives", [&](std::string_view source) { compiler.lives(source); });
+}
+
+// A variable that is set but never looked at is most likely a misspelt one.
+void refuse_useless(const Section& section, const toml::table& reset, const RuleCompiler& compiler) {
+  for (const auto& [key, node] : reset)
+    if (!compiler.uses(key.str()))
+      section.refuse(node, key.str(), "nothing uses this variable's value from before a step");
+}
+
+// The mode program may look at variables of the rule, so that both are compiled together.
+void read_rule(const TomlSource& source, const toml::table& table, const Section* mode, Game& game) {
+  const Section section(source, table, "rule");
+  section.allow({"step", "reset", "keep", "terminal", "lives"});
+  if (!table.contains("step")) section.refuse_missing("step", "a rule needs this");
+  const toml::table none;
+  const toml::table* reset = section.table("reset");
+  if (!reset) reset = &none;
+  const Section reset_section(source, *reset, "rule.reset");
+
+  RuleCompiler compiler;
+  read_reset(reset_section, *reset, compiler);
+  read_keep(section, compiler);
+  section.compile("step", [&](std::string_view text) { compiler.step(text); });
+  read_answers(section, compiler);
+  if (mode)
+    mode->compile("setup", [&](std::string_view text) { game.mode_program = compiler.mode_program(text); });
+  refuse_useless(reset_section, *reset, compiler);
+  game.rule = compiler.finish();
+}
+
+void read_default_mode(const Section& section, const toml::table& table, Game& game) {
+  game.default_mode = section.number("default_mode").value_or(game.modes.front());
+  if (std::find(game.modes.begin(), game.modes.end(), game.default_mode) == game.modes.end())
+    section.refuse(*table.get("default_mode"), "default_mode", "must be one of the modes");
+}
+
+void read_minimal(const Section& section, const toml::table& table, Game& game) {
+  game.minimal_actions = read_actions(section, "minimal", game.legal_actions);
+  if (!std::ranges::includes(game.legal_actions, game.minimal_actions))
+    section.refuse(*table.get("minimal"), "minimal", "must be legal actions");
+}
+
+void read_facts(const TomlSource& source, const Section& section, const toml::table& table, Game& game) {
+  game.title = section.text("title").value_or("");
+  if (game.title.empty()) section.refuse_missing("title", "a game needs this");
+  game.images = read_images(source, section);
+  game.legal_actions = read_actions(section, "legal", all_actions());
+  read_minimal(section, table, game);
+  game.starting_actions = read_starting_actions(section, "start");
+  game.modes = read_numbers(section, "modes", kLargestMode);
+  read_default_mode(section, table, game);
+  game.difficulties = read_numbers(section, "difficulties", kLargestDifficulty);
+  game.paddle_max = section.number("paddle_max").value_or(-1);
+  if (table.contains("paddle_max") && game.paddle_max < 1)
+    section.refuse(*table.get("paddle_max"), "paddle_max", "must be a resistance in ohms, at least 1");
+}
+
+}  // namespace
+
+Game parse_game(std::string_view text, const std::string& name, const std::string& file) {
+  const TomlSource source{text, file};
+  const toml::table table = parse_toml(source);
+  const Section section(source, table, "");
+  section.allow({"title", "legal", "minimal", "start", "modes", "default_mode", "difficulties", "paddle_max",
+                 "image", "rule", "mode"});
+  Game game;
+  game.name = name;
+  read_facts(source, section, table, game);
+
+  std::optional<Section> mode;
+  if (const toml::table* found = section.table("mode")) mode.emplace(source, *found, "mode").allow({"setup"});
+  if (const toml::table* rule = section.table("rule"))
+    read_rule(source, *rule, mode ? &*mode : nullptr, game);
+  else if (mode)
+    section.refuse(*table.get("mode"), "mode", "a mode program needs a [rule] beside it");
+  return game;
+}
+
+}  // namespace racebeam

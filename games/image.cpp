@@ -1,0 +1,83 @@
+#include "games/image.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <stdexcept>
+
+#include "games/digest.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::string_view kBuiltIn = "builtin:";
+
+[[noreturn]] void refuse(const std::string& where, const std::string& why) {
+  throw std::invalid_argument("image " + where + ": " + why);
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// pong.bin, PONG.a26 and pong.bin.gz are all "pong".
+std::string stem_of(std::filesystem::path path) {
+  if (path.extension() == ".gz") path = path.stem();
+  return lower(path.stem().string());
+}
+
+std::shared_ptr<const Image> image_of(std::vector<std::uint8_t> bytes, std::string stem) {
+  std::string md5 = md5_of(bytes);
+  return std::make_shared<const Image>(Image{
+      std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes)), std::move(md5), std::move(stem)});
+}
+
+std::shared_ptr<const Image> built_in(std::string_view name) {
+  std::string known;
+  for (const BuiltInImage& image : builtin_images()) {
+    if (image.name == name) return image_of({image.bytes.begin(), image.bytes.end()}, std::string(name));
+    known += (known.empty() ? "" : ", ") + std::string(kBuiltIn) + std::string(image.name);
+  }
+  refuse(std::string(kBuiltIn) + std::string(name),
+         "there is no such built-in image; there are: " + (known.empty() ? "none" : known));
+}
+
+struct Closer {
+  void operator()(gzFile file) const { gzclose(file); }
+};
+using GzipFile = std::unique_ptr<gzFile_s, Closer>;
+
+// At most one byte more than an image may have. zlib hands on files that aren't gzip as they are.
+std::vector<std::uint8_t> read_file(const std::string& path) {
+  const GzipFile file(gzopen(path.c_str(), "rb"));
+  if (!file) refuse(path, "the file cannot be opened for reading");
+  std::vector<std::uint8_t> bytes(kMaxImageSize + 1);
+  const int count = gzread(file.get(), bytes.data(), static_cast<unsigned>(bytes.size()));
+  int error = Z_OK;
+  gzerror(file.get(), &error);
+  if (error == Z_BUF_ERROR) refuse(path, "the gzip file is truncated");
+  if (count < 0) refuse(path, error == Z_ERRNO ? "the file cannot be read" : "the gzip file is damaged");
+  bytes.resize(static_cast<std::size_t>(count));
+  return bytes;
+}
+
+}  // namespace
+
+std::shared_ptr<const Image> load_image(const std::string& where) {
+  if (where.starts_with(kBuiltIn)) return built_in(std::string_view(where).substr(kBuiltIn.size()));
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(where, ignored);
+  if (!std::filesystem::exists(status)) refuse(where, "there is no such file");
+  if (std::filesystem::is_directory(status)) refuse(where, "this is a directory, not a file");
+  std::vector<std::uint8_t> bytes = read_file(where);
+  if (bytes.empty()) refuse(where, "the file is empty");
+  if (bytes.size() > kMaxImageSize)
+    refuse(where, "larger than an image can be, " + std::to_string(kMaxImageSize) + " bytes");
+  return image_of(std::move(bytes), stem_of(where));
+}
+
+}  // namespace racebeam

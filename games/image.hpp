@@ -1,0 +1,34 @@
+// A cartridge image: its bytes and how it is called.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "games/digest.hpp"
+
+namespace racebeam {
+
+constexpr std::size_t kMaxImageSize = 524288;
+
+struct Image {
+  std::shared_ptr<const std::vector<std::uint8_t>> bytes;
+  std::string md5;   // of the bytes, lower-case hex
+  std::string stem;  // the file's name without its ending, lower case; or the built-in's name
+};
+
+// `where`: a path (gzip is inflated), or builtin:NAME. Throws std::invalid_argument with a sentence.
+std::shared_ptr<const Image> load_image(const std::string& where);
+
+// The images that are part of the program.
+struct BuiltInImage {
+  std::string_view name;
+  std::span<const std::uint8_t> bytes;
+};
+std::span<const BuiltInImage> builtin_images();
+
+}  // namespace racebeam

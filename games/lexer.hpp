@@ -1,0 +1,54 @@
+// Words of the rule language, each with its place in the text.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace racebeam {
+
+// What is wrong with a piece of a rule, and on which of its lines (from 1).
+struct SourceError : std::invalid_argument {
+  SourceError(int at, const std::string& sentence) : std::invalid_argument(sentence), line(at) {}
+  int line;
+};
+
+struct Token {
+  enum class Kind { kName, kNumber, kText, kSymbol, kLineEnd, kEnd };
+  Kind kind;
+  std::string_view text;  // of the source, which must live as long; kText: without the quotes
+  int line;
+  std::int32_t value = 0;  // kNumber
+};
+
+// The tokens of `source`, the last one kEnd. Line ends inside ( and [ are left out, as are comments.
+std::vector<Token> tokens_of(std::string_view source);
+
+// A place among tokens, and the questions that a parser asks there.
+class TokenReader {
+ public:
+  explicit TokenReader(const std::vector<Token>& tokens) : at_(tokens.data()) {}
+
+  const Token& peek(int ahead = 0) const;
+  const Token& next();
+  bool at_end() const { return at_->kind == Token::Kind::kEnd; }
+  bool is(std::string_view symbol_or_name, int ahead = 0) const;
+  bool accept(std::string_view symbol_or_name);
+  void expect(std::string_view symbol, std::string_view where);
+  void skip_separators();                                       // line ends and ';'
+  void expect_separator();                                      // or a '}' or the end, which stay
+  [[noreturn]] void refuse(const std::string& sentence) const;  // at the token that comes next
+
+  const Token* place() const { return at_; }  // to parse a piece again
+  void go_to(const Token* place) { at_ = place; }
+
+ private:
+  const Token* at_;
+};
+
+std::string quoted(std::string_view text);  // 'text'
+std::string described(const Token& token);  // for an error: 'lives', the end of the line, ...
+
+}  // namespace racebeam

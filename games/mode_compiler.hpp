@@ -1,0 +1,14 @@
+// Compiles mode programs (games/catalogue/README.md, "[mode]").
+#pragma once
+
+#include <string_view>
+
+#include "games/mode_program.hpp"
+#include "games/names.hpp"
+
+namespace racebeam {
+
+// `names` are the variables of the game's rule. Throws SourceError.
+ModeProgram compile_mode_program(std::string_view source, Names& names);
+
+}  // namespace racebeam

@@ -1,0 +1,73 @@
+// One session of the text protocol of ALE 0.4 to 0.6 (spec: classic-protocol.md; for clients: CLASSIC.md).
+// It has never heard of files and sockets: bytes go in, lines of text come out.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "environment/environment.hpp"
+#include "protocol/lines.hpp"
+
+namespace racebeam {
+
+// What a client sent makes no sense; the session is over.
+class ClassicError : public std::runtime_error {
+ public:
+  ClassicError(int status, const std::string& sentence) : std::runtime_error(sentence), status_(status) {}
+  int status() const { return status_; }  // of the process, when the session is all it does
+
+ private:
+  int status_;
+};
+
+constexpr int kMalformedStatus = 1;        // the classic server crashes
+constexpr int kUnknownActionStatus = 255;  // as the classic server
+
+struct ClassicOptions {
+  bool run_length = true;  // how a screen is written
+  int max_num_frames = 0;  // frames since the start after which DIE is sent; 0: no limit
+};
+
+class ClassicSession {
+ public:
+  ClassicSession(Environment& environment, const ClassicOptions& options);
+
+  // The next text to send, good until the next call; nothing if more input is needed first.
+  // Throws ClassicError.
+  std::optional<std::string_view> reply();
+  bool ended() const { return stage_ == Stage::kEnded; }  // once what reply() has given is sent
+
+  std::span<char> space() { return input_.space(); }  // where input goes
+  void received(std::size_t count);                   // so much came; 0: the client has closed its end
+
+ private:
+  enum class Stage { kDimensions, kFlags, kPlaying, kEnded };
+
+  std::string_view dimensions();
+  std::string_view answer(std::string_view line);
+  std::string_view last_words();  // at the end of input
+  void take_flags(std::string_view line);
+  void take_action(std::string_view line);
+  void act(int a, int b);
+  void load_state();
+  std::string_view data_line();
+  std::string_view die();
+
+  Environment& environment_;
+  ClassicOptions options_;
+  bool paddles_;
+  LineBuffer input_;
+  bool input_closed_ = false;
+  Stage stage_ = Stage::kDimensions;
+  bool send_screen_ = false, send_ram_ = false, send_episode_ = false;
+  int reward_ = 0;  // of the last action
+  std::vector<std::shared_ptr<const Environment::Saved>> saved_;
+  std::string text_;  // what was answered last; kept for its memory
+};
+
+}  // namespace racebeam

@@ -1,0 +1,22 @@
+// What a server offers: machines, and how to talk to them.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "environment/environment.hpp"
+#include "protocol/classic.hpp"
+
+namespace racebeam {
+
+struct ClassicService {
+  std::function<Environment()> power_on;  // a machine of its own for each session; called from any thread
+  ClassicOptions options;
+};
+
+// For the log: a session can be played again when its seed is known.
+inline std::string describe(const Environment& machine) {
+  return machine.game().name + ", seed " + std::to_string(machine.settings().random_seed);
+}
+
+}  // namespace racebeam
