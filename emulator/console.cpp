@@ -1,7 +1,8 @@
 #include "emulator/console.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <atomic>
+#include <utility>
 
 #include "emulator/board.hpp"
 #include "emulator/cpu.hpp"
@@ -24,8 +25,7 @@ struct Console::Impl {
   PowerOn& power_on;
   Board board;
   Format format;
-  std::array<Picture, 2> picture;
-  std::size_t current = 0;  // which of the two was drawn last
+  Pictures pictures;
 
   State& state() { return board.state; }
   std::size_t picture_size() const { return static_cast<std::size_t>(height()) * kLinePixels; }
@@ -35,6 +35,7 @@ struct Console::Impl {
   void set_timer();
   void reset();
   void step();
+  Picture& canvas();
   Format detect_format();
 };
 
@@ -70,10 +71,7 @@ void Console::Impl::reset() {
   state().frame = FrameState{};
   state().frame.open = open;
   state().frame.greyed = greyed;
-  for (Picture& buffer : picture) {
-    buffer.pixel.fill(0);
-    buffer.forget_lines();
-  }
+  pictures = {std::make_shared<Picture>(), std::make_shared<Picture>()};
   const Scheme& scheme = board.slot.scheme;
   power_on.fill_cartridge(std::span(state().cartridge.ram).first(scheme.ram), state().drawn);
   scheme.reset(board.slot);
@@ -85,21 +83,29 @@ void Console::Impl::reset() {
 void Console::Impl::step() {
   FrameState& frame = state().frame;
   if (!frame.open) {
-    current ^= 1;
+    std::swap(pictures.current, pictures.previous);
     board.open_frame();
     frame.greyed = 0;
   }
   frame.open = 1;
-  board.begin_step(picture[current]);
+  Picture& picture = canvas();
+  board.begin_step(picture);
   run(board, kInstructionsPerStep);
   board.end_step();
   if (!frame.open) {
     frame.lines = (3 * state().cycle - state().tia.origin) / kLineClocks;
     frame.greyed = 0;
   } else if (!frame.greyed) {
-    board.tia.grey(picture[current], state().cycle);
+    board.tia.grey(picture, state().cycle);
     frame.greyed = 1;
   }
+}
+
+// The picture that is drawn on: the console's own, not one that a snapshot holds too.
+Picture& Console::Impl::canvas() {
+  if (pictures.current.use_count() > 1) pictures.current = std::make_shared<Picture>(*pictures.current);
+  std::atomic_thread_fence(std::memory_order_acquire);  // a snapshot may have been let go in another thread
+  return *pictures.current;
 }
 
 Format Console::Impl::detect_format() {
@@ -140,21 +146,15 @@ bool Console::has_paddles() const {
 }
 
 std::span<const std::uint8_t> Console::picture() const {
-  return std::span(impl_->picture[impl_->current].pixel).first(impl_->picture_size());
+  return std::span(impl_->pictures.current->pixel).first(impl_->picture_size());
 }
 
 std::span<const std::uint8_t> Console::previous_picture() const {
-  return std::span(impl_->picture[impl_->current ^ 1].pixel).first(impl_->picture_size());
+  return std::span(impl_->pictures.previous->pixel).first(impl_->picture_size());
 }
 
-void Console::restore_pictures(std::span<const std::uint8_t> current, std::span<const std::uint8_t> previous) {
-  const auto put = [](std::span<const std::uint8_t> pixels, Picture& buffer) {
-    std::copy(pixels.begin(), pixels.end(), buffer.pixel.begin());
-    buffer.forget_lines();
-  };
-  put(current, impl_->picture[impl_->current]);
-  put(previous, impl_->picture[impl_->current ^ 1]);
-}
+const Pictures& Console::pictures() const { return impl_->pictures; }
+void Console::restore_pictures(const Pictures& pictures) { impl_->pictures = pictures; }
 
 std::span<const std::uint8_t, 128> Console::ram() const { return impl_->board.state.riot.ram; }
 

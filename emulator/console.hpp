@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/inputs.hpp"
+#include "emulator/picture.hpp"
 #include "emulator/power_on.hpp"
 #include "emulator/properties.hpp"
 #include "emulator/sound.hpp"
@@ -39,8 +40,10 @@ class Console {
   std::span<const std::uint8_t> picture() const;           // height() x 160 palette indices, drawn last
   std::span<const std::uint8_t> previous_picture() const;  // the picture before it
 
-  // Both buffers with their order, for a snapshot: 2 x height() x 160 bytes, current first.
-  void restore_pictures(std::span<const std::uint8_t> current, std::span<const std::uint8_t> previous);
+  // Both buffers with their order, for a snapshot. They are shared until the console draws on one of them again, so
+  // that taking and putting back cost nothing. What is put back must come from a console with the same properties.
+  const Pictures& pictures() const;
+  void restore_pictures(const Pictures& pictures);
 
   std::span<const std::uint8_t, 128> ram() const;  // $80-$FF
   void set_ram(int index, std::uint8_t value);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "emulator/board.hpp"
+#include "emulator/timer_loop.hpp"
 
 #define RACEBEAM_INLINE [[gnu::always_inline]] inline
 
@@ -72,6 +73,15 @@ struct Core {
   RACEBEAM_INLINE void begin(std::int32_t base_cycles) {
     ++PC;
     cycle += base_cycles;
+  }
+
+  // At the end of a taken branch that may close a timer loop: goes on before the last turn.
+  RACEBEAM_INLINE void skip_timer_loop(std::int32_t period) {
+    if (code < board.code.memory + 3 || code >= board.code.memory + board.code.span) return;
+    std::int32_t turns = sure_timer_turns(code, board.state.riot, cycle + 4, period);
+    turns = turns < budget / 2 ? turns : budget / 2;
+    cycle += turns * period;
+    budget -= 2 * turns;
   }
 
   // Its operand.

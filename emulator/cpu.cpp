@@ -10,6 +10,8 @@
 namespace racebeam {
 namespace {
 
+constexpr int kLoadCycles = 4, kBranchCycles = 2;  // of the two instructions of a timer loop
+
 // The shapes of an instruction, one for each kind of access in opcodes.inc.
 template <auto kMode, void (*kOperation)(Core&, std::uint8_t)>
 RACEBEAM_INLINE void Read(Core& cpu) {
@@ -54,8 +56,10 @@ RACEBEAM_INLINE void Branch(Core& cpu) {
   const auto offset = static_cast<std::int8_t>(cpu.fetch());
   if (!kTaken(cpu)) return;
   const auto target = static_cast<std::uint16_t>(cpu.PC + offset);
-  cpu.cycle += (target ^ cpu.PC) > 0xFF ? 2 : 1;
+  const int penalty = (target ^ cpu.PC) > 0xFF ? 2 : 1;
+  cpu.cycle += penalty;
   cpu.PC = target;
+  if (offset == kTimerLoopOffset) cpu.skip_timer_loop(kLoadCycles + kBranchCycles + penalty);
 }
 
 constexpr bool is_read(char first_letter_of_kind) { return first_letter_of_kind == 'R'; }

@@ -1,5 +1,7 @@
 #include "emulator/line_key.hpp"
 
+#include <bit>
+
 #include "emulator/objects.hpp"
 #include "emulator/registers.hpp"
 
@@ -54,32 +56,56 @@ std::uint8_t enabled_objects(const TiaRegisters& r) {
   return objects;
 }
 
+// Bit 7 of an index to kMasks: score mode shows the players' colours in the playfield.
+constexpr std::uint8_t kScoreMode = 1U << 7;
+
+// The bytes of the registers that can be seen are $FF, the others 0.
+constexpr TiaRegisters make_mask(unsigned seen) {
+  const auto shown = [seen](unsigned bits) { return static_cast<std::uint8_t>(seen & bits ? 0xFF : 0); };
+  const std::uint8_t motion = shown(kMovesObjects);
+  TiaRegisters mask;
+  for (unsigned i = 0; i < 2; ++i) {
+    const std::uint8_t player = shown(bit(kP0 + i)), missile = shown(bit(kM0 + i));
+    const std::uint8_t moves = player & motion, either = player | missile;
+    mask.player[i] = {player, player, player, player, either, player, moves, player};
+    mask.missile[i] = {missile, missile, missile, static_cast<std::uint8_t>(missile & motion)};
+    mask.color[i] = either | shown(kScoreMode);
+  }
+  const std::uint8_t ball = shown(bit(kBall));
+  mask.ball = {ball, ball, ball, ball, static_cast<std::uint8_t>(ball & motion)};
+  mask.color[2] = shown(bit(kBall) | bit(kPlayfield));
+  mask.color[3] = mask.ctrlpf = mask.reflect = 0xFF;
+  mask.pf = {0xFF, 0xFF, 0xFF};
+  mask.vblank = mask.comb_armed = mask.cosmic = mask.cosmic_count = 0xFF;
+  mask.cosmic_shape = static_cast<CosmicShape>(0xFF);
+  return mask;
+}
+
+constexpr std::array<TiaRegisters, 256> make_masks() {
+  std::array<TiaRegisters, 256> table;
+  for (unsigned seen = 0; seen < 256; ++seen) table[seen] = make_mask(seen);
+  return table;
+}
+constexpr auto kMasks = make_masks();
+
+using Words = std::array<std::uint64_t, sizeof(TiaRegisters) / sizeof(std::uint64_t)>;
+
 }  // namespace
 
 constinit const std::array<LineEffect, 64> kLineEffects = make_effects();
 
-TiaRegisters line_key(const TiaRegisters& registers, std::uint8_t involved_by_events) {
-  TiaRegisters key = registers;
-  if (registers.vblank && !(involved_by_events & kBlanks)) {
-    key = TiaRegisters{};
-    key.vblank = 1;
-    return key;
+TiaRegisters line_key(const TiaRegisters& registers, std::uint8_t involved) {
+  if (registers.vblank && !(involved & kBlanks)) {
+    TiaRegisters black;
+    black.vblank = 1;
+    return black;
   }
-  const std::uint8_t seen = enabled_objects(registers) | involved_by_events;
-  const bool moves = (seen & kMovesObjects) != 0;
-  for (unsigned i = 0; i < 2; ++i) {
-    const bool player = (seen & bit(kP0 + i)) != 0, missile = (seen & bit(kM0 + i)) != 0;
-    const std::uint8_t nusiz = key.player[i].nusiz;
-    if (!player) key.player[i] = PlayerState{};
-    if (!missile) key.missile[i] = MissileState{};
-    if (!moves) key.player[i].motion = key.missile[i].motion = 0;
-    if (missile) key.player[i].nusiz = nusiz;
-    if (!player && !missile && !(key.ctrlpf & 2)) key.color[i] = 0;  // score mode shows them in the playfield
-  }
-  if (!(seen & bit(kBall))) key.ball = BallState{};
-  else if (!moves) key.ball.motion = 0;
-  if (!(seen & (bit(kBall) | bit(kPlayfield)))) key.color[2] = 0;
-  return key;
+  unsigned seen = (enabled_objects(registers) | involved) & ~kScoreMode;
+  if (registers.ctrlpf & 2) seen |= kScoreMode;
+  Words words = std::bit_cast<Words>(registers);
+  const Words mask = std::bit_cast<Words>(kMasks[seen]);
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] &= mask[i];
+  return std::bit_cast<TiaRegisters>(words);
 }
 
 }  // namespace racebeam

@@ -19,7 +19,7 @@ constexpr std::uint8_t kMovesObjects = 1U << 6, kBlanks = 1U << 7;
 
 extern const std::array<LineEffect, 64> kLineEffects;
 
-// `registers` with everything set to zero that can't be seen.
-TiaRegisters line_key(const TiaRegisters& registers, std::uint8_t involved_by_events);
+// `registers` with everything set to zero that can't be seen. involved: of all writes on the line.
+TiaRegisters line_key(const TiaRegisters& registers, std::uint8_t involved);
 
 }  // namespace racebeam

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
+#include <memory>
 
 #include "emulator/line.hpp"
 #include "emulator/state.hpp"
@@ -33,13 +35,14 @@ struct LineRecord {
   std::uint8_t count = kInvalid;   // of events
   std::uint8_t repeats;            // drawn in one piece by the registers as the line left them
   std::uint8_t comb_armed;         // what the line left
-  std::array<LineEvent, 15> event;
+  std::array<LineEvent, 18> event;
 
   bool same_line(const LineRecord& other) const {
-    return count == other.count && key == other.key && std::equal(event.begin(), event.begin() + count, other.event.begin());
+    return count == other.count && std::memcmp(&key, &other.key, sizeof key) == 0 &&
+           std::equal(event.begin(), event.begin() + count, other.event.begin());
   }
 };
-static_assert(sizeof(LineRecord) <= 112);
+static_assert(sizeof(LineRecord) == 128);
 
 struct Picture {
   static constexpr int kRows = 320;  // the window, and what a reset may shift it down by (tia.md, section 2)
@@ -51,6 +54,11 @@ struct Picture {
   void forget_lines() {
     for (LineRecord& record : line) record.count = LineRecord::kInvalid;
   }
+};
+
+// The one drawn last, and the one before it.
+struct Pictures {
+  std::shared_ptr<Picture> current, previous;
 };
 
 }  // namespace racebeam

@@ -37,22 +37,16 @@ struct PlayerState {
   std::uint8_t position = 0;  // 0-159
   std::uint8_t motion = 0;    // HMPx >> 4
   std::uint8_t skip = 0;      // the first copy is left out until the end of the line
-
-  bool operator==(const PlayerState&) const = default;
 };
 
 struct MissileState {
   std::uint8_t enabled = 0, locked = 0;  // ENAMx, RESMPx
   std::uint8_t position = 0, motion = 0;
-
-  bool operator==(const MissileState&) const = default;
 };
 
 struct BallState {
   std::uint8_t enabled = 0, old_enabled = 0, vdel = 0;
   std::uint8_t position = 0, motion = 0;
-
-  bool operator==(const BallState&) const = default;
 };
 
 enum class CosmicShape : std::uint8_t { kNormal, kStretched, kHidden };
@@ -71,9 +65,7 @@ struct TiaRegisters {
   std::uint8_t cosmic = 0;         // missile 0 moves by itself (tia.md, "Cosmic Ark mode")
   std::uint8_t cosmic_count = 0;
   CosmicShape cosmic_shape = CosmicShape::kNormal;
-  std::uint8_t spare = 0;
-
-  bool operator==(const TiaRegisters&) const = default;
+  std::uint8_t spare[5]{};         // to a whole number of words: compared and masked as such, for every line
 };
 
 // The picture side of the TIA: registers, and where the beam is.
@@ -116,7 +108,7 @@ struct State {
   Inputs inputs;
 };
 
-static_assert(sizeof(TiaRegisters) == 44);  // compared as a whole, for every line of a frame
+static_assert(sizeof(TiaRegisters) == 48);
 static_assert(std::is_trivially_copyable_v<State>);
 static_assert(std::has_unique_object_representations_v<State>);  // no padding, no floats
 static_assert(sizeof(State) <= 2048);
