@@ -1,7 +1,6 @@
 #include "games/expression.hpp"
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -46,7 +45,7 @@ constexpr std::array kFunctions = {Function{"if", 3, Op::kSelect}, Function{"min
                                    Function{"u8", 1, Op::kUnsigned8}};
 
 constexpr int kFirstRamAddress = 0x80, kLastRamAddress = 0xFF;
-constexpr int kDeepest = 100;       // parentheses in parentheses, so that no text can exhaust the stack
+constexpr int kDeepest = 500;  // levels of operators and parentheses, so that no text can exhaust the stack
 constexpr int kMaxSumTerms = 4096;  // of one expression, in all
 
 class Compiler {
@@ -55,7 +54,7 @@ class Compiler {
       : in_(reader), scope_(scope), out_(builder) {}
 
   Register expression(int level = kLoosest) {
-    if (++depth_ > kDeepest) in_.refuse("the expression is nested too deeply");
+    const Nesting nesting(*this);
     Register left = unary();
     bool compared = false;
     while (const Binary* binary = operator_ahead(level)) {
@@ -65,11 +64,18 @@ class Compiler {
       in_.next();
       left = emit({.op = binary->op, .a = left, .b = expression(binary->level + 1)});
     }
-    --depth_;
     return left;
   }
 
  private:
+  struct Nesting {
+    explicit Nesting(Compiler& in) : compiler(in) {
+      if (++compiler.depth_ > kDeepest) compiler.in_.refuse("the expression is nested too deeply");
+    }
+    ~Nesting() { --compiler.depth_; }
+    Compiler& compiler;
+  };
+
   const Binary* operator_ahead(int level) const {
     for (const Binary& binary : kBinaries)
       if (binary.level >= level && in_.is(binary.symbol)) return &binary;
@@ -77,8 +83,9 @@ class Compiler {
   }
 
   Register unary() {
+    const Nesting nesting(*this);
     for (const Unary& sign : kUnaries)
-      if (in_.accept(sign.symbol)) return emit({.op = sign.op, .a = nested([this] { return unary(); })});
+      if (in_.accept(sign.symbol)) return emit({.op = sign.op, .a = unary()});
     return primary();
   }
 
@@ -88,13 +95,6 @@ class Compiler {
     if (in_.peek().kind != Token::Kind::kName) in_.refuse("expected a value, found " + described(in_.peek()));
     if (in_.is("[", 1)) return memory();
     return in_.is("(", 1) ? call() : name();
-  }
-
-  Register nested(const std::function<Register()>& parse) {
-    if (++depth_ > kDeepest) in_.refuse("the expression is nested too deeply");
-    const Register value = parse();
-    --depth_;
-    return value;
   }
 
   Register closed(Register value, std::string_view bracket) {

@@ -1,7 +1,7 @@
 #include "games/game_file.hpp"
 
 #include <algorithm>
-#include <cctype>
+#include <optional>
 #include <utility>
 
 #include "games/game_lists.hpp"
@@ -12,8 +12,8 @@ namespace racebeam {
 namespace {
 
 constexpr int kLargestMode = 65535, kLargestDifficulty = 3;
-constexpr int kPictureLines =
-    300;  // of the picture buffer (tia.md, section 2); PAL makes 250 lines of the usual 210
+// The picture buffer has 300 lines (tia.md, section 2), and PAL makes 250 of the usual 210.
+constexpr int kPictureLines = 300;
 constexpr int kLastYStart = kPictureLines - 250, kLeastHeight = 100, kMostHeight = 256;
 
 // Images
@@ -89,18 +89,27 @@ void read_keep(const Section& section, RuleCompiler& compiler) {
     section.guard(node, "keep", [&] { compiler.keep(node.value_exact<std::string>().value_or("")); });
 }
 
-void read_answers(const Section& section, RuleCompiler& compiler) {
-  compiler.terminal("terminal");
-  compiler.lives(compiler.assigns("lives") ? "if(terminal, 0, lives)" : "if(terminal, 0, 1)");
+void read_answers(const Section& section, const toml::table& table, RuleCompiler& compiler) {
+  const char* usual_lives = compiler.assigns("lives") ? "if(terminal, 0, lives)" : "if(terminal, 0, 1)";
+  if (!table.contains("terminal")) compiler.terminal("terminal");
+  if (!table.contains("lives")) compiler.lives(usual_lives);
   section.compile("terminal", [&](std::string_view source) { compiler.terminal(source); });
   section.compile("lives", [&](std::string_view source) { compiler.lives(source); });
 }
 
 // A variable that is set but never looked at is most likely a misspelt one.
-void refuse_useless(const Section& section, const toml::table& reset, const RuleCompiler& compiler) {
+constexpr const char* kUseless = "nothing uses this variable's value from before a step";
+
+void refuse_useless_reset(const Section& section, const toml::table& reset, const RuleCompiler& compiler) {
   for (const auto& [key, node] : reset)
-    if (!compiler.uses(key.str()))
-      section.refuse(node, key.str(), "nothing uses this variable's value from before a step");
+    if (!compiler.uses(key.str())) section.refuse(node, key.str(), kUseless);
+}
+
+void refuse_useless_keep(const Section& section, const RuleCompiler& compiler) {
+  const toml::array* list = section.list("keep");
+  if (!list) return;
+  for (const toml::node& node : *list)
+    if (!compiler.uses(*node.value_exact<std::string>())) section.refuse(node, "keep", kUseless);
 }
 
 // The mode program may look at variables of the rule, so that both are compiled together.
@@ -117,10 +126,11 @@ void read_rule(const TomlSource& source, const toml::table& table, const Section
   read_reset(reset_section, *reset, compiler);
   read_keep(section, compiler);
   section.compile("step", [&](std::string_view text) { compiler.step(text); });
-  read_answers(section, compiler);
+  read_answers(section, table, compiler);
   if (mode)
     mode->compile("setup", [&](std::string_view text) { game.mode_program = compiler.mode_program(text); });
-  refuse_useless(reset_section, *reset, compiler);
+  refuse_useless_reset(reset_section, *reset, compiler);
+  refuse_useless_keep(section, compiler);
   game.rule = compiler.finish();
 }
 

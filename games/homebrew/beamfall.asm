@@ -54,11 +54,12 @@ HIT_TIME        = 64
 OVER_TIME       = 60            ; frames before FIRE is heard again
 SHIELD_TIME     = 100           ; frames in which a new ship cannot be hurt
 SPARK_WAIT      = 50
+LOWEST_SPARK    = 14
 
 BEAM_ROWS       = 4
 BEAM_START      = FIELD_ROWS + 12  ; above the top: a pause between two beams
-BEAM_SPEED      = $68           ; rows a frame / 256, in wave 0
-BEAM_SPEED_STEP = $10           ; more in every wave
+BEAM_SPEED      = $68           ; rows a frame / 256; 16 more in every wave,
+BEAM_SPEED_A    = $14           ; and this more with left difficulty A: 252 in the last wave
 GAP_B           = 7             ; width of the gap in playfield cells of 4 pixels, in wave 0
 GAP_A           = 5
 
@@ -67,9 +68,8 @@ GLITCH_DEAD     = 64            ; frames from kill to return; bits 0-6 of glitch
 GLITCH_BURST    = 48            ; above this count the burst is shown, below nothing
 
 SHOT_SPEED      = 2             ; rows a frame
-BOLT_SPEED_B    = $80           ; rows a frame / 256
+BOLT_SPEED_B    = $80           ; rows a frame / 256; 8 more in every wave, 255 at most
 BOLT_SPEED_A    = $D8
-BOLT_SPEED_STEP = $08
 
 ; ==== RAM ============================================================================================
         seg.u ram
@@ -135,7 +135,9 @@ digits          ds 12           ; pointers to the six columns of the score line
         seg rom
         org $F000
 
-        include "beamfall/display.asm"
+        include "beamfall/display.asm"  ; code that counts cycles comes first: it must not cross pages
+        include "lib/place.asm"
+        include "lib/score.asm"
 
 Start   sei
         cld
@@ -185,8 +187,6 @@ Frame   lda #2
         include "beamfall/beam.asm"
         include "beamfall/console.asm"
         include "beamfall/sound.asm"
-        include "lib/place.asm"
-        include "lib/score.asm"
         include "lib/points.asm"
         include "lib/random.asm"
         include "lib/effects.asm"

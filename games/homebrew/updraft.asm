@@ -51,8 +51,7 @@ HIT_TIME        = 64
 OVER_TIME       = 60            ; frames before the button is heard again
 SHIELD_TIME     = 90            ; frames in which a new balloon cannot be hurt
 
-BIRD_SPEED      = $20           ; 1 pixel and this / 256 a frame, in wave 0
-BIRD_SPEED_STEP = $18           ; more in every wave
+BIRD_SPEED      = $20           ; 1 pixel and this / 256 a frame; 24 / 256 more in every wave
 DART_SPEED      = 2             ; pixels a frame
 PUFF_SPEED      = 3
 DART_WAIT       = 200
@@ -124,7 +123,9 @@ digits          ds 12           ; pointers to the six columns of the score line
 PowerOn         = $D000 + STUBS
 CallRules       = $D000 + STUBS + 6
 
-        include "updraft/display.asm"
+        include "updraft/display.asm"   ; code that counts cycles comes first: it must not cross pages
+        include "lib/place.asm"
+        include "lib/score.asm"
 
 Start   sei
         cld
@@ -175,8 +176,6 @@ Frame   lda #2
         jmp Frame
 
         include "updraft/prepare.asm"
-        include "lib/place.asm"
-        include "lib/score.asm"
         include "updraft/graphics.asm"
 
         org STUBS

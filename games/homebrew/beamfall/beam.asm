@@ -7,7 +7,10 @@ MoveBeam subroutine
         asl
         asl
         adc #BEAM_SPEED
-        sta temp
+        bit SWCHB               ; left difficulty A: faster
+        bvc .speed
+        adc #BEAM_SPEED_A
+.speed  sta temp
         lda beamFrac
         sec
         sbc temp

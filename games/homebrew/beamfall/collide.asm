@@ -82,7 +82,8 @@ BurnBeam subroutine
         tax
         jsr ClearCell
         pla
-        adc #1                  ; carry is the bit that the second LSR shifted out
+        clc
+        adc #1
         lsr
         lsr
         tax

@@ -14,9 +14,10 @@
 ; Z is bit 1 of that byte, which is the bit that enables: an object is shown where a comparison gives 0.
 ;
 ; Rows are two lines, A and B. Line A sets up everything for the row, line B shows the beam, which needs
-; six playfield writes at their moments. So the beam is drawn on every second line only.
+; six playfield writes at their moments. So the beam is drawn on every second line only, like a raster.
 ;
-; In: X = 0, Y = 80, A = whatever; lane = 4, laneEnd = 80. Used: A, X, Y, stack pointer.
+; It is entered at Field, in the rail of the highest lane, with X = 0, Y = 80, lane, nextCoarse, HMP1 and
+; railColour set for that lane. Used: A, X, Y, stack pointer.
         PAGE_BEGIN
 FieldKernel subroutine
 ; -- line A
@@ -94,7 +95,7 @@ Field   sta WSYNC
         sta COLUBK              ; 13
         dey                     ; 15
         ldx nextCoarse          ; 18
-.coarse dex                     ;
+.coarse dex
         bne .coarse             ; 17+5n
         sta RESP1               ; 20+5n as in PlaceObject, n = 1..10
 ; -- rail, second line: fine position, everything that belongs to the lane
@@ -129,8 +130,8 @@ Field   sta WSYNC
         sta GRP0                ; 17
         sec                     ; 19
         jmp .objects            ; 22    three cycles earlier than the other rows
-
         PAGE_END
+
         include "lib/footer.asm"
 
 ; ==== Display: the 192 lines of the picture ==========================================================

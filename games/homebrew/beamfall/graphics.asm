@@ -2,7 +2,7 @@
 
 ; ==== Colours ========================================================================================
 FOOTER_LIVES_X  = 6
-FOOTER_WAVE_X   = 136
+FOOTER_WAVE_X   = 134
 
 SCORE_COLOUR    = $1A
 TITLE_COLOUR    = $9C

@@ -72,7 +72,8 @@ MoveShip subroutine
         inc shipRow
 .rts    rts
 
-; One shot at a time, so the nearer the target the faster the fire.
+; One shot at a time, so the nearer the target the faster the fire. The gun is a pixel left of the middle: so
+; there is no place where shots straight up burn all the cells that the ship needs; one must sweep.
 Shoot subroutine
         lda shotRow
         cmp #HIDDEN
@@ -81,7 +82,7 @@ Shoot subroutine
         bmi .rts
         lda shipX
         clc
-        adc #4                  ; a missile's position + 5 = the ship's + 6 + 3, its middle
+        adc #3                  ; a missile's position + 5 = the ship's + 6 + 2
         sta shotX
         lda shipRow
         clc
@@ -224,7 +225,7 @@ GlitchDirs      .byte 1, GLITCH_DIR, 0, GLITCH_DIR, 0   ; the lowest one has yet
 GlitchSpeeds    .byte $48, $60, $54, $78, $90
 
 ; ==== Spark ==========================================================================================
-; It drifts in one of the four upper lanes until the ship takes it or the beam does.
+; It drifts somewhere above the ground until the ship takes it or the beam does.
 MoveSpark subroutine
         lda sparkRow
         cmp #HIDDEN
@@ -237,13 +238,13 @@ MoveSpark subroutine
         sta sparkX
         jsr NextRandom
         lsr
-        and #$1E                ; an even row, 20 to 64, somewhat above the middle of its range
+        and #$1E                ; an even row, 14 to 58, the middle ones more often
         sta sparkRow
         lda random+1
-        and #$1E
+        and #$0E
+        clc
         adc sparkRow
-        and #$FE
-        adc #18
+        adc #LOWEST_SPARK
         sta sparkRow
         ldx #1
         bit random

@@ -26,7 +26,7 @@ Footer  sta WSYNC               ;       line 176: the edge of the field
         jsr PlaceObject         ;       line 179
         sta WSYNC               ;       line 180
         sta HMOVE
-        ldx lives               ;       one ship is in play, the others are shown
+        ldx lives               ;       one is in play, the others are shown
         lda LivesCopies,x
         sta NUSIZ0
         lda LivesMask,x

@@ -1,7 +1,8 @@
 ; Horizontal positions, the usual way: coarse by waiting for the beam, fine by HMOVE.
 
 ; Object X (0, 1 player, 2, 3 missile, 4 ball) to position A.
-; Pixel A + 6 for players, A + 5 for the others, after the next HMOVE; A = 0..149. Takes the next line.
+; Pixel A + 6 for players, A + 5 for the others, after the next HMOVE; A = 0..149. Takes the next line; up to
+; A = 134 it returns before the end of that line.
 ; 15 pixels are 5 cycles, one round of the loop; the rest of the division, -15..-1, becomes HMxx.
 PlaceObject subroutine
         sta WSYNC

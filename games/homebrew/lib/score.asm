@@ -3,7 +3,7 @@
 
 SCORE_X         = 50            ; where the caller places player 0; player 1 is 8 further
 
-; The score, or the title in every second half of 128 frames of the attract mode
+; The score; between games the title, in every other 128 frames.
 PrepareScore subroutine
         ldx #11
         lda #>Font

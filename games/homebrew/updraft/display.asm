@@ -59,8 +59,8 @@ FieldKernel subroutine
         jmp .row                ; 47
 .done   ldx #0
         beq Footer
-
         PAGE_END
+
         include "lib/footer.asm"
 
 ; ==== Display ========================================================================================

@@ -1,0 +1,180 @@
+#include <catch2/catch.hpp>
+
+#include "games/catalogue.hpp"
+#include "tests/games/game_text.hpp"
+#include "tests/games/scratch.hpp"
+
+using namespace racebeam;
+using Catch::Contains;
+using Catch::Equals;
+
+namespace {
+
+const std::string kStep = "step = '''\nscore = ram[0x80]\nterminal = 0\n'''\n";
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_game(text, "test", "my.toml");
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string error_in(const std::string& lines) { return error_of("title = 'T'\n" + lines); }
+
+}  // namespace
+
+TEST_CASE("a game file gives all facts of a game") {
+  const Game game = parse_game(R"(
+title        = "My Game"
+legal        = ["NOOP", "LEFT", "RIGHT", "FIRE"]
+minimal      = ["RIGHT", "NOOP"]
+start        = ["FIRE", "NOOP 3", "RESET"]
+modes        = [5, "1-3"]
+default_mode = 2
+difficulties = ["0-3"]
+paddle_max   = 800000
+
+[[image]]
+md5              = "0123456789abcdef0123456789abcdef"
+left             = "paddles"
+right            = "joystick"
+swap_ports       = true
+swap_paddles     = true
+left_difficulty  = "A"
+right_difficulty = "B"
+hmove_blanks     = false
+format           = "SECAM"
+ystart           = 20
+height           = 220
+
+[[image]]
+accepted = false
+ystart   = 40
+)",
+                               "mine", "mine.toml");
+  CHECK(game.name == "mine");
+  CHECK(game.title == "My Game");
+  CHECK(game.legal_actions == std::vector<int>{0, 1, 3, 4});
+  CHECK(game.minimal_actions == std::vector<int>{0, 3});
+  CHECK(game.starting_actions == std::vector<int>{1, 0, 0, 0, 40});
+  CHECK(game.modes == std::vector<int>{5, 1, 2, 3});
+  CHECK(game.default_mode == 2);
+  CHECK(game.difficulties == std::vector<int>{0, 1, 2, 3});
+  CHECK(game.paddle_max == 800000);
+  CHECK_FALSE(game.has_rule());
+  const std::string md5 = "0123456789abcdef0123456789abcdef";
+  CHECK(game.properties_for(md5) == Properties{.left = Controller::kPaddles,
+                                               .swap_ports = true,
+                                               .swap_paddles = true,
+                                               .left_difficulty_a = true,
+                                               .hmove_blanks = false,
+                                               .format = Format::kSecam,
+                                               .ystart = 20,
+                                               .height = 220});
+  CHECK(game.properties_for("another").ystart == 40);
+  CHECK(game.accepts(md5));
+  CHECK_FALSE(game.accepts("another"));
+}
+
+TEST_CASE("what a game file leaves out has its default") {
+  const Game game = game_with("legal = ['NOOP', 'FIRE']");
+  CHECK(game.minimal_actions == std::vector<int>{0, 1});
+  CHECK(game.starting_actions.empty());
+  CHECK(game.modes == std::vector<int>{0});
+  CHECK(game.difficulties == std::vector<int>{0});
+  CHECK(game.paddle_max == -1);
+  CHECK(game.properties_for("any") == Properties{});
+  CHECK(game.accepts("any"));
+}
+
+TEST_CASE("errors name the file, the line and the field") {
+  CHECK_THAT(error_of(""), Equals("my.toml:1: title: a game needs this"));
+  CHECK_THAT(error_in("titel = 'T'"), Contains("my.toml:2: titel: there is no such key here"));
+  CHECK_THAT(error_in("\nmodes = 3"), Contains("my.toml:3: modes: must be a list"));
+  CHECK_THAT(error_in("modes = [0,\n 1,\n 'x']"), Contains("my.toml:4: modes: must be numbers"));
+  CHECK_THAT(error_in("[[image]]\nmd5 = 'ABC'"), Contains("my.toml:3: image.md5: must be 32"));
+  CHECK_THAT(error_in("[[image]]\nheigth = 3"), Contains("my.toml:3: image.heigth: there is no such key"));
+  CHECK_THAT(error_in("[rule]\n"), Contains("my.toml:2: rule.step: a rule needs this"));
+  CHECK_THAT(error_in("[rule]\nstep = 3"), Contains("my.toml:3: rule.step: must be a text"));
+  CHECK_THAT(error_in("a = [1,"), Contains("my.toml:2: TOML: "));
+  CHECK_THAT(error_in("title = 'again'"), Contains("my.toml:2: TOML: "));
+}
+
+TEST_CASE("errors within a text of several lines name its own line") {
+  CHECK_THAT(error_in("[rule]\nstep = '''\nscore = 1\nterminal = nobody\n'''"),
+             Contains("my.toml:5: rule.step: nothing assigns 'nobody'"));
+  CHECK_THAT(error_in("[rule]\nstep = \"\"\"\nscore = 1\nterminal = nobody\n\"\"\""),
+             Contains("my.toml:5: rule.step"));
+  CHECK_THAT(error_in("[rule]\nstep = '''score = 1\nterminal = nobody'''"), Contains("my.toml:4: rule.step"));
+  CHECK_THAT(error_in("[rule]\r\nstep = '''\r\nscore = 1\r\nterminal = nobody\r\n'''"),
+             Contains("my.toml:5: rule.step"));
+  CHECK_THAT(error_in("[rule]\n" + kStep + "lives = '3 + nobody'"),
+             Contains("my.toml:7: rule.lives: nothing assigns 'nobody'"));
+}
+
+TEST_CASE("rules that cannot work are refused") {
+  CHECK_THAT(error_in("[rule]\nstep = 'score = 1'"), Contains("nothing assigns 'terminal'"));
+  CHECK_THAT(error_in("[rule]\nstep = 'terminal = 1'"), Contains("nothing assigns 'score' or 'reward'"));
+  CHECK_THAT(error_in("[rule]\nstep = ''"), Contains("my.toml:3: rule.step"));
+  CHECK_THAT(error_in("[rule]\n" + kStep + "lives = 'ram[0x80]'"),
+             Contains("rule.lives: memory can be read in 'step' only"));
+  CHECK_THAT(error_in("[rule]\n" + kStep + "terminal = 'prev(score)'"),
+             Contains("rule.terminal: prev() belongs in 'step'"));
+  CHECK_THAT(error_in("[rule]\n" + kStep + "terminal = '1 2'"), Contains("end of the expression"));
+  CHECK_THAT(error_in("[rule]\nreset = { live = 3 }\n" + kStep),
+             Contains("my.toml:3: rule.reset.live: nothing uses"));
+  CHECK_THAT(error_in("[rule]\nreset = { if = 3 }\n" + kStep), Contains("rule.reset.if: 'if' is a word"));
+  CHECK_THAT(error_in("[rule]\nreset = { score = 'x' }\n" + kStep),
+             Contains("rule.reset.score: must be a whole number"));
+  CHECK_THAT(error_in("[rule]\nreset = { score = 3000000000 }\n" + kStep), Contains("32 bits"));
+  CHECK_THAT(error_in("[rule]\nreset = 3\n" + kStep), Contains("rule.reset: must be a table"));
+  CHECK_THAT(error_in("[rule]\nkeep = [3]\n" + kStep), Contains("my.toml:3: rule.keep: '' is not a name"));
+  CHECK_THAT(error_in("[rule]\nkeep = ['scroe']\n" + kStep), Contains("my.toml:3: rule.keep: nothing uses"));
+  CHECK_THAT(error_in("[mode]\nsetup = 'soft_reset'"), Contains("mode: a mode program needs a [rule]"));
+  std::string many = "[rule]\nstep = '''\nscore = 0\nterminal = 0\n";
+  for (int i = 0; i < 20; ++i)
+    many += std::string("v")
+                .append(std::to_string(i))
+                .append(" = prev(v")
+                .append(std::to_string(i))
+                .append(")\n");
+  CHECK_THAT(error_in(many + "'''"), Contains("more than 16 variables"));
+}
+
+TEST_CASE("facts that cannot be are refused") {
+  CHECK_THAT(error_in("minimal = ['JUMP']"), Contains("minimal: must be names of actions"));
+  CHECK_THAT(error_in("minimal = ['FIRE', 'FIRE']"), Contains("FIRE is there twice"));
+  CHECK_THAT(error_in("minimal = []"), Contains("must not be empty"));
+  CHECK_THAT(error_in("minimal = [1]"), Contains("minimal: must be names"));
+  CHECK_THAT(error_in("legal = ['NOOP']\nminimal = ['FIRE']"), Contains("minimal: must be legal actions"));
+  CHECK_THAT(error_in("minimal = ['RESET']"), Contains("minimal: must be names"));
+  CHECK_THAT(error_in("start = ['FIRE 0']"), Contains("start: must be actions"));
+  CHECK_THAT(error_in("start = ['FIRE x']"), Contains("start: must be actions"));
+  CHECK_THAT(error_in("start = ['FIRE 1000000000']"), Contains("start: must be actions"));
+  CHECK_THAT(error_in("modes = ['7-3']"), Contains("modes: must be numbers"));
+  CHECK_THAT(error_in("modes = [-1]"), Contains("modes: must be numbers"));
+  CHECK_THAT(error_in("modes = ['0-2000000000']"), Contains("modes: must be numbers"));
+  CHECK_THAT(error_in("modes = [1, '0-2']"), Contains("1 is there twice"));
+  CHECK_THAT(error_in("difficulties = [4]"), Contains("difficulties: must be numbers from 0 to 3"));
+  CHECK_THAT(error_in("default_mode = 3"), Contains("default_mode: must be one of the modes"));
+  CHECK_THAT(error_in("paddle_max = 0"), Contains("paddle_max: must be a resistance"));
+  CHECK_THAT(error_in("[[image]]\nleft = 'mouse'"), Contains("image.left: 'mouse' is not known"));
+  CHECK_THAT(error_in("[[image]]\nformat = 'pal'"), Contains("NTSC"));
+  CHECK_THAT(error_in("[[image]]\nystart = 60"), Contains("image.ystart: must be 0 to 50"));
+  CHECK_THAT(error_in("[[image]]\nheight = 300"), Contains("image.height: must be 100 to 256"));
+  CHECK_THAT(error_in("[[image]]\nystart = 50\nheight = 256"), Contains("300 lines"));
+  CHECK_THAT(error_in("[image]\nleft = 'paddles'"), Contains("image: must be a list"));
+}
+
+TEST_CASE("a game file that cannot be read is refused") {
+  const Scratch scratch;
+  CHECK_THROWS_WITH(load_game_file(scratch.path("none.toml")),
+                    Contains("none.toml") && Contains("cannot be opened"));
+  CHECK_THROWS_WITH(load_game_file(scratch.path("")), Contains("directory"));
+  CHECK_THROWS_WITH(load_game_file(scratch.write("big.toml", std::string(2 << 20, '#'))), Contains("1 MiB"));
+  const std::string broken = scratch.write("broken.toml", "title = 'T'\nmodes = 3\n");
+  CHECK_THROWS_WITH(load_game_file(broken), Contains(broken + ":2: modes:"));
+  CHECK(load_game_file(scratch.write("fine.toml", "title = 'T'\n"))->name == "fine");
+}

@@ -1,0 +1,86 @@
+#include <catch2/catch.hpp>
+
+#include "games/catalogue.hpp"
+#include "tests/games/scratch.hpp"
+
+using namespace racebeam;
+using Catch::Contains;
+
+namespace {
+
+const std::string kSeaquest = "240bfbac5163af4df5ae713985386f92",
+                  kNobody = "00000000000000000000000000000000";
+const std::string kGame = "title = 'Mine'\n[rule]\nstep = '''\nscore = ram[0x80]\nterminal = 0\n'''\n";
+
+Image image(const std::string& md5, const std::string& stem) {
+  return {std::make_shared<const std::vector<std::uint8_t>>(4096), md5, stem};
+}
+
+}  // namespace
+
+TEST_CASE("an image is recognised by its MD5 before its name") {
+  const Recognition found = recognise(image(kSeaquest, "pong"));
+  CHECK(found.game->name == "seaquest");
+  CHECK(found.how == RecognisedBy::kMd5);
+  CHECK(found.md5_matches);
+}
+
+TEST_CASE("an image with another MD5 is recognised by its file name, with a mismatch to warn of") {
+  const Recognition found = recognise(image(kNobody, "pong"));
+  CHECK(found.game->name == "pong");
+  CHECK(found.how == RecognisedBy::kFileName);
+  CHECK_FALSE(found.md5_matches);
+}
+
+TEST_CASE("a name that is given wins over the MD5") {
+  const Recognition found = recognise(image(kSeaquest, "seaquest"), "pong");
+  CHECK(found.game->name == "pong");
+  CHECK(found.how == RecognisedBy::kGivenName);
+  CHECK_FALSE(found.md5_matches);
+  CHECK(recognise(image(kSeaquest, "x"), "seaquest").md5_matches);
+}
+
+TEST_CASE("a game file that is given wins over the MD5") {
+  const Scratch scratch;
+  const std::string file = scratch.write("Mine.toml", kGame);
+  const Recognition found = recognise(image(kSeaquest, "seaquest"), std::nullopt, file);
+  CHECK(found.game->title == "Mine");
+  CHECK(found.game->name == "mine");
+  CHECK(found.how == RecognisedBy::kGivenFile);
+  CHECK(found.md5_matches);  // it names no image, so that any will do
+  const std::string other = scratch.write("other.toml", kGame + "[[image]]\nmd5 = '" + kNobody + "'\n");
+  CHECK_FALSE(recognise(image(kSeaquest, "seaquest"), std::nullopt, other).md5_matches);
+  CHECK_THROWS_WITH(recognise(image(kSeaquest, "seaquest"), "pong", file), Contains("not both"));
+}
+
+TEST_CASE("an unknown image runs without a rule, under its file name") {
+  const Recognition found = recognise(image(kNobody, "my_demo"));
+  CHECK(found.game->name == "my_demo");
+  CHECK_FALSE(found.game->has_rule());
+  CHECK(found.how == RecognisedBy::kNothing);
+  CHECK(found.game->minimal_actions.size() == 18);
+  CHECK(found.game->properties_for(kNobody) == Properties{});
+}
+
+TEST_CASE(
+    "another dump of a known game gets its properties under any name, but its rule under the game's name "
+    "only") {
+  const std::string dump = "dbdaf82f4f0c415a94d1030271a9ef44";
+  const Recognition unknown = recognise(image(dump, "thing"));
+  CHECK(unknown.how == RecognisedBy::kNothing);
+  CHECK(unknown.game->properties_for(dump).left == Controller::kPaddles);
+  CHECK_FALSE(unknown.game->has_rule());
+  const Recognition named = recognise(image(dump, "kaboom"));
+  CHECK(named.how == RecognisedBy::kFileName);
+  CHECK(named.game->properties_for(dump).left == Controller::kPaddles);
+  CHECK_FALSE(named.md5_matches);
+}
+
+TEST_CASE("an unknown name is refused with those that are like it") {
+  CHECK_THROWS_WITH(recognise(image(kNobody, "x"), "seaqest"),
+                    Contains("'seaqest'") && Contains("did you mean seaquest"));
+  CHECK_THROWS_WITH(recognise(image(kNobody, "x"), "montezuma"), Contains("montezuma_revenge"));
+  CHECK_THROWS_WITH(recognise(image(kNobody, "x"), "xyzzyplugh"), Contains("`racebeam games`"));
+  CHECK_THROWS_WITH(recognise(image(kNobody, "x"), ""), Contains("no game ''"));
+  CHECK(similar_games("pitfal") == std::vector<std::string>{"pitfall", "pitfall2"});
+}

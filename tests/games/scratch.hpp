@@ -1,0 +1,34 @@
+// A folder of its own for a test, gone afterwards.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace racebeam {
+
+class Scratch {
+ public:
+  Scratch() : folder_((std::filesystem::temp_directory_path() / "racebeam-XXXXXX").string()) {
+    if (!mkdtemp(folder_.data())) throw std::runtime_error("cannot make a temporary folder");
+  }
+  ~Scratch() { std::filesystem::remove_all(folder_); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+  std::string write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    return path(name);
+  }
+
+ private:
+  std::string folder_;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,1 @@
+/work/main/games/embed_catalogue.cpp

@@ -1,0 +1,1 @@
+/work/main/games/mode_program.cpp

@@ -1,0 +1,1 @@
+/work/main/games/toml_section.cpp
