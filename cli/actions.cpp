@@ -40,7 +40,8 @@ std::string contents(const std::string& path) {
 // The beginning of a word, fit for a message.
 std::string quoted(std::string word) {
   word.resize(std::min<std::size_t>(word.size(), 40));
-  std::replace_if(word.begin(), word.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  std::replace_if(
+      word.begin(), word.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return "'" + word + "'";
 }
 
@@ -66,7 +67,8 @@ std::vector<ScriptedAction> read_actions(const std::string& path) {
     std::istringstream words{row};
     if (!(words >> word) || is_silent(word)) continue;
     const bool one_only = word == "A";
-    if (one_only && !(words >> word)) refuse(path, "line " + std::to_string(line) + ": the action is missing after 'A'");
+    if (one_only && !(words >> word))
+      refuse(path, "line " + std::to_string(line) + ": the action is missing after 'A'");
     do {
       actions.push_back({number(path, line, word), line});
     } while (!one_only && words >> word);

@@ -11,8 +11,8 @@ struct ScriptedAction {
   int line;  // where it stands, for messages
 };
 
-// `path`: a file, plain or gzip, or - for standard input. Lines `A ACTION ...` give one action each; lines that begin
-// with #, R or S (the rest of a trace) give none; all other lines are numbers, any count of them.
+// `path`: a file, plain or gzip, or - for standard input. Lines `A ACTION ...` give one action each; lines
+// that begin with #, R or S (the rest of a trace) give none; all other lines are numbers, any count of them.
 // Throws std::invalid_argument, naming the line, for anything else, and when the file can't be read.
 std::vector<ScriptedAction> read_actions(const std::string& path);
 

@@ -18,15 +18,19 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter = R"(Processor seconds of this process are counted, from the first act on; resets are counted apart. Without --actions the
-game's legal actions are drawn at random from a fixed seed, so that two runs do the same.
+constexpr auto kFooter = R"(Processor seconds of this process are counted, of the acts alone; resets are counted apart. Without
+--actions the game's legal actions are drawn at random from a fixed seed, so that two runs do the same.
 
   --screen every   every frame's screen is produced, also those in the middle of a frame skip
   --screen last    the screen after each act
   --screen none    rewards and RAM only
 
-The checksums of the last screen and the RAM show that different settings did the same work. Compare ratios measured
-in one run (scripts/bench), not times from different days.
+The checksums of the last screen and of RAM show that different settings did the same work. Compare
+ratios measured in one run (scripts/bench), not times from different days.
+
+--save-restore times, in nanoseconds: the machine's state alone, copied out and back; a client's snapshot,
+which has the pictures too; and, as the next frame has to draw beside a saved picture, save + one frame +
+restore beside a frame.
 
 Example:
   racebeam bench --rom pong.bin --frames 20000 --frame-skip 4 --screen last)";
@@ -69,7 +73,9 @@ std::vector<int> choose_actions(const BenchOptions& options, const Game& game) {
 class Bench {
  public:
   Bench(const BenchOptions& options, const Cartridge& cartridge)
-      : screen_(options.screen == "every" ? Screen::kEvery : options.screen == "last" ? Screen::kLast : Screen::kNone),
+      : screen_(options.screen == "every"  ? Screen::kEvery
+                : options.screen == "last" ? Screen::kLast
+                                           : Screen::kNone),
         repeat_(screen_ == Screen::kEvery ? options.machine.settings.frame_skip : 1),
         limit_(options.frames),
         actions_(choose_actions(options, *cartridge.game)),
@@ -112,7 +118,8 @@ class Bench {
   void reset() {
     const double start = cpu_seconds();
     environment_.reset_game();
-    if (environment_.game_over()) throw std::runtime_error("the game is over right after its reset; nothing to measure");
+    if (environment_.game_over())
+      throw std::runtime_error("the game is over right after its reset; nothing to measure");
     tally_.reset_seconds += cpu_seconds() - start;
     ++tally_.resets;
   }
@@ -131,7 +138,8 @@ std::string crc(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-nlohmann::ordered_json report(const BenchOptions& options, const Tally& tally, const Environment& environment) {
+nlohmann::ordered_json report(const BenchOptions& options, const Tally& tally,
+                              const Environment& environment) {
   return {
       {"game", environment.game().name},
       {"md5", environment.image().md5},
@@ -155,6 +163,8 @@ void add_snapshots(nlohmann::ordered_json& figures, const SnapshotTimes& times) 
   figures["machine_state_bytes"] = times.machine_bytes;
   figures["machine_save_restore_ns"] = times.machine_ns;
   figures["client_save_restore_ns"] = times.client_ns;
+  figures["client_save_frame_restore_ns"] = times.round_ns;
+  figures["client_frame_ns"] = times.frame_ns;
 }
 
 std::string in_words(const nlohmann::ordered_json& value) {
@@ -169,7 +179,7 @@ void print(const nlohmann::ordered_json& figures) {
   for (const auto& [key, value] : figures.items()) {
     std::string name = key;
     std::replace(name.begin(), name.end(), '_', ' ');
-    std::printf("%-26s%s\n", name.c_str(), in_words(value).c_str());
+    std::printf("%-30s%s\n", name.c_str(), in_words(value).c_str());
   }
 }
 
@@ -192,7 +202,9 @@ void add_bench(CLI::App& app) {
 
   CLI::App& command = *app.add_subcommand("bench", "Measure how fast a game runs");
   add_machine_options(command, options->machine);
-  command.add_option("--actions", options->actions, "Play these, over and over (as racebeam trace reads them)");
+  command.get_option("--seed")->description("Seed of all that is random in play");
+  command.add_option("--actions", options->actions,
+                     "Play these, over and over (as racebeam trace reads them)");
   add_count(command, "--frames", options->frames, 1, "Frames to play");
   command.add_option("--screen", options->screen, "Which screens to produce")
       ->check(CLI::IsMember({"every", "last", "none"}))

@@ -51,13 +51,25 @@ MachineOptions machine_options(const ClassicSettings& settings) {
 }
 
 // By the file's stem alone, whatever the image.
-Cartridge open_by_name(const std::string& path) {
-  const auto image = load_image(path);
+Cartridge open_by_name(const MachineOptions& machine) {
+  const auto image = load_image(machine.rom);
   const auto game = find_game(image->stem);
   if (!game)
-    throw std::invalid_argument("no game is called '" + image->stem + "', as the image " + path + " is");
-  if (!game->accepts(image->md5)) log("the MD5 of " + path + " is not one that is known for " + game->name);
-  return {image, game};
+    throw std::invalid_argument("no game is called '" + image->stem + "', as " + machine.rom + " is");
+  const Cartridge cartridge{image, game};
+  power_on(cartridge, machine);  // what does not work should show before anything else is said
+  if (!game->accepts(image->md5)) log("the MD5 of " + machine.rom + " is not one known for " + game->name);
+  return cartridge;
+}
+
+// Whether the pipes are named.
+bool check_controller(const std::string& name) {
+  if (name == "rlglue")
+    throw std::invalid_argument("-game_controller rlglue is not built yet, fifo and fifo_named are");
+  if (name != "fifo" && name != "fifo_named") {
+    throw std::invalid_argument("-game_controller '" + name + "' is neither fifo nor fifo_named");
+  }
+  return name == "fifo_named";
 }
 
 int run(const std::vector<std::string>& words) {
@@ -66,19 +78,14 @@ int run(const std::vector<std::string>& words) {
     return kExitFailure;
   }
   const ClassicSettings settings(words);
-  const std::string controller = settings.text("game_controller");
-  if (controller != "fifo" && controller != "fifo_named") {
-    throw std::invalid_argument(
-        controller == "rlglue" ? "-game_controller rlglue is not built yet; there are fifo and fifo_named"
-                               : "-game_controller '" + controller + "' is neither fifo nor fifo_named");
-  }
-  mention_ignored(settings);
+  const bool named = check_controller(settings.text("game_controller"));
   const MachineOptions machine = machine_options(settings);
-  const Cartridge cartridge = open_by_name(machine.rom);
-  const ClassicService service{
-      [&] { return power_on(cartridge, machine); },
-      {settings.truth("run_length_encoding", true), settings.number("max_num_frames", 0)}};
-  return controller == "fifo" ? serve_standard_streams(service) : serve_classic_pipes(service);
+  const Cartridge cartridge = open_by_name(machine);
+  mention_ignored(settings);
+  const ClassicOptions protocol{settings.truth("run_length_encoding", true),
+                                settings.number("max_num_frames", 0)};
+  const ClassicService service{[&] { return power_on(cartridge, machine); }, protocol};
+  return named ? serve_classic_pipes(service) : serve_standard_streams(service);
 }
 
 }  // namespace

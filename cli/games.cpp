@@ -13,9 +13,11 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter = R"(The name is what --game takes; an image is recognised by its MD5, else by the name of its file.
+constexpr auto kFooter =
+    R"(The name is what --game takes; an image is recognised by its MD5, else by the name of its file.
 * marks a game whose image is part of this program: --rom builtin:NAME plays it.
-A game without a rule runs without score and end. Numbers of actions are those of the minimal and the legal set.
+SCORE says whether there is a rule that finds score and end in the game's memory; ACT. how many actions
+the minimal and the legal set have.
 
 Examples:
   racebeam games | grep -i pong
@@ -43,12 +45,13 @@ void print_row(const CatalogueEntry& entry, const Game& game) {
   const std::string actions =
       std::to_string(game.minimal_actions.size()) + "/" + std::to_string(game.legal_actions.size());
   std::printf("%-20s%c %-34s %-32s %-5s  %-5s %-12s %s\n", game.name.c_str(), entry.built_in ? '*' : ' ',
-              game.title.c_str(), recognised_md5(game).c_str(), game.has_rule() ? "yes" : "no", actions.c_str(),
-              ranges(game.difficulties).c_str(), ranges(game.modes).c_str());
+              game.title.c_str(), recognised_md5(game).c_str(), game.has_rule() ? "yes" : "no",
+              actions.c_str(), ranges(game.difficulties).c_str(), ranges(game.modes).c_str());
 }
 
 void print_table() {
-  std::printf("%-20s  %-34s %-32s %-5s  %-5s %-12s %s\n", "NAME", "TITLE", "MD5", "SCORE", "ACT.", "DIFFICULTIES", "MODES");
+  std::printf("%-20s  %-34s %-32s %-5s  %-5s %-12s %s\n", "NAME", "TITLE", "MD5", "SCORE", "ACT.",
+              "DIFFICULTIES", "MODES");
   for (const CatalogueEntry& entry : catalogue()) print_row(entry, *find_game(entry.name));
 }
 

@@ -88,8 +88,10 @@ void add_machine_options(CLI::App& app, MachineOptions& options) {
 Cartridge open_cartridge(const MachineOptions& options) {
   const auto image = load_image(options.rom);
   const Recognition recognition = recognise(*image, options.game, options.game_file);
+  const Cartridge cartridge{image, recognition.game};
+  power_on(cartridge, options);
   warn_about(recognition, *image);
-  return {image, recognition.game};
+  return cartridge;
 }
 
 Environment power_on(const Cartridge& cartridge, const MachineOptions& options) {

@@ -35,7 +35,8 @@ struct Cartridge {
   std::shared_ptr<const Game> game;
 };
 
-// Loads the image and recognises the game; doubts about it go to standard error.
+// Loads the image, recognises the game and makes sure that a machine runs with them; then doubts about the
+// game go to standard error.
 Cartridge open_cartridge(const MachineOptions& options);
 
 // A machine that is switched on, with mode and difficulty in place.

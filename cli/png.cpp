@@ -17,12 +17,14 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter = R"(Reads one line of the classic protocol from standard input, or just its field with the screen, and writes the
-picture: 320 pixels wide, as every pixel is doubled. The line does not say what it is: choose --full when the server
-was told not to use run lengths, and the palette by the television standard of the game.
+constexpr auto kFooter =
+    R"(Reads one line of the classic protocol from standard input, or just its field with the screen, and writes
+the picture: 320 pixels wide, as every pixel is doubled. The line does not say what it is: choose --full
+when the server was told not to use run lengths, and the palette by the game's television standard.
 
 Example:
-  printf '1,0,0,1\n3,18\n' | racebeam serve --classic --stdio --rom builtin:NAME | sed -n 3p | racebeam png now.png)";
+  printf '1,0,0,1\n3,18\n' | racebeam serve --classic --stdio --rom builtin:beamfall |
+    sed -n 3p | racebeam png now.png)";
 
 constexpr std::size_t kWidth = 160;
 constexpr std::size_t kRamDigits = 256;
@@ -35,19 +37,21 @@ struct PngOptions {
   bool full = false;
 };
 
-// Of the fields of a line, each with a colon after it, RAM is the one of 256 digits (a screen is never that short), and
-// the episode is the one with a comma.
+// Of the fields of a line, each with a colon after it, RAM is the one of 256 digits (a screen is never that
+// short), and the episode is the one with a comma.
 std::string_view screen_field(std::string_view line) {
   while (!line.empty()) {
     const std::string_view field = line.substr(0, line.find(':'));
     if (!field.empty() && field.size() != kRamDigits && field.find(',') == field.npos) return field;
     line.remove_prefix(std::min(line.size(), field.size() + 1));
   }
-  throw std::invalid_argument("there is no screen in the line on standard input; ask for it with the flags 1,0,0,1");
+  throw std::invalid_argument(
+      "there is no screen in the line on standard input; ask for it with the flags 1,0,0,1");
 }
 
 std::vector<std::uint8_t> bytes_of(std::string_view digits) {
-  if (digits.size() % 2 != 0) throw std::invalid_argument("the screen has an odd number of digits; is the line cut?");
+  if (digits.size() % 2 != 0)
+    throw std::invalid_argument("the screen has an odd number of digits; is the line cut?");
   std::vector<std::uint8_t> bytes(digits.size() / 2);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const char* pair = digits.data() + 2 * i;
@@ -60,7 +64,8 @@ std::vector<std::uint8_t> bytes_of(std::string_view digits) {
 }
 
 std::vector<std::uint8_t> expand(const std::vector<std::uint8_t>& runs) {
-  if (runs.size() % 2 != 0) throw std::invalid_argument("the last run of the screen has no length; is the line cut?");
+  if (runs.size() % 2 != 0)
+    throw std::invalid_argument("the last run of the screen has no length; is the line cut?");
   std::vector<std::uint8_t> pixels;
   for (std::size_t i = 0; i < runs.size(); i += 2) pixels.insert(pixels.end(), runs[i + 1], runs[i]);
   return pixels;
@@ -80,7 +85,8 @@ std::vector<std::uint8_t> decode(std::string_view line, bool full) {
 std::vector<std::uint8_t> colored(const std::vector<std::uint8_t>& pixels, const Palette& colors) {
   std::vector<std::uint8_t> rgb;
   rgb.reserve(pixels.size() * 3);
-  for (const std::uint8_t pixel : pixels) rgb.insert(rgb.end(), {colors[pixel].r, colors[pixel].g, colors[pixel].b});
+  for (const std::uint8_t pixel : pixels)
+    rgb.insert(rgb.end(), {colors[pixel].r, colors[pixel].g, colors[pixel].b});
   return rgb;
 }
 
@@ -94,13 +100,15 @@ void run(const PngOptions& options) {
 }  // namespace
 
 void add_png(CLI::App& app) {
-  const std::map<std::string, Format> formats{{"ntsc", Format::kNtsc}, {"pal", Format::kPal}, {"secam", Format::kSecam}};
+  const std::map<std::string, Format> formats{
+      {"ntsc", Format::kNtsc}, {"pal", Format::kPal}, {"secam", Format::kSecam}};
   const auto options = std::make_shared<PngOptions>();
   CLI::App& command = *app.add_subcommand("png", "Make a picture of a screen that a client received");
   command.add_option("OUT.png", options->path, "The file to write")->required();
   command.add_option("--palette", options->format, "ntsc (the default), pal or secam")
       ->transform(CLI::CheckedTransformer(formats).description(""));
-  CLI::Option* run_lengths = command.add_flag("--rle", options->run_lengths, "The screen is in run lengths, as usual");
+  CLI::Option* run_lengths =
+      command.add_flag("--rle", options->run_lengths, "The screen is in run lengths, as usual");
   command.add_flag("--full", options->full, "The screen is full: two digits a pixel")->excludes(run_lengths);
   command.footer(kFooter);
   command.callback([options] { run(*options); });

@@ -20,7 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto kFooter = R"(Looked at are the files of the folder itself that end in .bin, .a26 or .rom, also with .gz after it. Each is one of:
+constexpr auto kFooter =
+    R"(Looked at are the files of the folder itself that end in .bin, .a26 or .rom, also with .gz after it.
+Each is one of:
   known     its MD5 is in the catalogue: it plays as this game
   by-name   another image, but the file is called like a game: it plays as that game, with a warning
   unknown   it plays without a score; --game NAME or --game-file FILE gives it one
@@ -39,7 +41,8 @@ struct Finding {
 };
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -72,9 +75,11 @@ Finding judge(const Image& image) {
   const Recognition recognition = recognise(image);
   const std::string& name = recognition.game->name;
   if (recognition.how == RecognisedBy::kMd5) return {"", "known", name, image.md5, ""};
-  if (recognition.how == RecognisedBy::kFileName) return {"", "by-name", name, image.md5, "not the image its rule is for"};
+  if (recognition.how == RecognisedBy::kFileName)
+    return {"", "by-name", name, image.md5, "not the image its rule is for"};
   const std::string dump = other_dump_of(image.md5);
-  return {"", "unknown", "", image.md5, dump.empty() ? "needs --game" : "another dump of " + dump + ": try --game " + dump};
+  return {"", "unknown", "", image.md5,
+          dump.empty() ? "needs --game" : "another dump of " + dump + ": try --game " + dump};
 }
 
 Finding examine(const fs::path& path) {
@@ -113,12 +118,16 @@ void print_text(const std::vector<Finding>& findings, const std::vector<std::str
 void print_json(const std::vector<Finding>& findings, const std::vector<std::string>& missing) {
   auto rows = nlohmann::ordered_json::array();
   for (const Finding& finding : findings) {
-    rows.push_back({{"file", finding.file}, {"verdict", finding.verdict}, {"game", finding.game},
-                    {"md5", finding.md5}, {"note", finding.note}});
+    rows.push_back({{"file", finding.file},
+                    {"verdict", finding.verdict},
+                    {"game", finding.game},
+                    {"md5", finding.md5},
+                    {"note", finding.note}});
   }
   // A file's name need not be UTF-8.
   constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
-  std::cout << nlohmann::ordered_json{{"images", rows}, {"missing", missing}}.dump(1, ' ', false, kReplace) << '\n';
+  std::cout << nlohmann::ordered_json{{"images", rows}, {"missing", missing}}.dump(1, ' ', false, kReplace)
+            << '\n';
 }
 
 void run(const std::string& folder, bool json) {
@@ -136,7 +145,8 @@ void add_roms(CLI::App& app) {
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("roms", "Say which images of a folder are known, and which games lack one");
+  CLI::App& command =
+      *app.add_subcommand("roms", "Say which images of a folder are known, and which games lack one");
   command.add_option("DIR", options->folder, "The folder with the images")->required();
   command.add_flag("--json", options->json, "Print a JSON object instead of text");
   command.footer(kFooter);

@@ -25,6 +25,9 @@ Examples:
   racebeam serve --classic --listen tcp://127.0.0.1:0 --listen unix:tetris.sock --rom tetris.bin
       until it is told to stop (SIGTERM), a machine of its own for everyone who connects
 
+With --classic one generator serves the machine and what is random in play, as it did then: --system-seed is
+not used. The seed of each session is in the log, on standard error.
+
 Standard output carries the protocol and nothing else. Exit status: 0 the session ended, or SIGTERM or SIGINT
 came; 1 the start failed, or the client of --stdio or --pipes stopped reading or sent what makes no sense;
 2 the command line makes no sense; 255 that client asked for an action that does not exist.)";

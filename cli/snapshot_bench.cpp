@@ -31,16 +31,26 @@ double time_machine(const Cartridge& cartridge, std::uint32_t system_seed) {
   });
 }
 
-double time_client(const Cartridge& cartridge, const MachineOptions& options) {
+void time_client(const Cartridge& cartridge, const MachineOptions& options, SnapshotTimes& times) {
   Environment environment = power_on(cartridge, options);
   for (int frame = 0; frame < kFramesBefore; ++frame) environment.act(0);
-  return nanoseconds_each(20'000, [&](std::size_t) { environment.restore(*environment.save()); });
+  times.client_ns = nanoseconds_each(20'000, [&](std::size_t) { environment.restore(*environment.save()); });
+  times.frame_ns = nanoseconds_each(1'000, [&](std::size_t) { environment.act(0); });
+  times.round_ns = nanoseconds_each(1'000, [&](std::size_t) {
+    const auto saved = environment.save();
+    environment.act(0);
+    environment.restore(*saved);
+  });
 }
 
 }  // namespace
 
 SnapshotTimes time_snapshots(const Cartridge& cartridge, const MachineOptions& options) {
-  return {sizeof(State), time_machine(cartridge, options.settings.system_seed), time_client(cartridge, options)};
+  SnapshotTimes times;
+  times.machine_bytes = sizeof(State);
+  times.machine_ns = time_machine(cartridge, options.settings.system_seed);
+  time_client(cartridge, options, times);
+  return times;
 }
 
 }  // namespace racebeam

@@ -9,6 +9,8 @@ struct SnapshotTimes {
   std::size_t machine_bytes = 0;  // the machine's state
   double machine_ns = 0;          // to copy it out and put it back
   double client_ns = 0;           // Environment::save and restore, with the pictures
+  double round_ns = 0;  // save, one frame, restore: the frame has to make room for a picture of its own
+  double frame_ns = 0;  // such a frame without a snapshot
 };
 
 // Plays some frames of the cartridge first, so that the state is one from the middle of a game.

@@ -14,11 +14,11 @@ namespace racebeam {
 namespace {
 
 constexpr auto kFooter = R"(Lines printed:
-  R LIVES RAM SCREEN [AUDIO] [RAMHEX]                       after a reset: the first one, and one after each game over
-  A ACTION REWARD OVER LIVES RAM SCREEN [AUDIO] [RAMHEX]    after one act
+  R LIVES RAM SCREEN [AUDIO] [RAMHEX]                      after a reset: the first, and one after each end
+  A ACTION REWARD OVER LIVES RAM SCREEN [AUDIO] [RAMHEX]   after one act
 
-RAM, SCREEN and AUDIO are CRC-32 (as in zlib) of the 128 bytes of RAM, of the palette indices of the screen and of
-the 512 samples. With --mode or --difficulty the game is reset once more before the first line.
+RAM, SCREEN and AUDIO are CRC-32 (as in zlib) of the 128 bytes of RAM, of the palette indices of the screen
+and of the 512 samples. With --mode or --difficulty the game is reset once more before the first line.
 
 Examples:
   echo 1 3 3 3 4 | racebeam trace --rom pong.bin --actions -
@@ -39,7 +39,8 @@ void append_hex(std::string& out, std::span<const std::uint8_t> bytes) {
 
 void append_crc(std::string& out, std::span<const std::uint8_t> bytes) {
   const auto crc = static_cast<std::uint32_t>(crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
-  const std::uint8_t big_endian[] = {static_cast<std::uint8_t>(crc >> 24), static_cast<std::uint8_t>(crc >> 16),
+  const std::uint8_t big_endian[] = {static_cast<std::uint8_t>(crc >> 24),
+                                     static_cast<std::uint8_t>(crc >> 16),
                                      static_cast<std::uint8_t>(crc >> 8), static_cast<std::uint8_t>(crc)};
   out += ' ';
   append_hex(out, big_endian);
@@ -107,9 +108,13 @@ void add_trace(CLI::App& app) {
 
   CLI::App& command = *app.add_subcommand("trace", "Play a list of actions and print what each led to");
   add_machine_options(command, options->machine);
-  command.add_option("--actions", options->actions, "A trace, or numbers of actions; plain or gzip; -: standard input")
+  command.get_option("--seed")->description("Seed of all that is random in play");
+  command
+      .add_option("--actions", options->actions,
+                  "A trace, or numbers of actions; plain or gzip; -: standard input")
       ->required();
-  add_count(command, "--max-frames", settings.max_episode_frames, 0, "Frames after which an episode is over; 0: no limit");
+  add_count(command, "--max-frames", settings.max_episode_frames, 0,
+            "Frames after which an episode is over; 0: no limit");
   command.add_flag("--audio", settings.sound, "Print the checksum of the sound too");
   command.add_flag("--ram", options->ram, "Print the RAM in full too");
   command.footer(kFooter);

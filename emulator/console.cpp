@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kInstructionsPerStep = 25000;
 constexpr int kDetectionSteps = 60;
+constexpr int kDefaultHeight = 210, kTallHeight = 250;  // the latter for PAL and SECAM
 
 bool is_pal(Format format) { return format == Format::kPal || format == Format::kPal60; }
 
@@ -35,6 +36,7 @@ struct Console::Impl {
   void set_timer();
   void reset();
   void step();
+  void blank(std::shared_ptr<Picture>& picture);
   Picture& canvas();
   Format detect_format();
 };
@@ -48,7 +50,7 @@ void Console::Impl::power_up() {
   if (format == Format::kAuto) format = detect_format();
   board.video.pal = is_pal(format);
   const bool taller = format == Format::kPal || format == Format::kSecam;
-  if (taller && board.video.height == 210) board.video.height = 250;
+  if (taller && board.video.height == kDefaultHeight) board.video.height = kTallHeight;
   reset();
 }
 
@@ -71,7 +73,8 @@ void Console::Impl::reset() {
   state().frame = FrameState{};
   state().frame.open = open;
   state().frame.greyed = greyed;
-  pictures = {std::make_shared<Picture>(), std::make_shared<Picture>()};
+  blank(pictures.current);
+  blank(pictures.previous);
   const Scheme& scheme = board.slot.scheme;
   power_on.fill_cartridge(std::span(state().cartridge.ram).first(scheme.ram), state().drawn);
   scheme.reset(board.slot);
@@ -99,6 +102,17 @@ void Console::Impl::step() {
     board.tia.grey(picture, state().cycle);
     frame.greyed = 1;
   }
+}
+
+// A black picture; one that a snapshot holds too is left as it is.
+void Console::Impl::blank(std::shared_ptr<Picture>& picture) {
+  if (!picture || picture.use_count() > 1) {
+    picture = std::make_shared<Picture>();
+    return;
+  }
+  std::atomic_thread_fence(std::memory_order_acquire);
+  picture->pixel.fill(0);
+  picture->forget_lines();
 }
 
 // The picture that is drawn on: the console's own, not one that a snapshot holds too.

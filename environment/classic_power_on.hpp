@@ -8,7 +8,8 @@
 
 namespace racebeam {
 
-// The generator's position is not part of a machine's state: a restored machine goes on where the generator stands.
+// The generator's position is not part of a machine's state: a restored machine goes on where the generator
+// stands.
 class ClassicPowerOn : public PowerOn {
  public:
   explicit ClassicPowerOn(std::mt19937& shared) : shared_(shared) {}

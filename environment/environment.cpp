@@ -31,9 +31,9 @@ const Settings& checked(const Settings& settings, const Game& game) {
                 "reward_min (" + std::to_string(settings.reward_min) + ") is above reward_max (" +
                     std::to_string(settings.reward_max) + ")");
   const PaddleLimits limits = paddle_limits(settings, game);
-  refuse_unless(limits.min >= 0 && limits.min <= limits.max,
-                "paddle_min (" + std::to_string(limits.min) + ") must be between 0 and paddle_max (" +
-                    std::to_string(limits.max) + ")");
+  refuse_unless(limits.min >= 0 && limits.min <= limits.max, "paddle_min (" + std::to_string(limits.min) +
+                                                                 ") must be between 0 and paddle_max (" +
+                                                                 std::to_string(limits.max) + ")");
   return settings;
 }
 
@@ -46,7 +46,8 @@ void check_offered(int number, const std::vector<int>& offered, const std::strin
   if (std::ranges::find(offered, number) != offered.end()) return;
   std::string list;
   for (const int one : offered) list += (list.empty() ? "" : ", ") + std::to_string(one);
-  throw std::invalid_argument(game.name + " has no " + what + " " + std::to_string(number) + "; it offers " + list);
+  throw std::invalid_argument(game.name + " has no " + what + " " + std::to_string(number) + "; it offers " +
+                              list);
 }
 
 std::size_t ram_index(int index) {
@@ -62,9 +63,10 @@ Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_pt
       game(std::move(game_given)),
       settings(checked(settings_given, *game)),
       identity(*image, *game),
+      properties(game->properties_for(image->md5)),
       random(settings.random_seed),
       power_on(make_power_on(settings, random)),
-      console(image->bytes, game->properties_for(image->md5), *power_on),
+      console(image->bytes, properties, *power_on),
       rule(*game),
       legal(game->legal_actions, console.has_paddles()),
       sticky(settings.sticky),
@@ -86,7 +88,8 @@ std::span<const std::uint8_t> Environment::Impl::screen() {
   return blended;
 }
 
-Environment::Environment(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings)
+Environment::Environment(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game,
+                         const Settings& settings)
     : impl_(std::make_unique<Impl>(std::move(image), std::move(game), settings)) {}
 
 Environment::~Environment() = default;
@@ -160,7 +163,9 @@ const Game& Environment::game() const { return *impl_->game; }
 const Image& Environment::image() const { return *impl_->image; }
 const Settings& Environment::settings() const { return impl_->settings; }
 
-std::shared_ptr<const Environment::Saved> Environment::save(bool with_random) const { return impl_->save(with_random); }
+std::shared_ptr<const Environment::Saved> Environment::save(bool with_random) const {
+  return impl_->save(with_random);
+}
 void Environment::restore(const Saved& saved) { impl_->restore(saved); }
 void Environment::restore_classic(const Saved& saved) { impl_->restore_classic(saved); }
 

@@ -21,17 +21,20 @@ constexpr int kAudioSize = 512;
 
 class Environment {
  public:
-  // Powers a console on with `image` and resets `game`. Throws std::invalid_argument when a setting, or the image, can't be used.
+  // Powers a console on with `image` and resets `game`. Throws std::invalid_argument when a setting, or the
+  // image, can't be used.
   Environment(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings);
   ~Environment();
   Environment(Environment&&) noexcept;
   Environment& operator=(Environment&&) noexcept;
 
-  // One agent step of `frame_skip` frames. a: 0-17, b: 18-35 (environment.md, section 1). Returns the clamped sum of rewards.
+  // One agent step of `frame_skip` frames. a: 0-17, b: 18-35 (environment.md, section 1). Returns the clamped
+  // sum of rewards.
   int act(int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
   void reset_game();
 
-  // A mode takes effect at the next reset, a difficulty at the next frame. Throw std::invalid_argument, naming what is offered.
+  // A mode takes effect at the next reset, a difficulty at the next frame. Throw std::invalid_argument,
+  // naming what is offered.
   void set_mode(int mode);
   void set_difficulty(int difficulty);
   int mode() const;
@@ -44,11 +47,11 @@ class Environment {
   int frame_number() const;          // counted frames since loading
   int episode_frame_number() const;  // since the last reset
 
-  int height() const;                                 // rows of the screen
-  std::span<const std::uint8_t> screen() const;       // height x 160 palette indices, row-major
+  int height() const;                            // rows of the screen
+  std::span<const std::uint8_t> screen() const;  // height x 160 palette indices, row-major
   std::span<const std::uint8_t, kRamSize> ram() const;
   std::span<const std::uint8_t, kAudioSize> audio() const;  // of the last act; zeros without Settings::sound
-  void set_ram(int index, std::uint8_t value);        // index 0-127, else std::out_of_range
+  void set_ram(int index, std::uint8_t value);              // index 0-127, else std::out_of_range
   void screen_rgb(std::vector<std::uint8_t>& rgb) const;    // height x 160 x 3
   void screen_grey(std::vector<std::uint8_t>& grey) const;  // height x 160
 
@@ -56,8 +59,8 @@ class Environment {
   const Image& image() const;
   const Settings& settings() const;
 
-  // A state in memory. Restoring it gives back the picture, RAM, audio, rewards and every later frame, exactly.
-  // with_random: the sticky-action generator too.
+  // A state in memory. Restoring it gives back the picture, RAM, audio, rewards and every later frame,
+  // exactly. with_random: the sticky-action generator too.
   class Saved;
   std::shared_ptr<const Saved> save(bool with_random = false) const;
   void restore(const Saved& saved);

@@ -64,7 +64,8 @@ void Hands::turn_paddles(Inputs& inputs, const Presses& presses, PaddleValues& p
              limits_.turn(paddles[1], direction(b), presses.b.strength)};
   inputs.paddle[0] = paddles[0];
   inputs.paddle[1] = paddles[1];
-  inputs.paddle_fire = static_cast<std::uint8_t>(((a & kStickFire) != 0 ? 1 : 0) | ((b & kStickFire) != 0 ? 2 : 0));
+  inputs.paddle_fire =
+      static_cast<std::uint8_t>(((a & kStickFire) != 0 ? 1 : 0) | ((b & kStickFire) != 0 ? 2 : 0));
 }
 
 void Hands::press_select(Inputs& inputs, int difficulty) {

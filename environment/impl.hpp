@@ -26,6 +26,7 @@ struct Environment::Impl {
   const std::shared_ptr<const Game> game;
   const Settings settings;
   const Identity identity;
+  const Properties properties;
 
   std::mt19937 random;  // of sticky actions; of the machine too, in classic mode
   const std::unique_ptr<PowerOn> power_on;

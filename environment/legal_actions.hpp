@@ -12,7 +12,8 @@ class LegalActions {
  public:
   LegalActions(const std::vector<int>& legal, bool paddles);
 
-  // Throws std::invalid_argument for what would end the reference's process in mid-game. Paddles take any number.
+  // Throws std::invalid_argument for what would end the reference's process in mid-game. Paddles take any
+  // number.
   void check(const Presses& asked) const;
 
   // An illegal action becomes NOOP, and so does RESET.

@@ -1,5 +1,5 @@
-// What lives on from act to act beside the machine and the rule's tally. One trivially copyable value, so that saving
-// it is a copy and nothing can be left out.
+// What lives on from act to act beside the machine and the rule's tally. One trivially copyable value, so
+// that saving it is a copy and nothing can be left out.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 namespace racebeam {
 
 struct Play {
-  Presses held;                  // what a sticky frame repeats
+  Presses held;  // what a sticky frame repeats
   PaddleValues paddles{};
-  std::uint32_t frames = 0;      // counted since loading
+  std::uint32_t frames = 0;  // counted since loading
   std::uint32_t episode_frames = 0;
-  std::int32_t mode = 0;         // takes effect at the next reset
+  std::int32_t mode = 0;  // takes effect at the next reset
   std::int32_t difficulty = 0;
-  std::uint32_t ram_is_stale = 0;           // RAM is answered from the next member: Environment::restore_classic()
+  std::uint32_t ram_is_stale = 0;  // RAM is answered from the next member: Environment::restore_classic()
   std::array<std::uint8_t, 128> stale_ram{};
 };
 

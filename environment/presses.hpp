@@ -16,8 +16,9 @@ struct Presses {
   Press b{18, 0.0F};
 };
 
-// The reference compares a draw u / 2^32 with the probability p, in double precision: the smallest u that lets a new
-// action through. p is single precision and has been through a decimal text of six significant digits.
+// The reference compares a draw u / 2^32 with the probability p, in double precision: the smallest u that
+// lets a new action through. p is single precision and has been through a decimal text of six significant
+// digits.
 std::uint64_t sticky_threshold(float p);
 
 class Sticky {

@@ -1,4 +1,5 @@
-// States in memory: copies of values (spec: environment.md, section 13, for what the reference leaves out).
+// States in memory: copies of values, and pictures that are shared until they are drawn on again (spec:
+// environment.md, section 13, for what the reference leaves out).
 #include <algorithm>
 #include <stdexcept>
 
@@ -38,10 +39,9 @@ std::shared_ptr<const Environment::Saved> Environment::Impl::save(bool with_rand
   auto saved = std::make_shared<Saved>();
   saved->identity = identity;
   saved->values = {console.state(), play, rule.tally(), console.sound(), audio};
-  saved->pictures.reserve(2 * console.picture().size());
-  for (const auto picture : {console.picture(), console.previous_picture()}) {
-    saved->pictures.insert(saved->pictures.end(), picture.begin(), picture.end());
-  }
+  saved->properties = properties;
+  saved->pictures = console.pictures();
+  saved->height = console.height();
   if (with_random) saved->random = random;
   return saved;
 }
@@ -49,8 +49,7 @@ std::shared_ptr<const Environment::Saved> Environment::Impl::save(bool with_rand
 void Environment::Impl::restore(const Saved& saved) {
   check(saved);
   console.restore(saved.values.machine);
-  const auto pictures = std::span(saved.pictures);
-  console.restore_pictures(pictures.first(pictures.size() / 2), pictures.last(pictures.size() / 2));
+  console.restore_pictures(saved.pictures);
   console.sound() = saved.values.sound;
   rule.restore(saved.values.tally);
   play = saved.values.play;
@@ -59,11 +58,12 @@ void Environment::Impl::restore(const Saved& saved) {
   blend_is_due = true;
 }
 
-// The same game can have been given other properties.
+// A game of the same name can come from another file.
 void Environment::Impl::check(const Saved& saved) const {
   check_identity(saved.identity, identity);
-  if (saved.pictures.size() == 2 * console.picture().size()) return;
-  throw std::invalid_argument("the state's pictures have another height than those of the console that runs");
+  if (saved.properties == properties && saved.height == console.height()) return;
+  throw std::invalid_argument(
+      "the state is of a console with another picture or other controllers than the one that runs");
 }
 
 // The reference copies RAM after frames only, and keeps pictures, sound and sticky actions out of its states.

@@ -6,8 +6,9 @@
 #include <random>
 #include <string>
 #include <type_traits>
-#include <vector>
 
+#include "emulator/picture.hpp"
+#include "emulator/properties.hpp"
 #include "emulator/sound.hpp"
 #include "emulator/state.hpp"
 #include "environment/environment.hpp"
@@ -41,7 +42,9 @@ class Environment::Saved {
 
   Identity identity;
   Values values;
-  std::vector<std::uint8_t> pictures;  // current, then previous
+  Properties properties;  // of the console
+  Pictures pictures;      // shared with it until it draws again
+  int height = 0;         // rows of them that are shown
   std::optional<std::mt19937> random;
 };
 

@@ -7,17 +7,17 @@
 namespace racebeam {
 
 struct Settings {
-  std::uint32_t random_seed = 0;            // seeds the sticky-action generator
-  std::uint32_t system_seed = 4753849;      // seeds power-on RAM and timer
-  int frame_skip = 1;                       // frames an act lasts, at least 1
-  float sticky = 0.25F;                     // probability that a frame repeats the action before
-  int max_episode_frames = 0;               // 0: no limit
+  std::uint32_t random_seed = 0;        // seeds the sticky-action generator
+  std::uint32_t system_seed = 4753849;  // seeds power-on RAM and timer
+  int frame_skip = 1;                   // frames an act lasts, at least 1
+  float sticky = 0.25F;                 // probability that a frame repeats the action before
+  int max_episode_frames = 0;           // 0: no limit
   bool truncate_on_life_loss = false;
   int reward_min = std::numeric_limits<int>::min();
   int reward_max = std::numeric_limits<int>::max();
   bool color_averaging = false;
-  bool sound = false;                       // produce the 512 audio samples of each act
-  int paddle_min = -1;                      // -1: the built-in limits, or what the game says
+  bool sound = false;   // produce the 512 audio samples of each act
+  int paddle_min = -1;  // -1: the built-in limits, or what the game says
   int paddle_max = -1;
   // ALE 0.4-0.6: one generator for machine and stickiness, sticky actions survive a reset, and so on
   // (spec: classic-protocol.md, section 6).

@@ -24,14 +24,19 @@ struct Header {
   std::uint32_t version;
   std::uint32_t values_size;  // another compilation of the same version could differ
   std::uint32_t total_size;
-  std::uint32_t checksum;     // CRC-32 of all that follows the header
+  std::uint32_t checksum;  // CRC-32 of all that follows the header
 };
 static_assert(sizeof(Header) == 24);
 
 struct Prefix {
   Identity identity;
-  std::uint32_t pictures_size;
+  std::int32_t height;  // rows of a picture
   std::uint32_t has_random;
+
+  std::size_t picture_size() const { return static_cast<std::size_t>(height) * kScreenWidth; }
+  std::size_t size_of_rest() const {
+    return sizeof(Values) + 2 * picture_size() + (has_random != 0 ? sizeof(GeneratorWords) : 0);
+  }
 };
 
 constexpr char kMagic[8] = {'R', 'B', 'S', 'T', 'A', 'T', 'E', '\n'};
@@ -82,21 +87,30 @@ void check(const Header& header, std::size_t size) {
            "; this one reads format " + std::to_string(kSnapshotVersion) + ")");
   }
   if (header.total_size != size) {
-    refuse("the state has " + std::to_string(size) + " bytes instead of " + std::to_string(header.total_size) +
-           "; it was cut, or something was added");
+    refuse("the state has " + std::to_string(size) + " bytes instead of " +
+           std::to_string(header.total_size) + "; it was cut, or something was added");
   }
-}
-
-std::size_t size_after(const Prefix& prefix) {
-  return sizeof(Values) + prefix.pictures_size + (prefix.has_random != 0 ? sizeof(GeneratorWords) : 0);
 }
 
 void check(const Prefix& prefix, std::size_t size, const Environment& environment) {
   check_identity(prefix.identity, Identity(environment.image(), environment.game()));
-  if (prefix.pictures_size != 2 * environment.screen().size()) {
-    refuse("the state's pictures have another height than those of the console that runs");
+  if (prefix.height != environment.height()) {
+    refuse("the state's pictures have " + std::to_string(prefix.height) +
+           " rows; those of the console that runs have " + std::to_string(environment.height()));
   }
-  if (size != size_after(prefix)) refuse("the state contradicts itself about its size");
+  if (size != prefix.size_of_rest()) refuse("the state contradicts itself about its size");
+}
+
+void append_pixels(std::vector<std::uint8_t>& bytes, const Picture& picture, std::size_t size) {
+  const auto pixels = std::span(picture.pixel).first(size);
+  bytes.insert(bytes.end(), pixels.begin(), pixels.end());
+}
+
+std::shared_ptr<Picture> take_picture(std::span<const std::uint8_t>& bytes, std::size_t size) {
+  auto picture = std::make_shared<Picture>();
+  std::ranges::copy(bytes.first(size), picture->pixel.begin());
+  bytes = bytes.subspan(size);
+  return picture;
 }
 
 }  // namespace
@@ -104,17 +118,21 @@ void check(const Prefix& prefix, std::size_t size, const Environment& environmen
 std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved) {
   Prefix prefix{};
   prefix.identity = saved.identity;
-  prefix.pictures_size = static_cast<std::uint32_t>(saved.pictures.size());
+  prefix.height = saved.height;
   prefix.has_random = saved.random.has_value();
 
   std::vector<std::uint8_t> bytes(sizeof(Header));
-  bytes.reserve(sizeof(Header) + sizeof(Prefix) + size_after(prefix));
+  bytes.reserve(sizeof(Header) + sizeof(Prefix) + prefix.size_of_rest());
   append(bytes, prefix);
   append(bytes, saved.values);
-  bytes.insert(bytes.end(), saved.pictures.begin(), saved.pictures.end());
+  append_pixels(bytes, *saved.pictures.current, prefix.picture_size());
+  append_pixels(bytes, *saved.pictures.previous, prefix.picture_size());
   if (saved.random) append(bytes, words_of(*saved.random));
 
-  Header header{{}, kSnapshotVersion, sizeof(Values), static_cast<std::uint32_t>(bytes.size()),
+  Header header{{},
+                kSnapshotVersion,
+                sizeof(Values),
+                static_cast<std::uint32_t>(bytes.size()),
                 checksum(std::span(bytes).subspan(sizeof(Header)))};
   std::ranges::copy(kMagic, header.magic);
   std::memcpy(bytes.data(), &header, sizeof header);
@@ -123,7 +141,8 @@ std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved) {
 
 std::shared_ptr<const Environment::Saved> from_bytes(std::span<const std::uint8_t> bytes,
                                                      const Environment& environment) {
-  if (bytes.size() < sizeof(Header) + sizeof(Prefix)) refuse("this is not a state saved by racebeam: it is too short");
+  if (bytes.size() < sizeof(Header) + sizeof(Prefix))
+    refuse("this is not a state saved by racebeam: it is too short");
   const std::size_t size = bytes.size();
   const auto header = take<Header>(bytes);
   check(header, size);
@@ -133,10 +152,11 @@ std::shared_ptr<const Environment::Saved> from_bytes(std::span<const std::uint8_
 
   auto saved = std::make_shared<Environment::Saved>();
   saved->identity = prefix.identity;
+  saved->properties = environment.game().properties_for(environment.image().md5);
+  saved->height = prefix.height;
   saved->values = take<Values>(bytes);
-  const auto pictures = bytes.first(prefix.pictures_size);
-  saved->pictures.assign(pictures.begin(), pictures.end());
-  bytes = bytes.subspan(pictures.size());
+  saved->pictures.current = take_picture(bytes, prefix.picture_size());
+  saved->pictures.previous = take_picture(bytes, prefix.picture_size());
   if (prefix.has_random != 0) saved->random = generator_of(take<GeneratorWords>(bytes));
   return saved;
 }

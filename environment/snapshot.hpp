@@ -1,9 +1,10 @@
-// A saved state as bytes that another process can restore: magic, version, sizes, checksum, the image's MD5, the
-// game's name, then the values of Saved.
+// A saved state as bytes that another process can restore: magic, version, sizes, checksum, the image's MD5,
+// the game's name, then the values of Saved.
 //
-// The trivially copyable values are written whole, not field by field: they are integers of fixed width and single
-// floats, little-endian, without padding, so that their memory is already a portable form, and no list of fields can
-// drift from them. Whoever changes one of these types raises kSnapshotVersion; their size is checked as well.
+// The trivially copyable values are written whole, not field by field: they are integers of fixed width and
+// single floats, little-endian, without padding, so that their memory is already a portable form, and no list
+// of fields can drift from them. Whoever changes one of these types raises kSnapshotVersion; their size is
+// checked as well.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +20,8 @@ constexpr std::uint32_t kSnapshotVersion = 1;
 
 std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved);
 
-// Throws std::invalid_argument when `bytes` are no state, were cut or altered, are of another version of this program,
-// or of another image or game than those of `environment`.
+// Throws std::invalid_argument when `bytes` are no state, were cut or altered, are of another version of this
+// program, or of another image or game than those of `environment`.
 std::shared_ptr<const Environment::Saved> from_bytes(std::span<const std::uint8_t> bytes,
                                                      const Environment& environment);
 

@@ -1,6 +1,5 @@
 #include "server/sockets.hpp"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -10,6 +9,7 @@
 
 #include "server/listener.hpp"
 #include "server/log.hpp"
+#include "server/loops.hpp"
 
 namespace racebeam {
 namespace {
@@ -18,6 +18,21 @@ namespace net = boost::asio;
 using boost::system::error_code;
 using net::use_awaitable;
 using namespace std::chrono_literals;
+
+// Somebody who came in; counts as a session of the loop until the end.
+struct Client {
+  Client(Socket connection, Loop& home, std::string who)
+      : socket(std::move(connection)), loop(home), name(std::move(who)) {
+    ++loop.sessions;
+  }
+  ~Client() { --loop.sessions; }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  Socket socket;
+  Loop& loop;
+  std::string name;
+};
 
 net::awaitable<void> converse(Socket& socket, ClassicSession& session) {
   error_code error;
@@ -33,30 +48,30 @@ net::awaitable<void> converse(Socket& socket, ClassicSession& session) {
 }
 
 // Closing with input unread would make the system throw away what the client has not read yet.
-net::awaitable<void> close_gently(std::shared_ptr<Socket> socket) {
+net::awaitable<void> close_gently(std::shared_ptr<Client> client) {
   error_code error;
-  socket->shutdown(Socket::shutdown_send, error);
-  net::steady_timer patience(socket->get_executor(), 2s);
-  patience.async_wait([socket](error_code cancelled) {
+  client->socket.shutdown(Socket::shutdown_send, error);
+  net::steady_timer patience(client->socket.get_executor(), 2s);
+  patience.async_wait([client](error_code cancelled) {
     error_code ignored;
-    if (!cancelled) socket->close(ignored);
+    if (!cancelled) client->socket.close(ignored);
   });
   std::array<char, 4096> rest;
   while (!error) {
-    co_await socket->async_read_some(net::buffer(rest), net::redirect_error(use_awaitable, error));
+    co_await client->socket.async_read_some(net::buffer(rest), net::redirect_error(use_awaitable, error));
   }
 }
 
-net::awaitable<void> play(std::shared_ptr<Socket> socket, const ClassicService& service, std::string name) {
+net::awaitable<void> play(std::shared_ptr<Client> client, const ClassicService& service) {
   try {
     Environment machine = service.power_on();
-    log(name + ": " + describe(machine));
+    log(client->name + ": " + describe(machine));
     ClassicSession session(machine, service.options);
-    co_await converse(*socket, session);
+    co_await converse(client->socket, session);
   } catch (const std::exception& error) {
-    log(name + ": " + error.what());
+    log(client->name + ": " + error.what());
   }
-  co_await close_gently(socket);
+  co_await close_gently(client);
 }
 
 void set_options(Socket& socket) {
@@ -70,21 +85,21 @@ net::awaitable<void> pause() {
   co_await timer.async_wait(use_awaitable);
 }
 
-// Each session runs on its own strand of the pool.
-net::awaitable<void> welcome(Listener& listener, net::thread_pool& pool, const ClassicService& service) {
+net::awaitable<void> welcome(Listener& listener, Loops& loops, const ClassicService& service) {
   for (int number = 1;; ++number) {
+    Loop& loop = loops.idlest();
     error_code error;
-    const net::any_io_executor strand = net::make_strand(pool.get_executor());
     Socket socket =
-        co_await listener.acceptor().async_accept(strand, net::redirect_error(use_awaitable, error));
+        co_await listener.acceptor().async_accept(loop.context, net::redirect_error(use_awaitable, error));
     if (error) {  // out of descriptors, most likely; it may pass
       log("cannot take a client on " + listener.name() + ": " + error.message());
       co_await pause();
       continue;
     }
     set_options(socket);
-    const std::string name = listener.name() + " client " + std::to_string(number);
-    net::co_spawn(strand, play(std::make_shared<Socket>(std::move(socket)), service, name), net::detached);
+    std::string name = listener.name() + " client " + std::to_string(number);
+    auto client = std::make_shared<Client>(std::move(socket), loop, std::move(name));
+    net::co_spawn(loop.context, play(std::move(client), service), net::detached);
   }
 }
 
@@ -92,18 +107,19 @@ net::awaitable<void> welcome(Listener& listener, net::thread_pool& pool, const C
 
 int serve_sockets(const std::vector<std::string>& addresses, const ClassicService& service) {
   std::signal(SIGPIPE, SIG_IGN);
-  service.power_on();  // an image or a setting that does not work should show now
-  net::thread_pool pool(std::max(1U, std::thread::hardware_concurrency()));
-  net::signal_set signals(pool, SIGTERM, SIGINT);
+  Loops loops(std::thread::hardware_concurrency());
+  net::io_context& first = loops.first().context;
+  net::signal_set signals(first, SIGTERM, SIGINT);
   std::list<Listener> listeners;
-  for (const std::string& address : addresses)
-    listeners.emplace_back(pool.get_executor(), parse_address(address));
+  for (const std::string& address : addresses) {
+    listeners.emplace_back(first.get_executor(), parse_address(address));
+  }
   for (Listener& listener : listeners) {
-    net::co_spawn(pool, welcome(listener, pool, service), net::detached);
+    net::co_spawn(first, welcome(listener, loops, service), net::detached);
     log("listening on " + listener.name());
   }
-  signals.async_wait([&pool](error_code, int) { pool.stop(); });
-  pool.join();
+  signals.async_wait([&loops](error_code, int) { loops.stop(); });
+  loops.run();
   return 0;
 }
 
