@@ -89,6 +89,7 @@ void Beam::draw_span(int begin, int clocks) {
     const bool whole = first == 0 && last == kLinePixels;
     if (whole && repeats_ && !tia_.comb_armed) {
       std::memcpy(row, row - kLinePixels, kLinePixels);
+      if (!tia_.vblank) collide(first, last);
     } else {
       draw_visible(row, first, last);
       repeats_ = whole && !tia_.comb_armed;
@@ -103,10 +104,15 @@ void Beam::draw_visible(std::uint8_t* row, int first, int last) {
     std::memset(row + first, 0, static_cast<std::size_t>(last - first));
     return;
   }
+  collide(first, last);
+  draw_pixels(line_, tia_, row, first, last);
+  if (exact_spans_) spill(row, first, last);
+}
+
+void Beam::collide(int first, int last) {
   if (stale_ != 0) line_.refresh(tia_, stale_);
   stale_ = 0;
-  tia_.collisions |= draw_pixels(line_, tia_, row, first, last);
-  if (exact_spans_) spill(row, first, last);
+  tia_.collisions |= meetings(line_, first, last, tia_.collisions);
 }
 
 // The reference writes some pixels four at a time, and so up to three beyond the span (tia.md, "Provisional pixels").

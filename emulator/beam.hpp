@@ -60,6 +60,7 @@ class Beam {
  private:
   void draw_span(int begin, int clocks);
   void draw_visible(std::uint8_t* row, int first, int last);
+  void collide(int first, int last);
   void spill(std::uint8_t* row, int first, int last);
   void blank_comb(std::uint8_t* row, int begin, int end, int first, int last);
   void end_line();

@@ -5,9 +5,8 @@
 #include <cstdint>
 
 #include "emulator/board.hpp"
+#include "emulator/inlining.hpp"
 #include "emulator/timer_loop.hpp"
-
-#define RACEBEAM_INLINE [[gnu::always_inline]] inline
 
 namespace racebeam {
 

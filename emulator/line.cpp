@@ -102,15 +102,6 @@ constexpr auto make_pair_of_latch() {
 }
 constexpr auto kPairOfLatch = make_pair_of_latch();
 
-Collisions meetings(const Line& line, const PixelMask& clip, Collisions known) {
-  Collisions found = 0;
-  for (unsigned left = kPossible[line.covered] & ~known; left != 0; left &= left - 1) {
-    const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(left))];
-    if ((line.mask[p.a] & clip).meets(line.mask[p.b])) found |= p.latch;
-  }
-  return found;
-}
-
 }  // namespace
 
 void Line::refresh(const TiaState& tia, std::uint8_t objects) {
@@ -129,15 +120,26 @@ void Line::refresh(const TiaState& tia, std::uint8_t objects) {
   if (objects & bit(kPlayfield)) set(kPlayfield, playfield_bits(tia) != 0, playfield_mask(tia));
 }
 
-Collisions draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
+void draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
   std::memset(row + first, tia.color[kColubk], static_cast<std::size_t>(last - first));
-  if (line.covered == 0) return 0;
+  if (line.covered == 0) return;
   const bool whole = first == 0 && last == kLinePixels;
   const PixelMask clip = PixelMask::range(first, last);
   for (const Layer& layer : layers(line, tia.ctrlpf)) {
     if (layer.mask.any()) paint(row, whole ? layer.mask : layer.mask & clip, tia.color[layer.color]);
   }
-  return meetings(line, clip, tia.collisions);
+}
+
+Collisions meetings(const Line& line, int first, int last, Collisions known) {
+  unsigned left = kPossible[line.covered] & ~known;
+  if (left == 0) return 0;
+  const PixelMask clip = PixelMask::range(first, last);
+  Collisions found = 0;
+  for (; left != 0; left &= left - 1) {
+    const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(left))];
+    if ((line.mask[p.a] & clip).meets(line.mask[p.b])) found |= p.latch;
+  }
+  return found;
 }
 
 }  // namespace racebeam

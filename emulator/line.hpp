@@ -21,7 +21,10 @@ struct Line {
   void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew
 };
 
-// Writes pixels `first` to `last` - 1 of a row; returns the pairs that meet there.
-Collisions draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last);
+// Writes pixels `first` to `last` - 1 of a row.
+void draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last);
+
+// The pairs that meet in these pixels; those that are `known` need not be looked at.
+Collisions meetings(const Line& line, int first, int last, Collisions known);
 
 }  // namespace racebeam

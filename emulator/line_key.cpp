@@ -42,18 +42,24 @@ constexpr std::uint8_t involved_by(unsigned reg) {
 constexpr std::array<LineEffect, 64> make_effects() {
   std::array<LineEffect, 64> table{};
   for (unsigned reg = 0; reg < 64; ++reg)
-    table[reg] = {draws(reg), static_cast<std::int8_t>((228 - longest_delay(reg)) / 3), involved_by(reg)};
+    table[reg] = {static_cast<std::int8_t>((228 - longest_delay(reg)) / 3), involved_by(reg)};
   return table;
 }
 
-std::uint8_t enabled_objects(const TiaRegisters& r) {
-  std::uint8_t objects = ball_enabled(r.ball) ? bit(kBall) : 0;
+unsigned enabled_objects(const TiaRegisters& r) {
+  unsigned objects = (ball_enabled(r.ball) ? 1U : 0U) << kBall;
   for (unsigned i = 0; i < 2; ++i) {
-    if (shown_graphics(r.player[i]) != 0) objects |= bit(kP0 + i);
-    if (missile_enabled(r.missile[i])) objects |= bit(kM0 + i);
+    objects |= (shown_graphics(r.player[i]) != 0 ? 1U : 0U) << (kP0 + i);
+    objects |= (missile_enabled(r.missile[i]) ? 1U : 0U) << (kM0 + i);
   }
-  if ((r.pf[0] & 0xF0) | r.pf[1] | r.pf[2]) objects |= bit(kPlayfield);
-  return objects;
+  return objects | (((r.pf[0] & 0xF0) | r.pf[1] | r.pf[2]) != 0 ? 1U : 0U) << kPlayfield;
+}
+
+constexpr std::uint64_t make_drawing_registers() {
+  std::uint64_t registers = 0;
+  for (unsigned reg = 0; reg < 64; ++reg)
+    if (draws(reg)) registers |= std::uint64_t{1} << reg;
+  return registers;
 }
 
 // Bit 7 of an index to kMasks: score mode shows the players' colours in the playfield.
@@ -92,6 +98,7 @@ using Words = std::array<std::uint64_t, sizeof(TiaRegisters) / sizeof(std::uint6
 
 }  // namespace
 
+constinit const std::uint64_t kDrawingRegisters = make_drawing_registers();
 constinit const std::array<LineEffect, 64> kLineEffects = make_effects();
 
 TiaRegisters line_key(const TiaRegisters& registers, std::uint8_t involved) {

@@ -9,9 +9,11 @@
 
 namespace racebeam {
 
-// What a write of a register may do to the line that it falls on.
+// The registers (one bit each) whose writes may change the picture at all.
+extern const std::uint64_t kDrawingRegisters;
+
+// What a write of such a register may do to the line that it falls on.
 struct LineEffect {
-  bool draws;               // it may change the picture at all
   std::int8_t last_cycle;   // of the line, at which it still takes effect on the same line
   std::uint8_t involved;    // bit n: it may make Object n visible; and the two below
 };

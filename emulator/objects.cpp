@@ -82,10 +82,6 @@ std::uint32_t playfield_bits(const TiaState& tia) {
   return static_cast<std::uint32_t>(tia.pf[0] >> 4 | kTables.reverse[tia.pf[1]] << 4 | tia.pf[2] << 12);
 }
 
-std::uint8_t shown_graphics(const PlayerState& player) { return player.vdel ? player.old_grp : player.grp; }
-bool missile_enabled(const MissileState& missile) { return missile.enabled && !missile.locked; }
-bool ball_enabled(const BallState& ball) { return ball.vdel ? ball.old_enabled : ball.enabled; }
-
 PixelMask playfield_mask(const TiaState& tia) {
   const std::uint32_t bits = playfield_bits(tia);
   // 20 bits, of four pixels each, are 80 pixels: a word and a quarter.

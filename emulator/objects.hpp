@@ -15,9 +15,11 @@ enum Object : unsigned { kP0, kP1, kM0, kM1, kBall, kPlayfield, kObjects };
 std::uint32_t playfield_bits(const TiaState& tia);
 
 // What is enabled, wherever it stands: graphics not zero, ENAxx set, RESMPx clear (one bit an Object).
-std::uint8_t shown_graphics(const PlayerState& player);  // after VDELPx, before REFPx
-bool missile_enabled(const MissileState& missile);
-bool ball_enabled(const BallState& ball);
+inline std::uint8_t shown_graphics(const PlayerState& player) {  // before REFPx
+  return player.vdel ? player.old_grp : player.grp;
+}
+inline bool missile_enabled(const MissileState& missile) { return missile.enabled && !missile.locked; }
+inline bool ball_enabled(const BallState& ball) { return (ball.vdel ? ball.old_enabled : ball.enabled) != 0; }
 
 PixelMask playfield_mask(const TiaState& tia);
 PixelMask player_mask(const PlayerState& player);

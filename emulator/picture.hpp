@@ -3,7 +3,6 @@
 // and belong to the buffer, not to the machine's state.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -33,14 +32,12 @@ struct LineRecord {
   TiaRegisters key;                // line_key() at the start of the line
   Collisions meetings;             // pairs that met on the line
   std::uint8_t count = kInvalid;   // of events
+  std::uint8_t involved;           // what the events may make visible, see line_key.hpp
   std::uint8_t repeats;            // drawn in one piece by the registers as the line left them
   std::uint8_t comb_armed;         // what the line left
   std::array<LineEvent, 18> event;
 
-  bool same_line(const LineRecord& other) const {
-    return count == other.count && std::memcmp(&key, &other.key, sizeof key) == 0 &&
-           std::equal(event.begin(), event.begin() + count, other.event.begin());
-  }
+  bool has_key(const TiaRegisters& other) const { return std::memcmp(&key, &other, sizeof key) == 0; }
 };
 static_assert(sizeof(LineRecord) == 128);
 

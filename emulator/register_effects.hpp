@@ -1,0 +1,321 @@
+// What a write to each register of the TIA does to the picture's state (spec: tia.md, sections 4 and 7 to 9).
+//
+// A Painter is told before anything that can be seen changes: draw_to(clock) asks for what stands so far to be drawn,
+// reach(clock) says that the beam is there and nothing has changed, changed(objects) names what has (bit n: Object n).
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/beam.hpp"
+#include "emulator/inlining.hpp"
+#include "emulator/motion.hpp"
+#include "emulator/objects.hpp"
+#include "emulator/registers.hpp"
+#include "emulator/state.hpp"
+#include "emulator/write_log.hpp"
+
+namespace racebeam {
+
+template <class Painter>
+class RegisterEffects {
+ public:
+  RegisterEffects(TiaState& state, const FrameState& frame, const Video& video, Painter painter)
+      : tia_(state), frame_(frame), video_(video), painter_(painter) {}
+
+  void play(const TiaAccess& access);
+
+ private:
+  static constexpr std::uint8_t kNoObject = 0, kBallBit = 1U << kBall, kPlayfieldBit = 1U << kPlayfield;
+
+  static constexpr std::uint8_t object(unsigned first, unsigned which) {
+    return static_cast<std::uint8_t>(1U << (first + which));
+  }
+
+  // A position that is at most one line off.
+  static constexpr std::uint8_t wrapped(int position) {
+    if (position < 0) position += kLinePixels;
+    return static_cast<std::uint8_t>(position >= kLinePixels ? position - kLinePixels : position);
+  }
+
+  // CPU cycle within the line, 0-75. The origin is a multiple of three.
+  int line_cycle(std::int32_t cycle) const { return (cycle - tia_.origin / 3) % kLineCycles; }
+
+  // On odd line counts PAL loses its colour (tia.md, section 12).
+  std::uint8_t color_loss() const { return video_.pal ? frame_.lines & 1 : 0; }
+
+  template <class T>
+  bool assign(T& reg, T value, std::int32_t clock, std::uint8_t objects);
+  std::uint8_t strobe_position(std::int32_t clock, int in_blank, int delay) const;
+  void write_color(unsigned which, std::uint8_t value, std::int32_t clock);
+  void write_nusiz(unsigned which, std::uint8_t value, std::int32_t clock);
+  void write_ctrlpf(std::uint8_t value, std::int32_t clock);
+  void write_playfield(unsigned which, std::uint8_t value, const TiaAccess& access);
+  void write_graphics(unsigned which, std::uint8_t value, std::int32_t clock);
+  void write_vdel(unsigned which, std::uint8_t value, std::int32_t clock);
+  void write_ball(std::uint8_t enabled, std::uint8_t old_enabled, std::uint8_t vdel, std::int32_t clock);
+  void write_resmp(unsigned which, std::uint8_t value, std::int32_t clock);
+  void write_hmm0(std::uint8_t motion, std::int32_t clock);
+  void strobe_player(unsigned which, std::int32_t clock);
+  void strobe_missile(unsigned which, std::int32_t clock);
+  void strobe_ball(std::int32_t clock);
+  void strobe_hmove(const TiaAccess& access);
+  void clear_collisions(std::int32_t clock);
+  void show_cosmic_normally();
+
+  TiaState& tia_;
+  const FrameState& frame_;
+  const Video& video_;
+  Painter painter_;
+};
+
+template <class Painter>
+template <class T>
+RACEBEAM_INLINE bool RegisterEffects<Painter>::assign(T& reg, T value, std::int32_t clock, std::uint8_t objects) {
+  if (reg == value) {
+    painter_.reach(clock);
+    return false;
+  }
+  painter_.draw_to(clock);
+  reg = value;
+  painter_.changed(objects);
+  return true;
+}
+
+template <class Painter>
+void RegisterEffects<Painter>::play(const TiaAccess& access) {
+  const std::int32_t clock = 3 * access.cycle;
+  const std::uint8_t value = access.value;
+  auto& [p0, p1] = tia_.player;
+  auto& [m0, m1] = tia_.missile;
+  BallState& ball = tia_.ball;
+  const auto flag = [value](int bit) { return static_cast<std::uint8_t>(value >> bit & 1); };
+  const auto motion = [value] { return static_cast<std::uint8_t>(value >> 4); };
+  switch (access.reg) {
+    case VBLANK: assign(tia_.vblank, flag(1), clock + 1, kNoObject); break;
+    case NUSIZ0: write_nusiz(0, value, clock + 8); break;
+    case NUSIZ1: write_nusiz(1, value, clock + 8); break;
+    case COLUP0: case COLUP1: case COLUPF: case COLUBK: write_color(access.reg - COLUP0, value, clock); break;
+    case CTRLPF: write_ctrlpf(value, clock); break;
+    case REFP0:  assign(p0.refp, flag(3), clock + 1, object(kP0, 0)); break;
+    case REFP1:  assign(p1.refp, flag(3), clock + 1, object(kP0, 1)); break;
+    case PF0: case PF1: case PF2: write_playfield(access.reg - PF0, value, access); break;
+    case RESP0:  strobe_player(0, clock); break;
+    case RESP1:  strobe_player(1, clock); break;
+    case RESM0:  strobe_missile(0, clock); break;
+    case RESM1:  strobe_missile(1, clock); break;
+    case RESBL:  strobe_ball(clock); break;
+    case GRP0:   write_graphics(0, value, clock + 1); break;
+    case GRP1:   write_graphics(1, value, clock + 1); break;
+    case ENAM0:  assign(m0.enabled, flag(1), clock, object(kM0, 0)); break;
+    case ENAM1:  assign(m1.enabled, flag(1), clock, object(kM0, 1)); break;
+    case ENABL:  write_ball(flag(1), ball.old_enabled, ball.vdel, clock); break;
+    case HMP0:   painter_.reach(clock); p0.motion = motion(); break;
+    case HMP1:   painter_.reach(clock); p1.motion = motion(); break;
+    case HMM0:   write_hmm0(motion(), clock); break;
+    case HMM1:   painter_.reach(clock); m1.motion = motion(); break;
+    case HMBL:   painter_.reach(clock); ball.motion = motion(); break;
+    case VDELP0: write_vdel(0, flag(0), clock); break;
+    case VDELP1: write_vdel(1, flag(0), clock); break;
+    case VDELBL: write_ball(ball.enabled, ball.old_enabled, flag(0), clock); break;
+    case RESMP0: write_resmp(0, flag(1), clock); break;
+    case RESMP1: write_resmp(1, flag(1), clock); break;
+    case HMOVE:  strobe_hmove(access); break;
+    case HMCLR:  painter_.reach(clock); p0.motion = p1.motion = m0.motion = m1.motion = ball.motion = 0; break;
+    case CXCLR:  clear_collisions(clock); break;
+    default:     painter_.reach(clock); break;
+  }
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_color(unsigned which, std::uint8_t value, std::int32_t clock) {
+  assign(tia_.color[which], static_cast<std::uint8_t>((value & 0xFE) | color_loss()), clock, kNoObject);
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_nusiz(unsigned which, std::uint8_t value, std::int32_t clock) {
+  PlayerState& player = tia_.player[which];
+  const bool reselects = player.skip || (which == 0 && tia_.cosmic);
+  value &= 0x37;
+  if (player.nusiz == value && !reselects) return painter_.reach(clock);
+  painter_.draw_to(clock);
+  player.nusiz = value;
+  player.skip = 0;
+  if (which == 0) tia_.cosmic_shape = CosmicShape::kNormal;
+  painter_.changed(object(kP0, which) | object(kM0, which));
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, std::int32_t clock) {
+  const bool latches = line_cycle(clock / 3) < 49;  // later, the playfield turns round at the end of the line only
+  const std::uint8_t reflect = latches ? value & 1 : tia_.reflect;
+  value &= 0x37;
+  if (tia_.ctrlpf == value && tia_.reflect == reflect) return painter_.reach(clock);
+  painter_.draw_to(clock);
+  // Drawing may have passed a line's end, and with it the latch.
+  tia_.reflect = latches ? value & 1 : tia_.reflect;
+  tia_.ctrlpf = value;
+  painter_.changed(kBallBit | kPlayfieldBit);
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, std::uint8_t value, const TiaAccess& access) {
+  static constexpr std::uint8_t kDelay[4] = {4, 5, 2, 3};  // until the next block of four pixels
+  const std::int32_t clock = 3 * access.cycle;
+  assign(tia_.pf[which], value, clock + kDelay[line_cycle(access.cycle) % 4], kPlayfieldBit);
+}
+
+// Writing one player's graphics moves the other's into the register that VDELPx shows.
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, std::uint8_t value, std::int32_t clock) {
+  PlayerState& written = tia_.player[which];
+  PlayerState& other = tia_.player[1 - which];
+  std::uint8_t objects = 0;
+  if (!written.vdel && written.grp != value) objects |= object(kP0, which);
+  if (other.vdel && other.old_grp != other.grp) objects |= object(kP0, 1 - which);
+  if (which == 1 && tia_.ball.vdel && tia_.ball.old_enabled != tia_.ball.enabled) objects |= kBallBit;
+  if (objects != 0) painter_.draw_to(clock);
+  else painter_.reach(clock);
+  written.grp = value;
+  other.old_grp = other.grp;
+  if (which == 1) tia_.ball.old_enabled = tia_.ball.enabled;
+  if (objects != 0) painter_.changed(objects);
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_vdel(unsigned which, std::uint8_t value, std::int32_t clock) {
+  assign(tia_.player[which].vdel, value, clock, object(kP0, which));
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, std::uint8_t old_enabled, std::uint8_t vdel, std::int32_t clock) {
+  BallState& ball = tia_.ball;
+  const bool shown = vdel ? old_enabled != 0 : enabled != 0;
+  if (shown != ball_enabled(ball)) {
+    painter_.draw_to(clock);
+    painter_.changed(kBallBit);
+  } else {
+    painter_.reach(clock);
+  }
+  ball.enabled = enabled;
+  ball.vdel = vdel;
+}
+
+// Unlocking a missile leaves it in the middle of its player.
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_resmp(unsigned which, std::uint8_t value, std::int32_t clock) {
+  MissileState& missile = tia_.missile[which];
+  const bool unlocks = missile.locked && !value;
+  if (!assign(missile.locked, value, clock, object(kM0, which)) || !unlocks) return;
+  const PlayerState& player = tia_.player[which];
+  missile.position = wrapped(player.position + 4 * static_cast<int>(kCopies[player.nusiz & 7].scale));
+  if (which == 0) show_cosmic_normally();
+}
+
+// A second motion written exactly 21 cycles after an HMOVE keeps missile 0 moving: "Cosmic Ark mode".
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_hmm0(std::uint8_t motion, std::int32_t clock) {
+  MissileState& missile = tia_.missile[0];
+  const bool enters = static_cast<std::uint32_t>(clock) == tia_.hmove_clock + 63 && missile.motion == 7 && motion == 6;
+  if (enters) {
+    painter_.draw_to(clock);
+    tia_.cosmic = 1;
+    tia_.cosmic_count = 0;
+    painter_.changed(object(kM0, 0));
+  }
+  painter_.reach(clock);
+  missile.motion = motion;
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::show_cosmic_normally() {
+  if (tia_.cosmic_shape == CosmicShape::kNormal) return;
+  tia_.cosmic_shape = CosmicShape::kNormal;
+  painter_.changed(object(kM0, 0));
+}
+
+template <class Painter>
+RACEBEAM_INLINE std::uint8_t RegisterEffects<Painter>::strobe_position(std::int32_t clock, int in_blank, int delay) const {
+  const int h = 3 * line_cycle(clock / 3);
+  return static_cast<std::uint8_t>(h < kBlankClocks ? in_blank : (h - kBlankClocks + delay) % kLinePixels);
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std::int32_t clock) {
+  PlayerState& player = tia_.player[which];
+  painter_.draw_to(clock);
+  const std::uint8_t position = strobe_position(clock, 3, 5);
+  const int distance = wrapped(position - player.position);
+  const Copies& copies = kCopies[player.nusiz & 7];
+  const int width = 8 * static_cast<int>(copies.scale);
+  bool skip = true;
+  for (unsigned i = 0; i < copies.count; ++i) {
+    const int into = distance - copies.offset[i];
+    if (into >= 0 && into <= 3) skip = false;
+    if (into >= 4 && into <= 3 + width) painter_.draw_to(clock + 11);  // the old copy is being drawn: it is finished first
+  }
+  player.position = position;
+  player.skip = skip;
+  painter_.changed(object(kP0, which));
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_missile(unsigned which, std::int32_t clock) {
+  painter_.draw_to(clock + 8);
+  const std::uint32_t since = static_cast<std::uint32_t>(clock) - tia_.hmove_clock;
+  const int h = 3 * line_cycle(clock / 3);
+  std::uint8_t position = strobe_position(clock, 2, 4);
+  if (which == 0 && since == 60 && h == 69) position = 8;
+  if (which == 1 && since == 9 && h == 18) position = 3;
+  tia_.missile[which].position = position;
+  if (which == 0) show_cosmic_normally();
+  painter_.changed(object(kM0, which));
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_ball(std::int32_t clock) {
+  struct Exception { std::uint32_t since; int h; std::uint8_t position; };
+  static constexpr Exception kExceptions[] = {{54, 60, 10}, {54, 69, 10}, {9, 18, 3}, {21, 30, 6}, {18, 27, 5}};
+  painter_.draw_to(clock);
+  const std::uint32_t since = static_cast<std::uint32_t>(clock) - tia_.hmove_clock;
+  const int h = 3 * line_cycle(clock / 3);
+  tia_.ball.position = strobe_position(clock, 2, 4);
+  for (const Exception& e : kExceptions)
+    if (since == e.since && h == e.h) tia_.ball.position = e.position;
+  painter_.changed(kBallBit);
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(const TiaAccess& access) {
+  const std::int32_t clock = 3 * access.cycle;
+  const int x = line_cycle(access.cycle);
+  painter_.draw_to(clock);
+  const auto& movement = kMovement[static_cast<std::size_t>(x)];
+  const auto move = [&](std::uint8_t& position, std::uint8_t motion, std::uint8_t objects) {
+    if (movement[motion] == 0) return;
+    position = wrapped(position + movement[motion]);
+    painter_.changed(objects);
+  };
+  for (unsigned i = 0; i < 2; ++i) {
+    PlayerState& player = tia_.player[i];
+    move(player.position, player.motion, object(kP0, i));
+    move(tia_.missile[i].position, tia_.missile[i].motion, object(kM0, i));
+    if (player.skip) painter_.changed(object(kP0, i));
+    player.skip = 0;
+  }
+  move(tia_.ball.position, tia_.ball.motion, kBallBit);
+  if (video_.hmove_blanks && (x == 75 || x <= 20)) tia_.comb_armed = 1;
+  tia_.cosmic = 0;
+  show_cosmic_normally();
+  tia_.hmove_clock = static_cast<std::uint32_t>(clock);
+}
+
+// What is not drawn yet may still meet: it is drawn before the latches are cleared.
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::clear_collisions(std::int32_t clock) {
+  painter_.draw_to(clock);
+  if (tia_.collisions == 0) return;
+  tia_.collisions = 0;
+  painter_.changed(kNoObject);
+}
+
+}  // namespace racebeam
