@@ -1,0 +1,242 @@
+"""What the tests of the running server share: starting it, talking to it in four ways, waiting for its end.
+
+RACEBEAM_BINARY names the executable. RACEBEAM_ROMS (or an ale-py in .venv) has the commercial images, and
+RACEBEAM_SHARED (or the folder ../shared beside the checkout) the recorded sessions; tests that need either are
+skipped without it.
+"""
+
+import glob
+import os
+import re
+import select
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+BINARY = os.environ.get("RACEBEAM_BINARY", os.path.join(SOURCE, "build", "release", "racebeam"))
+GAME = "builtin:beamfall"
+TRANSPORTS = ("stdio", "pipes", "tcp", "unix")
+PATIENCE = 20.0  # seconds until something counts as hanging
+SKIPPED = 77     # exit status that ctest reads as "skipped"
+
+
+def rom(name):
+    """The path of a commercial image, or None."""
+    folders = [os.environ.get("RACEBEAM_ROMS", "")]
+    folders += glob.glob(os.path.join(SOURCE, ".venv", "lib", "python*", "site-packages", "ale_py", "roms"))
+    found = [os.path.join(folder, name + ".bin") for folder in folders if folder]
+    return next((path for path in found if os.path.exists(path)), None)
+
+
+def transcripts_folder():
+    shared = os.environ.get("RACEBEAM_SHARED", os.path.join(os.path.dirname(SOURCE), "shared"))
+    folder = os.path.join(shared, "spec", "transcripts")
+    return folder if os.path.isdir(folder) else None
+
+
+def sanitized():
+    with open(BINARY, "rb") as binary:
+        return b"__ubsan" in binary.read()
+
+
+def run(*words, data=b"", cwd=None):
+    """Runs racebeam to its end; returns status, output and the lines on standard error."""
+    done = subprocess.run([BINARY, *words], input=data, capture_output=True, timeout=PATIENCE, cwd=cwd)
+    return done.returncode, done.stdout, done.stderr.decode().splitlines()
+
+
+class Server:
+    """A racebeam process. It works in a new folder, which vanishes at the end, or in the one that is given."""
+
+    def __init__(self, *words, streams=False, folder=None):
+        self.own_folder = tempfile.TemporaryDirectory()
+        self.folder = folder or self.own_folder.name
+        self.errors = open(os.path.join(self.own_folder.name, "stderr"), "w+b")
+        pipe = subprocess.PIPE if streams else subprocess.DEVNULL
+        self.process = subprocess.Popen(
+            [BINARY, *words], stdin=pipe, stdout=pipe, stderr=self.errors, cwd=self.folder, bufsize=0)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        for stream in (self.process.stdin, self.process.stdout, self.errors):
+            if stream:
+                stream.close()
+        self.own_folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def log(self):
+        with open(self.errors.name, "rb") as errors:
+            return errors.read().decode().splitlines()
+
+    def wait_for(self, pattern):
+        """The match of `pattern` in the log, as soon as it is there."""
+        deadline = time.monotonic() + PATIENCE
+        while time.monotonic() < deadline:
+            match = re.search(pattern, "\n".join(self.log()), re.MULTILINE)
+            if match:
+                return match
+            if self.process.poll() is not None:
+                break
+            time.sleep(0.005)
+        raise AssertionError(f"'{pattern}' is not in the log: {self.log()}")
+
+    def port(self):
+        return int(self.wait_for(r"listening on tcp://127\.0\.0\.1:(\d+)$").group(1))
+
+    def stop(self, number=signal.SIGTERM):
+        self.process.send_signal(number)
+        return self.wait()
+
+    def wait(self):
+        return self.process.wait(timeout=PATIENCE)
+
+    def alive(self):
+        return self.process.poll() is None
+
+
+class Wire:
+    """Both directions of one client's connection."""
+
+    def __init__(self, input_fd, output_fd, connection=None):
+        self.input_fd, self.output_fd, self.connection = input_fd, output_fd, connection
+        self.was_reset = False
+
+    def send(self, data):
+        while data:
+            data = data[os.write(self.output_fd, data):]
+
+    def read(self, count):
+        """Up to `count` bytes; nothing at the end."""
+        if not select.select([self.input_fd], [], [], PATIENCE)[0]:
+            raise AssertionError("the server says nothing")
+        try:
+            return os.read(self.input_fd, count)
+        except ConnectionResetError:
+            self.was_reset = True
+            return b""
+
+    def receive(self, count):
+        data = b""
+        while len(data) < count:
+            piece = self.read(count - len(data))
+            if not piece:
+                raise AssertionError(f"the server closed its end after {data[-100:]!r}")
+            data += piece
+        return data
+
+    def line(self):
+        data = b""
+        while not data.endswith(b"\n"):
+            data += self.receive(1)
+        return data
+
+    def rest(self):
+        pieces = []
+        while True:
+            pieces.append(self.read(65536))
+            if not pieces[-1]:
+                return b"".join(pieces)
+
+    def stop_sending(self):
+        if self.connection:
+            self.connection.shutdown(socket.SHUT_WR)
+        elif self.output_fd is not None:
+            os.close(self.output_fd)
+            self.output_fd = None
+
+    def stop_reading(self):
+        """A socket's other end only learns of it when everything is closed."""
+        if self.connection:
+            self.close()
+        elif self.input_fd is not None:
+            os.close(self.input_fd)
+            self.input_fd = None
+
+    def close(self):
+        if self.connection:
+            self.connection.close()
+            self.connection = self.input_fd = self.output_fd = None
+        self.stop_sending()
+        self.stop_reading()
+
+
+def connect_tcp(port):
+    connection = socket.create_connection(("127.0.0.1", port), timeout=PATIENCE)
+    connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    connection.setblocking(True)
+    return Wire(connection.fileno(), connection.fileno(), connection)
+
+
+def connect_unix(path):
+    connection = socket.socket(socket.AF_UNIX)
+    connection.connect(path)
+    return Wire(connection.fileno(), connection.fileno(), connection)
+
+
+def open_pipes(server, prefix):
+    # Opening for reading waits for nobody when it is told not to; the server's open for writing then goes on.
+    input_fd = os.open(server.path(prefix + "_out"), os.O_RDONLY | os.O_NONBLOCK)
+    os.set_blocking(input_fd, True)
+    return Wire(input_fd, os.open(server.path(prefix + "_in"), os.O_WRONLY))
+
+
+class Session:
+    """One server and one client of it, over any of TRANSPORTS."""
+
+    def __init__(self, transport, *options, image=GAME):
+        command = ["serve", "--classic", "--rom", image, *options]
+        where = {"stdio": ["--stdio"], "pipes": ["--pipes", "p"], "tcp": ["--listen", "tcp://127.0.0.1:0"],
+                 "unix": ["--listen", "unix:s"]}[transport]
+        self.transport = transport
+        self.server = Server(*command, *where, streams=transport == "stdio")
+        try:
+            self.wire = self.connect()
+        except BaseException:
+            self.server.__exit__()
+            raise
+
+    def connect(self):
+        if self.transport == "stdio":
+            process = self.server.process
+            return Wire(os.dup(process.stdout.fileno()), os.dup(process.stdin.fileno()))
+        if self.transport == "pipes":
+            self.server.wait_for("for a client that opens")
+            return open_pipes(self.server, "p")
+        if self.transport == "tcp":
+            return connect_tcp(self.server.port())
+        self.server.wait_for("listening on unix:s")
+        return connect_unix(self.server.path("s"))
+
+    def __enter__(self):
+        if self.transport == "stdio":  # what is left are the duplicates
+            self.server.process.stdin.close()
+            self.server.process.stdout.close()
+        return self
+
+    def __exit__(self, *_):
+        self.wire.close()
+        self.server.__exit__()
+
+    def status(self):
+        """Of the process; a server of many is told to stop first."""
+        return self.server.stop() if self.transport in ("tcp", "unix") else self.server.wait()
+
+
+def main(*needed):
+    """Runs the tests of the calling file; `needed` are the things without which it is skipped."""
+    missing = [what for what, found in needed if not found]
+    if missing:
+        print("SKIPPED: there is no " + ", no ".join(missing))
+        sys.exit(SKIPPED)
+    unittest.main(module="__main__", verbosity=2)

@@ -1,0 +1,139 @@
+"""racebeam classic takes the command line of ALE 0.4 to 0.6, old launchers' habits included."""
+
+import os
+import shutil
+import tempfile
+import unittest
+
+from harness import GAME, SOURCE, Server, main, open_pipes, run
+
+IMAGE = os.path.join(SOURCE, "games", "homebrew", GAME.split(":")[1] + ".bin")
+FIFO = ("-game_controller", "fifo", "-random_seed", "1", "-repeat_action_probability", "0")
+PLAY = b"0,0,0,1\n" + b"3,18\n" * 20
+
+
+class Classic(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def put(self, name, text):
+        with open(os.path.join(self.folder, name), "w") as file:
+            file.write(text)
+        return name
+
+    def play(self, *words, data=PLAY):
+        status, output, errors = run("classic", *words, data=data, cwd=self.folder)
+        self.assertEqual(status, 0, errors)
+        self.assertTrue(output.startswith(b"160-210\n") and output.endswith(b"DIE\n"), output)
+        return output, errors
+
+    def frames(self, *words):
+        """How many data lines a session has before its limit of frames is met."""
+        return self.play(*FIFO, *words)[0].count(b",0:\n")
+
+    def refuse(self, *words, hint):
+        status, output, errors = run("classic", *words, cwd=self.folder)
+        self.assertEqual((status, output, len(errors)), (1, b"", 1), errors)
+        self.assertIn(hint, errors[0])
+
+    def test_a_session_on_standard_streams(self):
+        self.assertEqual(self.play(*FIFO, GAME)[0], b"160-210\n" + b"0,0:\n" * 21 + b"DIE\n")
+
+    def test_options_that_nobody_knows_are_ignored(self):
+        old = ("-disable_colour_averaging", "true", "-disable_color_averaging", "true", "-max_num_episodes", "0",
+               "-player_agent", "keyboard_agent", "-use_environment_distribution", "-game_controller")
+        self.assertEqual(self.play(*old, *FIFO, GAME), self.play(*FIFO, GAME))
+
+    def test_words_after_the_image_are_ignored(self):
+        self.assertEqual(self.frames("-max_num_frames", "5", GAME, "-max_num_frames", "7", "serve"), 5)
+
+    def test_options_for_windows_and_sound_are_mentioned(self):
+        options = ("-display_screen", "true", "-record_screen_dir", "shots", "-sound", "false")
+        errors = self.play(*FIFO, *options, GAME)[1]
+        self.assertEqual([line for line in errors if "ignored" in line],
+                         ["racebeam: -display_screen is ignored", "racebeam: -record_screen_dir is ignored"])
+
+    def test_the_game_is_recognised_by_the_name_in_any_case(self):
+        shutil.copy(IMAGE, os.path.join(self.folder, "BeamFall.A26"))
+        errors = self.play(*FIFO, "BeamFall.A26")[1]
+        self.assertEqual(errors, ["racebeam: beamfall, seed 1, on standard input and output"])
+
+    def test_a_name_wins_over_the_MD5_with_a_warning(self):
+        shutil.copy(IMAGE, os.path.join(self.folder, "PONG.bin"))
+        errors = self.play(*FIFO, "PONG.bin")[1]
+        self.assertEqual(len([line for line in errors if "MD5" in line]), 1, errors)
+        self.assertIn("racebeam: pong, seed 1, on standard input and output", errors)
+
+    def test_an_unknown_name_is_refused(self):
+        shutil.copy(IMAGE, os.path.join(self.folder, "unheard_of.bin"))
+        self.refuse(*FIFO, "unheard_of.bin", hint="unheard_of")
+
+    def test_limits_and_frame_skip(self):
+        self.assertEqual(self.frames("-max_num_frames", "5", GAME), 5)
+        self.assertEqual(self.frames("-max_num_frames", "5", "-frame_skip", "4", GAME), 2)
+        for skip in ("0", "-3", "fast"):
+            self.assertEqual(self.frames("-max_num_frames", "5", "-frame_skip", skip, GAME), 5)
+        self.assertEqual(self.play(*FIFO, "-max_num_frames_per_episode", "3", GAME)[0].count(b"1,0:\n"), 18)
+
+    def test_only_1_and_true_are_true(self):
+        for value, runs in (("1", True), ("true", True), ("True", False), ("0", False), ("yes", False)):
+            with self.subTest(value=value):
+                output = self.play(*FIFO, "-run_length_encoding", value, GAME, data=b"1,0,0,0\n")[0]
+                self.assertEqual(len(output.split(b"\n")[1]) != 2 * 160 * 210 + 1, runs)
+
+    def test_configuration_files_win_in_their_order(self):
+        line = ("-max_num_frames", "5")
+        self.put("ale.cfg", "max_num_frames = 3\n")
+        self.assertEqual(self.frames(GAME), 3)
+        self.assertEqual(self.frames(*line, GAME), 5)
+        self.put("mine", "\n# limits\n  max_num_frames=7  \r\nnonsense\n")
+        self.assertEqual(self.frames("-config", "mine", *line, GAME), 7)
+
+    def test_a_configuration_that_is_not_there_is_done_without(self):
+        self.assertEqual(self.frames("-config", "nothing", "-max_num_frames", "5", GAME), 5)
+
+    def test_help_goes_to_standard_error_with_status_1(self):
+        status, output, errors = run("classic", "-help", cwd=self.folder)
+        self.assertEqual((status, output), (1, b""))
+        self.assertIn("-game_controller", "\n".join(errors))
+
+    def test_a_controller_is_required(self):
+        self.refuse(GAME, hint="-game_controller")
+        self.refuse("-game_controller", "telepathy", GAME, hint="telepathy")
+        self.refuse("-game_controller", "rlglue", GAME, hint="rlglue")
+
+    def test_an_image_is_required(self):
+        self.refuse(hint="no image")
+        self.refuse(*FIFO, hint="no image")
+        self.refuse(*FIFO, "-config", hint="-config has no value")
+        self.refuse(*FIFO, "nothing.bin", hint="nothing.bin")
+
+
+class NamedPipes(unittest.TestCase):
+    COMMAND = ("classic", "-game_controller", "fifo_named", *FIFO[2:], GAME)
+
+    def test_two_sessions_on_pipes_that_the_client_made(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("ale_fifo_out", "ale_fifo_in"):
+                os.mkfifo(os.path.join(folder, name))
+            for _ in range(2):
+                with Server(*self.COMMAND, folder=folder) as server:
+                    server.wait_for("for a client that opens ale_fifo_out")
+                    wire = open_pipes(server, "ale_fifo")
+                    wire.send(PLAY)
+                    wire.stop_sending()
+                    self.assertEqual(wire.rest(), b"160-210\n" + b"0,0:\n" * 21 + b"DIE\n")
+                    wire.close()
+                    self.assertEqual(server.wait(), 0)
+
+    def test_missing_pipes_end_the_server_as_they_ended_the_classic_one(self):
+        with Server(*self.COMMAND) as server:
+            self.assertEqual(server.wait(), 1)
+            self.assertIn("ale_fifo_in", server.log()[-1])
+            self.assertTrue(os.path.isfile(server.path("ale_fifo_out")))
+
+
+if __name__ == "__main__":
+    main()

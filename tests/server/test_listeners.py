@@ -1,0 +1,186 @@
+"""Sockets: addresses that are taken, stale or wrong, several at once, signals, and clients that do not meet."""
+
+import os
+import resource
+import signal
+import socket
+import tempfile
+import unittest
+
+from harness import GAME, Server, connect_tcp, connect_unix, main, run, sanitized
+
+SERVE = ("serve", "--classic", "--rom", GAME, "--seed", "1", "--sticky", "0")
+WHOLE = b"0,1,0,1\n" + b"1,18\n" * 20
+
+
+def listening(*addresses):
+    server = Server(*SERVE, *(word for address in addresses for word in ("--listen", address)))
+    for address in addresses:
+        server.wait_for(f"listening on {address}$" if not address.endswith(":0") else "listening on tcp")
+    return server
+
+
+def play(wire):
+    wire.send(WHOLE)
+    wire.stop_sending()
+    answers = wire.rest()
+    wire.close()
+    return answers
+
+
+class Addresses(unittest.TestCase):
+    def folder(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        return folder.name
+
+    def refuse(self, address, status, hint):
+        ended, output, errors = run(*SERVE, "--listen", address)
+        self.assertEqual((ended, output, len(errors)), (status, b"", 1), errors)
+        self.assertIn(hint, errors[0])
+
+    def test_port_0_picks_a_port_and_says_which(self):
+        with listening("tcp://127.0.0.1:0") as server:
+            self.assertGreater(server.port(), 0)
+            self.assertEqual(play(connect_tcp(server.port()))[:8], b"160-210\n")
+
+    def test_two_servers_cannot_have_one_port(self):
+        with listening("tcp://127.0.0.1:0") as server:
+            self.refuse(f"tcp://127.0.0.1:{server.port()}", 1, "in use")
+            self.assertTrue(play(connect_tcp(server.port())).endswith(b"DIE\n"))
+
+    def test_two_servers_cannot_have_one_path(self):
+        with listening("unix:s") as server:
+            self.refuse("unix:" + server.path("s"), 1, "in use")
+            self.assertTrue(play(connect_unix(server.path("s"))).endswith(b"DIE\n"))
+
+    def test_one_address_cannot_be_given_twice(self):
+        ended, _, errors = run(*SERVE, "--listen", "unix:s", "--listen", "unix:s", cwd=self.folder())
+        self.assertEqual((ended, len(errors)), (1, 1), errors)
+
+    def test_the_socket_file_of_a_dead_server_is_replaced(self):
+        with listening("unix:s") as server:
+            server.stop(signal.SIGKILL)
+            self.assertTrue(os.path.exists(server.path("s")))
+            with Server(*SERVE, "--listen", "unix:" + server.path("s")) as heir:
+                heir.wait_for("listening on")
+                self.assertTrue(play(connect_unix(server.path("s"))).endswith(b"DIE\n"))
+
+    def test_a_file_that_is_no_socket_is_left_alone(self):
+        with listening("unix:s") as server:
+            with open(server.path("notes"), "w") as notes:
+                notes.write("dear diary")
+            self.refuse("unix:" + server.path("notes"), 1, "is not a socket")
+            self.assertEqual(os.path.getsize(server.path("notes")), 10)
+
+    def test_what_is_no_address_is_refused(self):
+        for address in ("", "tcp", "tcp://", "tcp://127.0.0.1", "tcp://127.0.0.1:", "tcp://127.0.0.1:x", "unix:",
+                        "tcp://127.0.0.1:65536", "tcp://127.0.0.1:-1", "tcp://nobody:1", "udp://127.0.0.1:1"):
+            with self.subTest(address=address):
+                self.refuse(address, 2, "is not an address")
+
+    def test_addresses_that_cannot_be_had_are_refused(self):
+        self.refuse("unix:" + "x" * 200, 1, "too long")
+        self.refuse("unix:nowhere/s", 1, "No such file")
+        self.refuse("tcp://192.0.2.1:1", 1, "cannot listen")
+
+    def test_nothing_is_left_behind_when_one_of_several_fails(self):
+        with listening("tcp://127.0.0.1:0") as server:
+            folder = self.folder()
+            taken = f"tcp://127.0.0.1:{server.port()}"
+            ended, _, errors = run(*SERVE, "--listen", "unix:s", "--listen", taken, cwd=folder)
+            self.assertEqual((ended, len(errors), os.listdir(folder)), (1, 1, []), errors)
+
+
+class Clients(unittest.TestCase):
+    def test_several_addresses_are_served_at_once(self):
+        with listening("tcp://127.0.0.1:0", "unix:a", "unix:b") as server:
+            wires = [connect_tcp(server.port()), connect_unix(server.path("a")), connect_unix(server.path("b"))]
+            self.assertEqual(len({play(wire) for wire in wires}), 1)
+
+    def test_everyone_has_a_machine_of_their_own(self):
+        with listening("unix:s") as server:
+            wires = [connect_unix(server.path("s")) for _ in range(30)]
+            for wire in wires:
+                self.assertEqual(wire.line(), b"160-210\n")
+                wire.send(b"0,1,0,1\n")
+                wire.line()
+            for _ in range(20):
+                for wire in wires:
+                    wire.send(b"1,18\n")
+                self.assertEqual(len({wire.line() for wire in wires}), 1)
+            for wire in wires:
+                wire.close()
+
+    def test_clients_that_make_no_sense_harm_nobody_else(self):
+        with listening("tcp://127.0.0.1:0") as server:
+            good = connect_tcp(server.port())
+            self.assertEqual(good.line(), b"160-210\n")
+            for nonsense in (b"\n", b"GET / HTTP/1.1\r\n\r\n", b"\0" * 5000, b"0,0,0,1\n99,18\n", b"1,1,1,1\n44,0\n"):
+                bad = connect_tcp(server.port())
+                bad.send(nonsense)
+                self.assertTrue(bad.rest().startswith(b"160-210\n"))
+                bad.close()
+            self.assertTrue(play(good).endswith(b"DIE\n"))
+            self.assertEqual(sum("the client " in line for line in server.log()), 5)
+
+    def test_an_answer_is_not_lost_when_more_was_sent_than_is_read(self):
+        with Server(*SERVE, "--listen", "tcp://127.0.0.1:0", "--max-frames", "5") as server:
+            wire = connect_tcp(server.port())
+            wire.send(b"0,0,0,1\n" + b"3,18\n" * 1000)
+            self.assertEqual(wire.rest(), b"160-210\n" + b"0,0:\n" * 5 + b"DIE\n")
+            self.assertFalse(wire.was_reset)  # else a slower client would have lost what it had not read
+            wire.close()
+
+    def test_a_client_that_resets_its_connection_harms_nobody_else(self):
+        with listening("tcp://127.0.0.1:0") as server:
+            wire = connect_tcp(server.port())
+            wire.line()
+            wire.connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, b"\1\0\0\0\0\0\0\0")
+            wire.close()
+            self.assertTrue(play(connect_tcp(server.port())).endswith(b"DIE\n"))
+
+
+    @unittest.skipIf(sanitized(), "the sanitizer's own checks fail when there are no descriptors left")
+    def test_a_server_that_has_too_many_clients_takes_others_later(self):
+        with listening("unix:s") as server:
+            resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (20, 20))
+            crowd = [connect_unix(server.path("s")) for _ in range(30)]
+            server.wait_for("cannot take a client on unix:s: Too many open files")
+            for wire in crowd:
+                wire.close()
+            self.assertTrue(play(connect_unix(server.path("s"))).endswith(b"DIE\n"))
+
+
+class Signals(unittest.TestCase):
+    def test_a_server_that_is_told_to_stop_ends_sessions_and_removes_its_socket(self):
+        for number in (signal.SIGTERM, signal.SIGINT):
+            with self.subTest(signal=number.name), listening("unix:s", "tcp://127.0.0.1:0") as server:
+                wires = [connect_unix(server.path("s")), connect_tcp(server.port())]
+                for wire in wires:
+                    wire.line()
+                self.assertEqual(server.stop(number), 0)
+                self.assertFalse(os.path.exists(server.path("s")))
+                for wire in wires:
+                    self.assertEqual(wire.rest(), b"")
+                    wire.close()
+
+    def test_the_socket_of_a_successor_is_left_alone(self):
+        with listening("unix:s") as server:
+            os.unlink(server.path("s"))
+            with Server(*SERVE, "--listen", "unix:" + server.path("s")) as heir:
+                heir.wait_for("listening on")
+                self.assertEqual(server.stop(), 0)
+                self.assertTrue(play(connect_unix(server.path("s"))).endswith(b"DIE\n"))
+
+    def test_sessions_on_streams_stop_when_told_to(self):
+        for transport, ready in ((["--stdio"], "on standard input"), (["--pipes", "p"], "for a client that opens")):
+            for number in (signal.SIGTERM, signal.SIGINT):
+                with self.subTest(transport=transport[0], signal=number.name):
+                    with Server(*SERVE, *transport, streams=True) as server:
+                        server.wait_for(ready)
+                        self.assertEqual(server.stop(number), 0)
+
+
+if __name__ == "__main__":
+    main()

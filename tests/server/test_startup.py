@@ -1,0 +1,127 @@
+"""A start that fails says why in one line, with an exit status and nothing on standard output."""
+
+import os
+import tempfile
+import unittest
+
+from harness import GAME, SOURCE, main, run
+
+SERVE = ("serve", "--classic", "--stdio", "--rom", GAME)
+HOMEBREW = os.path.join(SOURCE, "games", "homebrew", GAME.split(":")[1] + ".bin")
+
+
+class Refusals(unittest.TestCase):
+    def check(self, words, status, *hints):
+        ended, output, errors = run(*words)
+        self.assertEqual((ended, output, len(errors)), (status, b"", 1), errors)
+        self.assertTrue(errors[0].startswith("racebeam: "), errors)
+        for hint in hints:
+            self.assertIn(hint, errors[0])
+
+
+class Images(Refusals):
+    def check_image(self, data, *hints):
+        """Every server refuses an image with these bytes, and makes nothing."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "pong.bin")
+            with open(path, "wb") as image:
+                image.write(data)
+            self.check_path(path, *hints)
+            self.assertEqual(os.listdir(folder), ["pong.bin"])
+
+    def check_path(self, path, *hints):
+        for transport in (["--stdio"], ["--pipes", path + "-pipe"], ["--listen", "tcp://127.0.0.1:0"]):
+            with self.subTest(transport=transport[0]):
+                self.check(["serve", "--classic", *transport, "--rom", path], 1, *hints)
+        with self.subTest(transport="classic"):
+            self.check(["classic", "-game_controller", "fifo", path], 1, *hints)
+
+    def test_an_image_that_is_not_there_is_refused(self):
+        self.check_path("nowhere/pong.bin", "nowhere/pong.bin")
+
+    def test_an_empty_image_is_refused(self):
+        self.check_image(b"", "empty")
+
+    def test_an_image_that_is_too_large_is_refused(self):
+        self.check_image(bytes(524289))
+        self.check_image(bytes(5 << 20))
+
+    def test_a_truncated_image_is_refused(self):
+        with open(HOMEBREW, "rb") as image:
+            self.check_image(image.read(1000))
+
+    def test_a_folder_is_no_image(self):
+        self.check(["serve", "--classic", "--stdio", "--rom", "/"], 1)
+
+    def test_an_unknown_built_in_is_refused(self):
+        self.check(["serve", "--classic", "--stdio", "--rom", "builtin:nothing"], 1, "nothing")
+
+    def test_an_unknown_game_is_refused(self):
+        self.check([*SERVE, "--game", "nothing"], 1, "nothing")
+
+    def test_a_game_file_that_is_not_there_is_refused(self):
+        self.check([*SERVE, "--game-file", "nothing.toml"], 1, "nothing.toml")
+
+    def test_a_mode_that_is_not_offered_is_refused(self):
+        self.check([*SERVE, "--mode", "99"], 1, "99")
+
+    def test_a_difficulty_that_is_not_offered_is_refused(self):
+        self.check([*SERVE, "--difficulty", "99"], 1, "99")
+
+
+class CommandLine(Refusals):
+    def refuse(self, *words, hint):
+        self.check([*SERVE, *words], 2, hint)
+
+    def test_flags_that_are_not_numbers_are_refused(self):
+        for flag in ("--seed", "--system-seed", "--frame-skip", "--sticky", "--max-frames", "--max-episode-frames",
+                     "--mode", "--difficulty"):
+            for value in ("fire", "", "1x", "0x10", " 1", "1,5"):
+                with self.subTest(flag=flag, value=value):
+                    self.refuse(flag, value, hint=flag)
+
+    def test_flags_that_are_out_of_range_are_refused(self):
+        for flag, value in (("--seed", "-1"), ("--seed", "4294967296"), ("--frame-skip", "0"), ("--frame-skip", "-4"),
+                            ("--sticky", "1.01"), ("--sticky", "-0.1"), ("--sticky", "nan"), ("--sticky", "inf"),
+                            ("--max-frames", "-1"), ("--max-frames", "99999999999"), ("--max-episode-frames", "-1")):
+            with self.subTest(flag=flag, value=value):
+                self.refuse(flag, value, hint=f"'{value}' is not a")
+
+    def test_a_flag_without_its_value_is_refused(self):
+        self.refuse("--seed", hint="--seed")
+
+    def test_an_unknown_flag_is_refused(self):
+        self.refuse("--speed", "4", hint="not understood: --speed 4")
+
+    def test_one_kind_of_transport_is_needed(self):
+        self.check(["serve", "--classic", "--rom", GAME], 2, "--stdio, --pipes PREFIX and --listen ADDRESS")
+        self.refuse("--pipes", "p", hint="--stdio, --pipes PREFIX and --listen ADDRESS")
+
+    def test_the_protocol_has_to_be_named(self):
+        self.check(["serve", "--stdio", "--rom", GAME], 2, "--classic")
+
+    def test_an_image_has_to_be_named(self):
+        self.check(["serve", "--classic", "--stdio"], 2, "--rom is required")
+
+    def test_an_unknown_subcommand_is_answered_by_those_there_are(self):
+        self.check(["play"], 2, "serve, classic, trace")
+        self.check([], 2, "serve, classic, trace")
+
+
+class Help(unittest.TestCase):
+    def test_help_and_version_go_to_standard_output(self):
+        for words, hint in ((["--version"], b"racebeam 0."), (["--help"], b"Try first"),
+                            (["serve", "--help"], b"Examples")):
+            status, output, errors = run(*words)
+            self.assertEqual((status, errors), (0, []))
+            self.assertIn(hint, output)
+
+    def test_the_help_names_every_exit_status(self):
+        for words in (["--help"], ["serve", "--help"]):
+            text = b" ".join(run(*words)[1].split())
+            for status in (b"0 ", b"1 ", b"2 ", b"255 "):
+                self.assertIn(status, text.split(b"Exit status:")[1])
+
+
+if __name__ == "__main__":
+    main()
