@@ -17,8 +17,9 @@ RACEBEAM_INLINE Address indexed(Core& cpu, Address base, std::uint8_t index) {
 
 // A pointer in the zero page; its high byte is read from p+1, which is $0100 when p is $FF.
 RACEBEAM_INLINE Address pointer(Core& cpu, std::uint8_t p) {
-  const std::uint8_t low = cpu.read(p);
-  return static_cast<Address>(low | cpu.read(static_cast<Address>(p + 1)) << 8);
+  const std::uint8_t low = cpu.read(ZeroPage{p});
+  if (p == 0xFF) [[unlikely]] return static_cast<Address>(low | cpu.read(0x0100) << 8);
+  return static_cast<Address>(low | cpu.read(ZeroPage{static_cast<std::uint8_t>(p + 1)}) << 8);
 }
 
 // These have no address; the names are there for the table.
@@ -27,12 +28,12 @@ template <bool> RACEBEAM_INLINE Address accumulator(Core&) { return 0; }
 template <bool> RACEBEAM_INLINE Address relative(Core&) { return 0; }
 template <bool> RACEBEAM_INLINE Address immediate(Core&) { return 0; }
 
-template <bool> RACEBEAM_INLINE Address zero_page(Core& cpu) { return cpu.fetch(); }
-template <bool> RACEBEAM_INLINE Address zero_page_x(Core& cpu) {
-  return static_cast<std::uint8_t>(cpu.fetch() + cpu.X);
+template <bool> RACEBEAM_INLINE ZeroPage zero_page(Core& cpu) { return {cpu.fetch()}; }
+template <bool> RACEBEAM_INLINE ZeroPage zero_page_x(Core& cpu) {
+  return {static_cast<std::uint8_t>(cpu.fetch() + cpu.X)};
 }
-template <bool> RACEBEAM_INLINE Address zero_page_y(Core& cpu) {
-  return static_cast<std::uint8_t>(cpu.fetch() + cpu.Y);
+template <bool> RACEBEAM_INLINE ZeroPage zero_page_y(Core& cpu) {
+  return {static_cast<std::uint8_t>(cpu.fetch() + cpu.Y)};
 }
 template <bool> RACEBEAM_INLINE Address absolute(Core& cpu) { return cpu.fetch_word(); }
 template <bool kPenalty> RACEBEAM_INLINE Address absolute_x(Core& cpu) {

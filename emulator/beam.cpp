@@ -33,7 +33,13 @@ PixelMask shapes(const TiaState& tia, const Line& line) {
 
 }  // namespace
 
+void Beam::find_window() {
+  start_ = tia_.origin + kLineClocks * video_.ystart;
+  end_ = start_ + kLineClocks * video_.height;
+}
+
 void Beam::begin_frame() {
+  find_window();
   tia_.cursor = start();
   tia_.left = kLineClocks;
   tia_.pixel = 0;
@@ -41,6 +47,7 @@ void Beam::begin_frame() {
 }
 
 void Beam::forget() {
+  find_window();
   stale_ = 0xFF;
   repeats_ = false;
 }

@@ -54,10 +54,11 @@ class Beam {
   bool exact_spans() const { return exact_spans_; }
 
   bool inside_window() const { return tia_.cursor > start() && tia_.cursor < end(); }
-  std::int32_t start() const { return tia_.origin + kLineClocks * video_.ystart; }
-  std::int32_t end() const { return start() + kLineClocks * video_.height; }
+  std::int32_t start() const { return start_; }  // the window, in colour clocks
+  std::int32_t end() const { return end_; }
 
  private:
+  void find_window();
   void draw_span(int begin, int clocks);
   void draw_visible(std::uint8_t* row, int first, int last);
   void collide(int first, int last);
@@ -69,6 +70,7 @@ class Beam {
   TiaState& tia_;
   const Video& video_;
   Picture* picture_ = nullptr;
+  std::int32_t start_ = 0, end_ = 0;
   Line line_;
   std::uint8_t stale_ = 0xFF;   // masks to make anew
   bool repeats_ = false;        // the line above was drawn in one piece by exactly these registers

@@ -10,6 +10,13 @@
 
 namespace racebeam {
 
+// An address below $0100: RAM from $80 on, registers of the TIA before it.
+struct ZeroPage {
+  std::uint8_t at;
+
+  operator std::uint16_t() const { return at; }
+};
+
 struct Core {
   Board& board;
   std::int32_t cycle;      // T: at the end of the instruction from its second bus access on (cpu.md, section 3)
@@ -61,6 +68,11 @@ struct Core {
     return latch;
   }
 
+  RACEBEAM_INLINE std::uint8_t read(ZeroPage address) {
+    if (address.at < 0x80) return read(std::uint16_t{address.at});
+    return latch = board.state.riot.ram[address.at - 0x80U];
+  }
+
   // The instruction at PC: its bytes, wherever they are, and the cycles up to its end but penalties.
   RACEBEAM_INLINE std::uint8_t fetch_opcode() {
     const auto offset = static_cast<std::uint16_t>(PC - board.code.first);
@@ -95,17 +107,32 @@ struct Core {
     return static_cast<std::uint16_t>(code[1] | latch << 8);
   }
 
+  RACEBEAM_INLINE void write(ZeroPage address, std::uint8_t value) {
+    if (address.at >= 0x80) {
+      board.state.riot.ram[address.at - 0x80U] = value;
+    } else {
+      write_device(address.at, value, true);
+    }
+    latch = value;
+  }
+
   // after_read: the CPU access before this one was a read, which WSYNC asks for.
   RACEBEAM_INLINE void write(std::uint16_t address, std::uint8_t value, bool after_read = true) {
     if ((address & 0x1280) == 0x0080) {
       board.state.riot.ram[address & 0x7F] = value;
-    } else if ((address & 0x1080) == 0 && board.is_plain_write(address, cycle)) {
+    } else {
+      write_device(address, value, after_read);
+    }
+    latch = value;
+  }
+
+  RACEBEAM_INLINE void write_device(std::uint16_t address, std::uint8_t value, bool after_read) {
+    if ((address & 0x1080) == 0 && board.is_plain_write(address, cycle)) {
       board.tia.log.append(cycle, address & 0x3F, value);
     } else {
       cycle = board.write_device(address, value, cycle, after_read);
       if (board.stop) budget = 0;
     }
-    latch = value;
   }
 
   RACEBEAM_INLINE void push(std::uint8_t value, bool after_read = true) {

@@ -15,7 +15,7 @@ constexpr int kLoadCycles = 4, kBranchCycles = 2;  // of the two instructions of
 // The shapes of an instruction, one for each kind of access in opcodes.inc.
 template <auto kMode, void (*kOperation)(Core&, std::uint8_t)>
 RACEBEAM_INLINE void Read(Core& cpu) {
-  const std::uint16_t address = kMode(cpu);
+  const auto address = kMode(cpu);
   kOperation(cpu, cpu.read(address));
 }
 
@@ -26,13 +26,13 @@ RACEBEAM_INLINE void Immediate(Core& cpu) {
 
 template <auto kMode, std::uint8_t (*kOperation)(Core&, std::uint16_t)>
 RACEBEAM_INLINE void Write(Core& cpu) {
-  const std::uint16_t address = kMode(cpu);
+  const auto address = kMode(cpu);
   cpu.write(address, kOperation(cpu, address));
 }
 
 template <auto kMode, std::uint8_t (*kOperation)(Core&, std::uint8_t)>
 RACEBEAM_INLINE void Modify(Core& cpu) {
-  const std::uint16_t address = kMode(cpu);
+  const auto address = kMode(cpu);
   cpu.write(address, kOperation(cpu, cpu.read(address)));
 }
 

@@ -87,14 +87,27 @@ constexpr TiaRegisters make_mask(unsigned seen) {
   return mask;
 }
 
-constexpr std::array<TiaRegisters, 256> make_masks() {
-  std::array<TiaRegisters, 256> table;
-  for (unsigned seen = 0; seen < 256; ++seen) table[seen] = make_mask(seen);
+using Words = std::array<std::uint64_t, sizeof(TiaRegisters) / sizeof(std::uint64_t)>;
+
+constexpr std::array<Words, 256> make_masks() {
+  std::array<Words, 256> table{};
+  for (unsigned seen = 0; seen < 256; ++seen) table[seen] = std::bit_cast<Words>(make_mask(seen));
   return table;
 }
 constexpr auto kMasks = make_masks();
 
-using Words = std::array<std::uint64_t, sizeof(TiaRegisters) / sizeof(std::uint64_t)>;
+constexpr Words make_black_mask() {
+  TiaRegisters mask;
+  mask.vblank = 0xFF;
+  return std::bit_cast<Words>(mask);
+}
+constexpr Words kBlackMask = make_black_mask();
+
+const Words& mask_of(const TiaRegisters& registers, std::uint8_t involved) {
+  if (registers.vblank && !(involved & kBlanks)) return kBlackMask;
+  const unsigned score = registers.ctrlpf & 2 ? kScoreMode : 0U;
+  return kMasks[enabled_objects(registers) | (involved & ~unsigned{kBlanks}) | score];
+}
 
 }  // namespace
 
@@ -102,17 +115,18 @@ constinit const std::uint64_t kDrawingRegisters = make_drawing_registers();
 constinit const std::array<LineEffect, 64> kLineEffects = make_effects();
 
 TiaRegisters line_key(const TiaRegisters& registers, std::uint8_t involved) {
-  if (registers.vblank && !(involved & kBlanks)) {
-    TiaRegisters black;
-    black.vblank = 1;
-    return black;
-  }
-  unsigned seen = (enabled_objects(registers) | involved) & ~kScoreMode;
-  if (registers.ctrlpf & 2) seen |= kScoreMode;
   Words words = std::bit_cast<Words>(registers);
-  const Words mask = std::bit_cast<Words>(kMasks[seen]);
+  const Words& mask = mask_of(registers, involved);
   for (std::size_t i = 0; i < words.size(); ++i) words[i] &= mask[i];
   return std::bit_cast<TiaRegisters>(words);
+}
+
+bool has_key(const TiaRegisters& registers, std::uint8_t involved, const TiaRegisters& key) {
+  const Words words = std::bit_cast<Words>(registers), wanted = std::bit_cast<Words>(key);
+  const Words& mask = mask_of(registers, involved);
+  std::uint64_t difference = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) difference |= (words[i] & mask[i]) ^ wanted[i];
+  return difference == 0;
 }
 
 }  // namespace racebeam

@@ -24,4 +24,7 @@ extern const std::array<LineEffect, 64> kLineEffects;
 // `registers` with everything set to zero that can't be seen. involved: of all writes on the line.
 TiaRegisters line_key(const TiaRegisters& registers, std::uint8_t involved);
 
+// Is that `key`?
+bool has_key(const TiaRegisters& registers, std::uint8_t involved, const TiaRegisters& key);
+
 }  // namespace racebeam

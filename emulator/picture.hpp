@@ -5,26 +5,12 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 
 #include "emulator/line.hpp"
 #include "emulator/state.hpp"
 
 namespace racebeam {
-
-// A write: CPU cycle within the line (0-75), register and value, packed to be compared at once.
-class LineEvent {
- public:
-  LineEvent() = default;
-  LineEvent(std::int32_t cycle, std::uint8_t reg, std::uint8_t value)
-      : packed_(static_cast<std::uint32_t>(cycle) << 16 | static_cast<std::uint32_t>(reg << 8) | value) {}
-
-  bool operator==(const LineEvent&) const = default;
-
- private:
-  std::uint32_t packed_;
-};
 
 struct LineRecord {
   static constexpr std::uint8_t kInvalid = 0xFF;
@@ -35,9 +21,7 @@ struct LineRecord {
   std::uint8_t involved;           // what the events may make visible, see line_key.hpp
   std::uint8_t repeats;            // drawn in one piece by the registers as the line left them
   std::uint8_t comb_armed;         // what the line left
-  std::array<LineEvent, 18> event;
-
-  bool has_key(const TiaRegisters& other) const { return std::memcmp(&key, &other, sizeof key) == 0; }
+  std::array<std::uint32_t, 18> event;  // the writes: TiaAccess::since() the line's first cycle
 };
 static_assert(sizeof(LineRecord) == 128);
 

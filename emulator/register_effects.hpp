@@ -22,9 +22,11 @@ class RegisterEffects {
   RegisterEffects(TiaState& state, const FrameState& frame, const Video& video, Painter painter)
       : tia_(state), frame_(frame), video_(video), painter_(painter) {}
 
-  void play(const TiaAccess& access);
+  void play(const TiaAccess* first, const TiaAccess* last);
 
  private:
+  void play(const TiaAccess& access);
+
   static constexpr std::uint8_t kNoObject = 0, kBallBit = 1U << kBall, kPlayfieldBit = 1U << kPlayfield;
 
   static constexpr std::uint8_t object(unsigned first, unsigned which) {
@@ -82,23 +84,28 @@ RACEBEAM_INLINE bool RegisterEffects<Painter>::assign(T& reg, T value, std::int3
 }
 
 template <class Painter>
-void RegisterEffects<Painter>::play(const TiaAccess& access) {
-  const std::int32_t clock = 3 * access.cycle;
-  const std::uint8_t value = access.value;
+void RegisterEffects<Painter>::play(const TiaAccess* first, const TiaAccess* last) {
+  for (const TiaAccess* access = first; access != last; ++access) play(*access);
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::play(const TiaAccess& access) {
+  const std::int32_t clock = 3 * access.cycle();
+  const std::uint8_t value = access.value();
   auto& [p0, p1] = tia_.player;
   auto& [m0, m1] = tia_.missile;
   BallState& ball = tia_.ball;
   const auto flag = [value](int bit) { return static_cast<std::uint8_t>(value >> bit & 1); };
   const auto motion = [value] { return static_cast<std::uint8_t>(value >> 4); };
-  switch (access.reg) {
+  switch (access.reg()) {
     case VBLANK: assign(tia_.vblank, flag(1), clock + 1, kNoObject); break;
     case NUSIZ0: write_nusiz(0, value, clock + 8); break;
     case NUSIZ1: write_nusiz(1, value, clock + 8); break;
-    case COLUP0: case COLUP1: case COLUPF: case COLUBK: write_color(access.reg - COLUP0, value, clock); break;
+    case COLUP0: case COLUP1: case COLUPF: case COLUBK: write_color(access.reg() - COLUP0, value, clock); break;
     case CTRLPF: write_ctrlpf(value, clock); break;
     case REFP0:  assign(p0.refp, flag(3), clock + 1, object(kP0, 0)); break;
     case REFP1:  assign(p1.refp, flag(3), clock + 1, object(kP0, 1)); break;
-    case PF0: case PF1: case PF2: write_playfield(access.reg - PF0, value, access); break;
+    case PF0: case PF1: case PF2: write_playfield(access.reg() - PF0, value, access); break;
     case RESP0:  strobe_player(0, clock); break;
     case RESP1:  strobe_player(1, clock); break;
     case RESM0:  strobe_missile(0, clock); break;
@@ -160,8 +167,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, std::uint8_t value, const TiaAccess& access) {
   static constexpr std::uint8_t kDelay[4] = {4, 5, 2, 3};  // until the next block of four pixels
-  const std::int32_t clock = 3 * access.cycle;
-  assign(tia_.pf[which], value, clock + kDelay[line_cycle(access.cycle) % 4], kPlayfieldBit);
+  const std::int32_t clock = 3 * access.cycle();
+  assign(tia_.pf[which], value, clock + kDelay[line_cycle(access.cycle()) % 4], kPlayfieldBit);
 }
 
 // Writing one player's graphics moves the other's into the register that VDELPx shows.
@@ -286,8 +293,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_ball(std::int32_t clock) {
 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(const TiaAccess& access) {
-  const std::int32_t clock = 3 * access.cycle;
-  const int x = line_cycle(access.cycle);
+  const std::int32_t clock = 3 * access.cycle();
+  const int x = line_cycle(access.cycle());
   painter_.draw_to(clock);
   const auto& movement = kMovement[static_cast<std::size_t>(x)];
   const auto move = [&](std::uint8_t& position, std::uint8_t motion, std::uint8_t objects) {

@@ -33,8 +33,8 @@ struct Recalling {
 
 // Does the same write on the same line always do the same? CXCLR acts on lines before, and what may be the start of
 // Cosmic Ark mode depends on when the last HMOVE was.
-constexpr bool is_repeatable(const TiaAccess& access) {
-  return access.reg != CXCLR && !(access.reg == HMM0 && access.value >> 4 == 6);
+bool is_repeatable(TiaAccess access) {
+  return access.reg() != CXCLR && !(access.reg() == HMM0 && access.value() >> 4 == 6);
 }
 
 constexpr std::size_t kNowhere = ~std::size_t{0};
@@ -81,12 +81,14 @@ void Tia::end_step(std::int32_t last_access) {
 
 void Tia::play_until(std::size_t end) {
   while (played_ < end) {
-    if (!play_line(end)) play(log.entry[played_++]);
+    if (!play_line(end)) play(played_ + 1);
   }
 }
 
-void Tia::play(const TiaAccess& access) {
-  RegisterEffects(tia_, frame_, video_, Drawing{beam_, reached_}).play(access);
+// Access by access, or up to `next`.
+void Tia::play(std::size_t next) {
+  RegisterEffects(tia_, frame_, video_, Drawing{beam_, reached_}).play(&log.entry[played_], &log.entry[next]);
+  played_ = next;
   if (beam_.exact_spans()) beam_.draw_to(reached_);
 }
 
@@ -94,7 +96,7 @@ void Tia::play(const TiaAccess& access) {
 // that starts with the same visible registers and meets the same writes as when this row of the buffer was drawn last
 // is there already.
 bool Tia::play_line(std::size_t end) {
-  const std::int32_t clock = 3 * log.entry[played_].cycle;
+  const std::int32_t clock = 3 * log.entry[played_].cycle();
   if (clock <= beam_.start() || !beam_.line_can_end() || beam_.exact_spans()) return false;
   if (!beam_.at_line_start()) {
     if (clock <= beam_.line_end()) return false;
@@ -104,7 +106,7 @@ bool Tia::play_line(std::size_t end) {
   if (reached_ > tia_.cursor) return false;
   const LineRecord& known = beam_.record();
   const std::size_t next = end_of_known_line(known, end);
-  if (next != kNowhere && known.has_key(line_key(tia_, known.involved))) recall_line(next);
+  if (next != kNowhere && has_key(tia_, known.involved, known.key)) recall_line(next);
   else if (!draw_line(end)) return false;
   return true;
 }
@@ -115,56 +117,55 @@ std::size_t Tia::end_of_known_line(const LineRecord& known, std::size_t end) con
   const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles;
   unsigned count = 0;
   for (std::size_t i = played_; i < end; ++i) {
-    const TiaAccess& access = log.entry[i];
-    const std::int32_t cycle = access.cycle - first_cycle;
-    if (cycle > kLineCycles) return count == known.count ? i : kNowhere;
-    if (!(kDrawingRegisters >> access.reg & 1)) continue;
-    if (count == known.count || known.event[count++] != LineEvent(cycle, access.reg, access.value)) break;
+    const TiaAccess access = log.entry[i];
+    if (access.cycle() > first_cycle + kLineCycles) return count == known.count ? i : kNowhere;
+    if (!(kDrawingRegisters >> access.reg() & 1)) continue;
+    if (count == known.count || known.event[count++] != access.since(first_cycle)) break;
   }
   return kNowhere;
 }
 
 void Tia::recall_line(std::size_t next) {
-  RegisterEffects effects(tia_, frame_, video_, Recalling{beam_});
-  while (played_ < next) effects.play(log.entry[played_++]);
+  RegisterEffects(tia_, frame_, video_, Recalling{beam_}).play(&log.entry[played_], &log.entry[next]);
+  played_ = next;
   beam_.take_line(beam_.record());
 }
 
 // Draws the cursor's line and remembers it; false if it can't be taken as a whole.
 bool Tia::draw_line(std::size_t end) {
-  LineRecord line;
-  const std::size_t next = gather_events(end, line);
-  if (next == kNowhere) return false;
   LineRecord& record = beam_.record();
+  record.count = LineRecord::kInvalid;
+  unsigned count = 0;
+  const std::size_t next = gather_events(end, record, count);
+  if (next == kNowhere) return false;
   const std::uint16_t collisions = tia_.collisions;
   tia_.collisions = 0;  // the record keeps those of this line
-  while (played_ < next) play(log.entry[played_++]);
+  play(next);
   beam_.finish_line();
-  line.meetings = tia_.collisions;
-  line.repeats = beam_.repeats();
-  line.comb_armed = tia_.comb_armed;
+  record.meetings = tia_.collisions;
+  record.repeats = beam_.repeats();
+  record.comb_armed = tia_.comb_armed;
+  record.count = static_cast<std::uint8_t>(count);
   tia_.collisions |= collisions;
-  record = line;
   return true;
 }
 
 // The writes that the cursor's line meets, and its key. Returns the first access beyond it.
-std::size_t Tia::gather_events(std::size_t end, LineRecord& line) const {
+std::size_t Tia::gather_events(std::size_t end, LineRecord& line, unsigned& count) const {
   const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles;
   line.involved = 0;
-  line.count = 0;
   for (std::size_t i = played_; i < end; ++i) {
-    const TiaAccess& access = log.entry[i];
-    const std::int32_t cycle = access.cycle - first_cycle;
+    const TiaAccess access = log.entry[i];
+    const std::int32_t cycle = access.cycle() - first_cycle;
     if (cycle > kLineCycles) {
       line.key = line_key(tia_, line.involved);
       return i;
     }
-    if (!(kDrawingRegisters >> access.reg & 1)) continue;
-    const LineEffect effect = kLineEffects[access.reg];
-    if (line.count == line.event.size() || cycle > effect.last_cycle || !is_repeatable(access)) break;
+    if (!(kDrawingRegisters >> access.reg() & 1)) continue;
+    const LineEffect effect = kLineEffects[access.reg()];
+    if (count == line.event.size() || cycle > effect.last_cycle || !is_repeatable(access)) break;
     line.involved |= effect.involved;
-    line.event[line.count++] = LineEvent(cycle, access.reg, access.value);
+    line.event[count++] = access.since(first_cycle);
   }
   return kNowhere;
 }

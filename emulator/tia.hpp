@@ -27,12 +27,12 @@ class Tia {
  private:
   void rewind();  // the log is played from its beginning
   void play_until(std::size_t end);
-  void play(const TiaAccess& access);
+  void play(std::size_t next);
   bool play_line(std::size_t end);
   std::size_t end_of_known_line(const LineRecord& known, std::size_t end) const;
   void recall_line(std::size_t next);
   bool draw_line(std::size_t end);
-  std::size_t gather_events(std::size_t end, LineRecord& line) const;
+  std::size_t gather_events(std::size_t end, LineRecord& line, unsigned& count) const;
 
   TiaState& tia_;
   const FrameState& frame_;

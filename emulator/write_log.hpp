@@ -6,11 +6,24 @@
 
 namespace racebeam {
 
-struct TiaAccess {
-  std::int32_t cycle;
-  std::uint8_t reg;  // $00-$2C; kTouch: draws up to its clock and changes nothing
-  std::uint8_t value;
-  std::uint16_t spare = 0;
+// One word, so that it is written and compared as such.
+class TiaAccess {
+ public:
+  TiaAccess() = default;
+  TiaAccess(std::int32_t cycle, unsigned reg, std::uint8_t value)
+      : packed_(static_cast<std::uint64_t>(cycle) << 16 | reg << 8 | value) {}
+
+  std::int32_t cycle() const { return static_cast<std::int32_t>(packed_ >> 16); }
+  unsigned reg() const { return packed_ >> 8 & 0xFF; }  // $00-$2C; kTouch: draws up to its clock, changes nothing
+  std::uint8_t value() const { return static_cast<std::uint8_t>(packed_); }
+
+  // Cycle from `first_cycle` on, register and value: what makes two lines the same.
+  std::uint32_t since(std::int32_t first_cycle) const {
+    return static_cast<std::uint32_t>(packed_ - (static_cast<std::uint64_t>(first_cycle) << 16));
+  }
+
+ private:
+  std::uint64_t packed_;
 };
 
 constexpr std::uint8_t kTouch = 0x3F;
@@ -24,7 +37,7 @@ struct WriteLog {
   std::array<TiaAccess, kCapacity> entry;
 
   void append(std::int32_t cycle, unsigned reg, std::uint8_t value) {
-    entry[size++] = {cycle, static_cast<std::uint8_t>(reg), value};
+    entry[size++] = TiaAccess(cycle, reg, value);
   }
   bool has_room() const { return size < kCapacity - 8; }
 };
