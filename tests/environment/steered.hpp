@@ -1,0 +1,39 @@
+// An environment on the counting cartridge, and what can be read from it.
+#pragma once
+
+#include <random>
+#include <stdexcept>
+
+#include "environment/environment.hpp"
+#include "environment/saved.hpp"
+#include "tests/support/counter_image.hpp"
+
+namespace racebeam::test {
+
+constexpr int kScore = 0x10, kOver = 0x11, kLives = 0x12;  // indices of the steered game's RAM
+
+inline Settings plain() {
+  Settings settings;
+  settings.random_seed = 123;
+  settings.sticky = 0;
+  return settings;
+}
+
+inline Environment steered(const Settings& settings = plain()) { return {counter_image(), game(), settings}; }
+
+// A byte of RAM by its address.
+inline int at(const Environment& environment, int address) {
+  return environment.ram()[static_cast<std::size_t>(address - 0x80)];
+}
+
+// Taken from the environment's generator so far.
+inline std::uint64_t draws(const Environment& environment) {
+  const auto random = environment.save(true)->random;
+  std::mt19937 counter(environment.settings().random_seed);
+  for (std::uint64_t count = 0; count < 10000; ++count, counter()) {
+    if (counter == *random) return count;
+  }
+  throw std::runtime_error("the generator is not where it should be");
+}
+
+}  // namespace racebeam::test
