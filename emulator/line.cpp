@@ -44,30 +44,9 @@ constexpr std::array<std::uint64_t, 256> make_spread() {
   return table;
 }
 constexpr auto kSpread = make_spread();
+constexpr std::uint64_t kOnes = 0x0101010101010101;
 
-// Eight pixels at a time: where the mask has any, the colour replaces what is there.
-void paint(std::uint8_t* row, const PixelMask& mask, std::uint8_t color) {
-  const std::uint64_t ink = color * 0x0101010101010101U;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::uint64_t rest = mask.word[i]; rest != 0;) {
-      const int byte = std::countr_zero(rest) / 8;
-      const std::uint64_t cover = kSpread[rest >> (8 * byte) & 0xFF];
-      std::uint8_t* at = row + 64 * i + 8 * byte;
-      std::uint64_t pixels;
-      std::memcpy(&pixels, at, sizeof pixels);
-      pixels = (pixels & ~cover) | (ink & cover);
-      std::memcpy(at, &pixels, sizeof pixels);
-      rest &= ~(std::uint64_t{0xFF} << (8 * byte));
-    }
-  }
-}
-
-// Three layers, from the back to the front, make every priority mode.
-struct Layer {
-  PixelMask mask;
-  Color color;
-};
-
+// Three layers make every priority mode.
 std::array<Layer, 3> layers(const Line& line, std::uint8_t ctrlpf) {
   const auto& m = line.mask;
   const PixelMask first = m[kP0] | m[kM0], second = m[kP1] | m[kM1], playfield = m[kPlayfield] | m[kBall];
@@ -82,6 +61,45 @@ std::array<Layer, 3> layers(const Line& line, std::uint8_t ctrlpf) {
              {second | (m[kPlayfield] & kRightHalf), kColup1},
              {first | (m[kPlayfield] & kLeftHalf), kColup0}}};
   return {{{playfield, kColupf}, {second, kColup1}, {first, kColup0}}};
+}
+
+// Where eight pixels are covered, the colour replaces what is there.
+std::uint64_t painted(std::uint64_t pixels, std::uint8_t covered, std::uint8_t color) {
+  const std::uint64_t ink = color * kOnes;
+  return pixels ^ ((pixels ^ ink) & kSpread[covered]);
+}
+
+// A whole row: most masks cover few of its groups of eight pixels.
+void paint(std::uint8_t* row, const PixelMask& mask, std::uint8_t color) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::uint64_t rest = mask.word[i]; rest != 0;) {
+      const int group = std::countr_zero(rest) / 8;
+      std::uint8_t* at = row + 64 * i + 8 * group;
+      std::uint64_t pixels;
+      std::memcpy(&pixels, at, sizeof pixels);
+      pixels = painted(pixels, static_cast<std::uint8_t>(rest >> (8 * group)), color);
+      std::memcpy(at, &pixels, sizeof pixels);
+      rest &= ~(std::uint64_t{0xFF} << (8 * group));
+    }
+  }
+}
+
+void draw_row(const Line& line, const TiaState& tia, std::uint8_t* row) {
+  std::memset(row, tia.color[kColubk], kLinePixels);
+  if (line.covered == 0) return;
+  for (const Layer& layer : line.layer) paint(row, layer.mask, tia.color[layer.color]);
+}
+
+// A part of a row, group by group.
+void draw_part(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
+  const PixelMask inside = PixelMask::range(first, last);
+  for (auto group = static_cast<std::size_t>(first / 8); 8 * static_cast<int>(group) < last; ++group) {
+    std::uint64_t pixels = tia.color[kColubk] * kOnes, old;
+    for (const Layer& layer : line.layer) pixels = painted(pixels, layer.mask.byte(group), tia.color[layer.color]);
+    std::memcpy(&old, row + 8 * group, sizeof old);
+    pixels = old ^ ((old ^ pixels) & kSpread[inside.byte(group)]);
+    std::memcpy(row + 8 * group, &pixels, sizeof pixels);
+  }
 }
 
 // For each set of covered objects, the latches that they can set.
@@ -118,16 +136,12 @@ void Line::refresh(const TiaState& tia, std::uint8_t objects) {
   }
   if (objects & bit(kBall)) set(kBall, ball_enabled(tia.ball), ball_mask(tia));
   if (objects & bit(kPlayfield)) set(kPlayfield, playfield_bits(tia) != 0, playfield_mask(tia));
+  layer = layers(*this, tia.ctrlpf);
 }
 
 void draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
-  std::memset(row + first, tia.color[kColubk], static_cast<std::size_t>(last - first));
-  if (line.covered == 0) return;
-  const bool whole = first == 0 && last == kLinePixels;
-  const PixelMask clip = PixelMask::range(first, last);
-  for (const Layer& layer : layers(line, tia.ctrlpf)) {
-    if (layer.mask.any()) paint(row, whole ? layer.mask : layer.mask & clip, tia.color[layer.color]);
-  }
+  if (first == 0 && last == kLinePixels) draw_row(line, tia, row);
+  else draw_part(line, tia, row, first, last);
 }
 
 Collisions meetings(const Line& line, int first, int last, Collisions known) {

@@ -13,12 +13,19 @@ namespace racebeam {
 // Pairs of objects that meet, two bits a collision register: bit 2r+1 is D7 of register r, bit 2r its D6.
 using Collisions = std::uint16_t;
 
+// Pixels of one colour, by its index in TiaRegisters::color.
+struct Layer {
+  PixelMask mask;
+  unsigned color = 0;
+};
+
 struct Line {
   std::array<PixelMask, kObjects> mask;  // by Object
+  std::array<Layer, 3> layer;            // what hides what: from the back to the front
   std::uint8_t covered = 0;              // bit n: mask n has pixels
   std::uint8_t enabled = 0;              // bit n: Object n is enabled, even if it has no pixel on this line
 
-  void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew
+  void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew, and the layers
 };
 
 // Writes pixels `first` to `last` - 1 of a row.

@@ -15,12 +15,13 @@ struct PixelMask {
   void add(std::uint64_t pixels, unsigned at) {
     const unsigned shift = at % 64;
     const std::size_t first = at / 64;
-    std::array<std::uint64_t, 4> wide{};
-    wide[first] = pixels << shift;
-    if (shift != 0) wide[first + 1] = pixels >> (64 - shift);
-    word[0] |= wide[0] | wide[2] >> 32;
-    word[1] |= wide[1];
-    word[2] |= wide[2] & 0xFFFFFFFF;
+    word[first] |= pixels << shift;
+    if (first < 2) {
+      word[first + 1] |= pixels >> 1 >> (63 - shift);
+    } else {
+      word[0] |= word[2] >> 32;
+      word[2] &= 0xFFFFFFFF;
+    }
   }
 
   // The pixels from `first` up to, not including, `last`.
@@ -29,6 +30,9 @@ struct PixelMask {
     return {{to_last.word[0] & ~to_first.word[0], to_last.word[1] & ~to_first.word[1],
              to_last.word[2] & ~to_first.word[2]}};
   }
+
+  // Eight pixels, from pixel 8 * `group` on.
+  std::uint8_t byte(std::size_t group) const { return static_cast<std::uint8_t>(word[group / 8] >> (8 * (group % 8))); }
 
   bool any() const { return (word[0] | word[1] | word[2]) != 0; }
   bool meets(const PixelMask& other) const {

@@ -1,0 +1,123 @@
+"""Command lines and images that make no sense: one clear line on standard error, an exit status, nothing played."""
+
+import gzip
+import os
+import tempfile
+import unittest
+
+from harness import GAME, main, run
+
+MACHINES = (("trace", "--actions", "-"), ("bench", "--frames", "1"))
+LARGEST = 524288
+
+
+class Case(unittest.TestCase):
+    def refused(self, status, complaint, *words, data=b""):
+        ended, printed, errors = run(*words, data=data)
+        errors = [line for line in errors if "is not in the catalogue" not in line]  # a warning about any strange image
+        self.assertEqual((ended, len(errors)), (status, 1), errors)
+        self.assertRegex(errors[0], "^racebeam: .*" + complaint)
+        return printed
+
+
+class Images(Case):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def image(self, data, name="x.bin"):
+        path = os.path.join(self.folder, name)
+        with open(path, "wb") as file:
+            file.write(data)
+        return path
+
+    def refuses(self, path, complaint):
+        for command, *words in MACHINES:
+            with self.subTest(command=command):
+                self.assertEqual(self.refused(1, complaint, command, "--rom", path, *words), b"")
+
+    def test_a_missing_image(self):
+        self.refuses(os.path.join(self.folder, "missing.bin"), r"missing\.bin.*no such file")
+
+    def test_a_folder_for_an_image(self):
+        self.refuses(self.folder, "irectory")
+
+    def test_an_empty_image(self):
+        self.refuses(self.image(b""), r"x\.bin.*empty")
+
+    def test_an_image_larger_than_any_cartridge(self):
+        self.refuses(self.image(b"\xea" * (LARGEST + 1)), str(LARGEST))
+
+    def test_a_gzip_file_that_inflates_to_more_than_any_cartridge(self):
+        self.refuses(self.image(gzip.compress(b"\xea" * (LARGEST + 1)), "x.bin.gz"), str(LARGEST))
+
+    def test_a_gzip_file_that_is_cut(self):
+        whole = gzip.compress(os.urandom(4096))
+        self.refuses(self.image(whole[:len(whole) // 2], "x.bin.gz"), r"x\.bin\.gz")
+
+    def test_a_truncated_image_has_a_size_that_no_scheme_fits(self):
+        self.refuses(self.image(b"\xea" * 3000), "3000")
+
+    def test_a_built_in_that_does_not_exist(self):
+        self.refuses("builtin:beamfal", "beamfal.*beamfall")
+
+
+class Options(Case):
+    def test_an_unknown_game_is_answered_with_similar_names(self):
+        for command, *words in MACHINES:
+            self.refused(1, "brekout.*breakout", command, "--rom", GAME, "--game", "brekout", *words)
+
+    def test_a_mode_that_the_game_does_not_offer(self):
+        for command, *words in MACHINES:
+            self.refused(1, "no mode 77; it offers 0", command, "--rom", GAME, "--mode", "77", *words)
+
+    def test_a_difficulty_that_the_game_does_not_offer(self):
+        for command, *words in MACHINES:
+            self.refused(1, "no difficulty 9; it offers 0", command, "--rom", GAME, "--difficulty", "9", *words)
+
+    def test_flags_that_are_not_numbers(self):
+        for command, *words in MACHINES:
+            for option in ("--seed", "--frame-skip", "--sticky", "--mode", "--difficulty"):
+                with self.subTest(command=command, option=option):
+                    self.refused(2, option + ".*many", command, "--rom", GAME, *words, option, "many")
+        self.refused(2, "--max-frames.*many", "trace", "--rom", GAME, "--actions", "-", "--max-frames", "many")
+        self.refused(2, "--frames.*many", "bench", "--rom", GAME, "--frames", "many")
+
+    def test_numbers_that_are_out_of_range(self):
+        for option, value in (("--frame-skip", "0"), ("--frame-skip", "-4"), ("--frame-skip", "99999999999"),
+                              ("--sticky", "1.5"), ("--sticky", "nan"), ("--max-frames", "-1"), ("--seed", "-1")):
+            with self.subTest(option=option, value=value):
+                self.refused(2, option, "trace", "--rom", GAME, "--actions", "-", option + "=" + value)
+
+    def test_what_is_missing_is_named(self):
+        self.refused(2, "--rom is required", "trace", "--actions", "-")
+        self.refused(2, "--actions is required", "trace", "--rom", GAME)
+        self.refused(2, "DIR is required", "roms")
+        self.refused(2, "OUT.png is required", "png")
+
+    def test_unknown_words_are_named(self):
+        self.refused(2, "--faster", "bench", "--rom", GAME, "--faster")
+        self.refused(2, "some", "bench", "--rom", GAME, "--screen", "some")
+        self.refused(2, "", "conquer")
+        self.refused(2, "", *[])
+
+
+class Help(unittest.TestCase):
+    def test_every_subcommand_explains_itself(self):
+        _, overview, _ = run("--help")
+        for command in ("serve", "trace", "bench", "games", "roms", "png"):
+            with self.subTest(command=command):
+                self.assertIn(command, overview.decode())
+                status, text, errors = run(command, "--help")
+                self.assertEqual((status, errors), (0, []))
+                self.assertGreater(len(text.splitlines()), 8)
+
+    def test_the_version_is_printed(self):
+        status, text, errors = run("--version")
+        self.assertEqual((status, errors), (0, []))
+        self.assertRegex(text.decode(), r"^racebeam \d+\.\d+\.\d+\n$")
+
+
+if __name__ == "__main__":
+    main()

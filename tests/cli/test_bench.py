@@ -1,0 +1,68 @@
+"""racebeam bench: what it reports, and that its settings do the work they say."""
+
+import json
+import unittest
+
+from harness import GAME, main, run
+
+FIELDS = {"game", "md5", "frames", "acts", "frame_skip", "cpu_seconds", "frames_per_second", "resets",
+          "reset_cpu_seconds", "screen", "screens", "audio", "reward", "last_screen_crc", "last_ram_crc"}
+
+
+def bench(*words, data=b""):
+    status, printed, errors = run("bench", "--rom", GAME, "--json", *words, data=data)
+    assert (status, errors) == (0, []), errors
+    return json.loads(printed)
+
+
+def work(figures):
+    return [figures[key] for key in ("frames", "reward", "resets", "last_screen_crc", "last_ram_crc")]
+
+
+class Bench(unittest.TestCase):
+    def test_it_reports_what_was_done_and_how_long_it_took(self):
+        figures = bench("--frames", "600")
+        self.assertEqual(set(figures), FIELDS)
+        self.assertEqual((figures["frames"], figures["acts"], figures["screens"]), (600, 600, 600))
+        self.assertGreater(figures["cpu_seconds"], 0)
+        self.assertAlmostEqual(figures["frames_per_second"], 600 / figures["cpu_seconds"], delta=1)
+
+    def test_all_kinds_of_screens_come_from_the_same_play(self):
+        every, last, none = (bench("--frames", "600", "--frame-skip", "4", "--screen", screen)
+                             for screen in ("every", "last", "none"))
+        self.assertEqual([every["screens"], last["screens"], none["screens"]], [600, 150, 0])
+        self.assertEqual(work(every), work(last))
+        self.assertEqual(work(every), work(none))
+
+    def test_the_actions_of_a_file_are_those_that_trace_plays(self):
+        actions = b"1 1 3 3 11 11 4 4 12 2 10 5"
+        figures = bench("--frames", "12", "--actions", "-", data=actions)
+        _, lines, _ = run("trace", "--rom", GAME, "--actions", "-", data=actions)
+        last = lines.decode().splitlines()[-1].split()
+        self.assertEqual([figures["last_ram_crc"], figures["last_screen_crc"]], last[-2:])
+
+    def test_actions_start_over_when_they_run_out(self):
+        self.assertEqual(work(bench("--frames", "24", "--actions", "-", data=b"1 3 4")),
+                         work(bench("--frames", "24", "--actions", "-", data=b"1 3 4" + b" 1 3 4" * 7)))
+
+    def test_snapshots_are_timed_when_asked_for(self):
+        figures = bench("--frames", "10", "--save-restore")
+        self.assertLessEqual(figures["machine_state_bytes"], 2048)
+        self.assertGreater(figures["client_save_restore_ns"], figures["machine_save_restore_ns"])
+
+    def test_the_text_names_the_same_figures(self):
+        status, printed, errors = run("bench", "--rom", GAME, "--frames", "60", "--audio")
+        self.assertEqual((status, errors), (0, []))
+        lines = dict(line.split(None, 1) for line in printed.decode().splitlines())
+        self.assertEqual((lines["game"], lines["audio"]), ("beamfall", "yes"))
+
+    def test_no_actions_and_wrong_ones_are_refused(self):
+        for data, complaint in ((b"", "there are no actions in '-'"), (b"x", "line 1: 'x' is not a number"), (b"99", "99")):
+            with self.subTest(data=data):
+                status, printed, errors = run("bench", "--rom", GAME, "--actions", "-", data=data)
+                self.assertEqual((status, printed, len(errors)), (1, b"", 1), errors)
+                self.assertIn(complaint, errors[0])
+
+
+if __name__ == "__main__":
+    main()

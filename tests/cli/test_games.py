@@ -1,0 +1,125 @@
+"""racebeam games and racebeam roms."""
+
+import gzip
+import hashlib
+import json
+import os
+import shutil
+import tempfile
+import unittest
+
+from harness import main, rom, run
+
+
+def answer(*words):
+    status, printed, errors = run(*words)
+    assert (status, errors) == (0, []), errors
+    return printed.decode()
+
+
+class Games(unittest.TestCase):
+    def setUp(self):
+        self.games = {game["name"]: game for game in json.loads(answer("games", "--json"))}
+
+    def test_all_games_of_the_reference_are_there_with_their_rules(self):
+        theirs = [game for game in self.games.values() if game["has_rule"] and not game["built_in"]]
+        self.assertEqual(len(theirs), 104)
+        for game in theirs:
+            md5s = [image["md5"] for image in game["images"] if image["recognised"]]
+            self.assertEqual([len(md5) for md5 in md5s], [32], game["name"])
+
+    def test_what_is_known_of_a_game(self):
+        skiing = self.games["skiing"]
+        self.assertEqual(skiing["title"], "Skiing")
+        self.assertEqual(skiing["legal_actions"], ["NOOP", "UP", "RIGHT", "LEFT", "DOWN", "UPRIGHT", "UPLEFT",
+                                                   "DOWNRIGHT", "DOWNLEFT"])
+        berzerk = self.games["berzerk"]
+        self.assertEqual((berzerk["modes"], berzerk["default_mode"]), ([*range(1, 10), 16, 17, 18], 1))
+        self.assertEqual(self.games["asteroids"]["difficulties"], [0, 3])
+
+    def test_the_games_that_are_built_in_are_marked(self):
+        self.assertTrue(self.games["beamfall"]["built_in"])
+        self.assertFalse(self.games["pong"]["built_in"])
+
+    def test_the_table_has_a_row_for_each(self):
+        rows = answer("games").splitlines()
+        self.assertEqual([row.split()[0].rstrip("*") for row in rows[1:]], list(self.games))
+        self.assertRegex(next(row for row in rows if row.startswith("berzerk ")), r" 0 +1-9 16-18$")
+        pong = next(row for row in rows if row.startswith("pong "))
+        self.assertIn("60e0ea3cbe0913d39803477945e9e5ec", pong)
+        self.assertTrue(any(row.startswith("beamfall") and "*" in row for row in rows))
+
+
+class Roms(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def put(self, name, data):
+        with open(os.path.join(self.folder, name), "wb") as file:
+            file.write(data)
+
+    def findings(self):
+        report = json.loads(answer("roms", self.folder, "--json"))
+        return {image["file"]: image for image in report["images"]}, report["missing"]
+
+    def test_each_image_gets_its_verdict(self):
+        mystery = bytes(range(256)) * 16
+        self.put("mystery.bin", mystery)
+        self.put("PONG.A26", mystery[::-1])
+        self.put("packed.bin.gz", gzip.compress(mystery))
+        self.put("empty.rom", b"")
+        self.put("notes.txt", b"no image")
+        os.mkdir(os.path.join(self.folder, "folder.bin"))
+        found, missing = self.findings()
+        self.assertEqual({name: image["verdict"] for name, image in found.items()},
+                         {"mystery.bin": "unknown", "PONG.A26": "by-name", "packed.bin.gz": "unknown", "empty.rom": "unusable"})
+        self.assertEqual(found["PONG.A26"]["game"], "pong")
+        self.assertEqual(found["mystery.bin"]["md5"], hashlib.md5(mystery).hexdigest())
+        self.assertEqual(found["packed.bin.gz"]["md5"], found["mystery.bin"]["md5"])
+        self.assertIn("--game", found["mystery.bin"]["note"])
+        self.assertIn("empty", found["empty.rom"]["note"])
+        self.assertNotIn("pong", missing)
+        self.assertIn("breakout", missing)
+
+    def test_an_empty_folder_lacks_every_game_but_the_built_in_ones(self):
+        games = json.loads(answer("games", "--json"))
+        found, missing = self.findings()
+        self.assertEqual(found, {})
+        self.assertEqual(missing, [game["name"] for game in games if not game["built_in"]])
+
+    @unittest.skipUnless(rom("pong"), "there is no image of pong")
+    def test_an_image_is_known_by_its_bytes_whatever_it_is_called(self):
+        shutil.copy(rom("pong"), os.path.join(self.folder, "breakout.bin"))
+        found, missing = self.findings()
+        self.assertEqual((found["breakout.bin"]["verdict"], found["breakout.bin"]["game"]), ("known", "pong"))
+        self.assertIn("breakout", missing)
+
+    def test_the_text_ends_with_the_counts(self):
+        self.put("mystery.bin", b"\xea" * 4096)
+        lines = answer("roms", self.folder).splitlines()
+        self.assertRegex(lines[0], r"^unknown +- +[0-9a-f]{32}  mystery\.bin: needs --game$")
+        self.assertRegex(lines[-1], r"^1 images; \d+ games without one$")
+
+    def refused(self, folder, complaint):
+        status, printed, errors = run("roms", folder)
+        self.assertEqual((status, printed, len(errors)), (1, b"", 1), errors)
+        self.assertIn(complaint, errors[0])
+
+    def test_a_folder_that_is_not_there(self):
+        self.refused(os.path.join(self.folder, "missing"), "No such file or directory")
+
+    def test_a_file_for_a_folder(self):
+        self.put("file", b"")
+        self.refused(os.path.join(self.folder, "file"), "Not a directory")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may read everything")
+    def test_a_folder_that_may_not_be_read(self):
+        os.chmod(self.folder, 0)
+        self.addCleanup(os.chmod, self.folder, 0o700)
+        self.refused(self.folder, "Permission denied")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,136 @@
+"""racebeam png: the picture holds what the client's line says."""
+
+import os
+import struct
+import tempfile
+import unittest
+import zlib
+
+from harness import GAME, main, run
+
+WIDTH, HEIGHT = 160, 210
+NTSC = {0x00: (0, 0, 0), 0x0E: (0xEC, 0xEC, 0xEC), 0x1A: (0xD2, 0xD2, 0x40), 0x44: (0xB8, 0x32, 0x32)}
+PAL_44, SECAM_44 = (0xA0, 0x6B, 0x32), (0xF0, 0x3C, 0x79)
+
+
+def run_lengths(pixels):
+    text, start = "", 0
+    for i in range(1, len(pixels) + 1):
+        if i == len(pixels) or pixels[i] != pixels[start] or i - start == 255:
+            text += f"{pixels[start]:02X}{i - start:02X}"
+            start = i
+    return text
+
+
+def read_png(data):
+    """Width, height and the rows of an 8-bit RGB picture that is not interlaced."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, packed = 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        assert struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0] == zlib.crc32(kind + body)
+        if kind == b"IHDR":
+            width, height, *kind_of_pixels = struct.unpack(">IIBBBBB", body)
+            assert kind_of_pixels == [8, 2, 0, 0, 0]
+        packed += body if kind == b"IDAT" else b""
+        at += 12 + length
+    return width, height, unfilter(zlib.decompress(packed), width * 3, height)
+
+
+def unfilter(data, size, height):
+    rows, above = [], bytes(size)
+    for y in range(height):
+        kind, line = data[y * (size + 1)], bytearray(data[y * (size + 1) + 1:(y + 1) * (size + 1)])
+        for i in range(size):
+            left = line[i - 3] if i >= 3 else 0
+            corner = above[i - 3] if i >= 3 else 0
+            line[i] = (line[i] + [0, left, above[i], (left + above[i]) // 2, paeth(left, above[i], corner)][kind]) & 255
+        rows.append(bytes(line))
+        above = line
+    return rows
+
+
+def paeth(left, up, corner):
+    distances = [abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)]
+    return (left, up, corner)[distances.index(min(distances))]
+
+
+class Png(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = os.path.join(folder.name, "screen.png")
+        self.pixels = [list(NTSC)[(x // 10 + y) % 4] for y in range(HEIGHT) for x in range(WIDTH)]
+
+    def picture(self, line, *words):
+        status, printed, errors = run("png", self.path, *words, data=line.encode())
+        self.assertEqual((status, printed, errors), (0, b"", []))
+        with open(self.path, "rb") as file:
+            return read_png(file.read())
+
+    def check(self, picture, palette):
+        width, height, rows = picture
+        self.assertEqual((width, height), (2 * WIDTH, HEIGHT))
+        expected = [b"".join(bytes(palette[pixel] * 2) for pixel in self.pixels[y * WIDTH:(y + 1) * WIDTH])
+                    for y in range(HEIGHT)]
+        self.assertEqual(rows, expected)
+
+    def test_every_pixel_has_its_colour_twice(self):
+        self.check(self.picture(run_lengths(self.pixels) + ":0,0:\n"), NTSC)
+
+    def test_a_full_screen_gives_the_same(self):
+        self.check(self.picture(bytes(self.pixels).hex().upper() + ":0,0:\n", "--full"), NTSC)
+
+    def test_the_screen_is_found_in_every_kind_of_line(self):
+        screen = run_lengths(self.pixels)
+        for line in (screen, screen + ":", "00" * 128 + ":" + screen + ":\r\n", "00" * 128 + ":" + screen + ":1,-20:\n"):
+            with self.subTest(line=line[-20:]):
+                self.check(self.picture(line, "--rle"), NTSC)
+
+    def test_the_palette_is_the_one_asked_for(self):
+        self.pixels = [0x44] * (WIDTH * HEIGHT)
+        for name, color in (("ntsc", NTSC[0x44]), ("pal", PAL_44), ("secam", SECAM_44)):
+            self.check(self.picture(run_lengths(self.pixels), "--palette", name), {0x44: color})
+
+    def test_a_screen_of_the_server_is_one(self):
+        status, lines, _ = run("serve", "--classic", "--stdio", "--rom", GAME, data=b"1,1,0,1\n1,18\n")
+        self.assertEqual(status, 0)
+        width, height, rows = self.picture(lines.decode().splitlines()[2])
+        self.assertEqual((width, height), (2 * WIDTH, HEIGHT))
+        self.assertGreater(len(set(rows)), 5)
+
+    def refused(self, status, complaint, line, *words):
+        ended, printed, errors = run("png", self.path, *words, data=line.encode())
+        self.assertEqual((ended, printed, len(errors)), (status, b"", 1), errors)
+        self.assertIn(complaint, errors[0])
+        self.assertFalse(os.path.exists(self.path))
+
+    def test_lines_without_a_screen_are_refused(self):
+        for line in ("", "\n", "DIE\n", "0,0:\n", "00" * 128 + ":0,0:\n"):
+            with self.subTest(line=line):
+                self.refused(1, "cut?" if line == "DIE\n" else "no screen", line)
+
+    def test_screens_that_make_no_sense_are_refused(self):
+        screen = run_lengths(self.pixels)
+        self.refused(1, "odd number of digits", screen[:-1])
+        self.refused(1, "has no length", screen[:-2])
+        self.refused(1, "no number of rows", screen[:-4])
+        self.refused(1, "'XY' in the screen", "XY" + screen[2:])
+        self.refused(1, "without --full", bytes(self.pixels).hex()[:-2], "--full")
+        self.refused(1, "no number of rows", "00FF" * 100000)
+
+    def test_words_that_make_no_sense_are_refused(self):
+        screen = run_lengths(self.pixels)
+        self.refused(2, "blue", screen, "--palette", "blue")
+        self.refused(2, "--rle", screen, "--full", "--rle")
+
+    def test_a_file_that_cannot_be_written_is_named(self):
+        path = os.path.join(os.path.dirname(self.path), "missing", "x.png")
+        status, _, errors = run("png", path, data=run_lengths(self.pixels).encode())
+        self.assertEqual((status, len(errors)), (1, 1), errors)
+        self.assertIn(path, errors[0])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,136 @@
+"""racebeam trace on our own game: the format of its lines, where actions come from, and actions that can't be played."""
+
+import gzip
+import os
+import re
+import tempfile
+import unittest
+import zlib
+
+from harness import GAME, main, run
+
+PLAY = b"1 1 0 3 3 3 11 11 4 4 12 12 2 10 5 13\n" * 20
+
+
+def trace(*words, data=PLAY):
+    status, printed, errors = run("trace", "--rom", GAME, "--actions", "-", *words, data=data)
+    return status, printed.decode().splitlines(), errors
+
+
+def played(*words, data=PLAY):
+    status, lines, errors = trace(*words, data=data)
+    assert (status, errors) == (0, []), errors
+    return lines
+
+
+class Lines(unittest.TestCase):
+    def test_the_first_line_is_the_reset_and_every_action_has_one(self):
+        lines = played()
+        self.assertRegex(lines[0], r"^R \d+ [0-9a-f]{8} [0-9a-f]{8}$")
+        acts = [line for line in lines if line.startswith("A")]
+        self.assertEqual([line.split()[1] for line in acts], PLAY.decode().split())
+        for line in acts:
+            self.assertRegex(line, r"^A \d+ -?\d+ [01] \d+ [0-9a-f]{8} [0-9a-f]{8}$")
+
+    def test_ram_in_full_agrees_with_its_checksum(self):
+        for line in played("--ram", "--audio"):
+            words = line.split()
+            checksum, hexadecimal = words[-4 if len(words) else 0], words[-1]
+            self.assertRegex(hexadecimal, "^[0-9a-f]{256}$")
+            self.assertEqual(f"{zlib.crc32(bytes.fromhex(hexadecimal)):08x}", checksum)
+
+    def test_audio_adds_one_checksum_and_changes_nothing_else(self):
+        silent, audible = played(), played("--audio")
+        self.assertEqual(silent, [line.rsplit(" ", 1)[0] for line in audible])
+        self.assertGreater(len({line.split()[-1] for line in audible}), 10)
+
+    def test_an_episode_that_is_over_is_followed_by_a_reset(self):
+        lines = played("--max-frames", "10", data=b"0 " * 25)
+        self.assertEqual("".join(line[0] for line in lines), "R" + "A" * 10 + "R" + "A" * 10 + "R" + "A" * 5)
+        self.assertEqual([line.split()[3] for line in lines if line[0] == "A"], (["0"] * 9 + ["1"]) * 2 + ["0"] * 5)
+
+    def test_the_same_seed_gives_the_same_run_and_another_one_does_not(self):
+        once, again, other = (played("--sticky", "0.5", "--seed", seed) for seed in ("7", "7", "8"))
+        self.assertEqual(once, again)
+        self.assertNotEqual(once, other)
+
+    def test_the_defaults_are_those_of_the_recordings(self):
+        self.assertEqual(played(), played("--seed", "123", "--sticky", "0", "--frame-skip", "1", "--max-frames", "0"))
+
+    def test_a_frame_skip_of_two_is_every_second_frame(self):
+        every = [line.split()[-2:] for line in played(data=b"3 3 4 4 1 1 10 10 " * 10) if line[0] == "A"]
+        skipped = [line.split()[-2:] for line in played("--frame-skip", "2", data=b"3 4 1 10 " * 10) if line[0] == "A"]
+        self.assertEqual(skipped, every[1::2])
+
+    def test_a_difficulty_costs_one_more_reset_and_changes_the_game(self):
+        self.assertNotEqual(played(), played("--difficulty", "1"))
+
+    def test_color_averaging_changes_screens_and_nothing_else(self):
+        plain, blended = played(), played("--color-averaging")
+        self.assertEqual([line.split()[:-1] for line in plain], [line.split()[:-1] for line in blended])
+        self.assertNotEqual(plain, blended)
+
+
+class Sources(unittest.TestCase):
+    def from_file(self, name, data):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, name)
+            with open(path, "wb") as file:
+                file.write(data)
+            status, printed, errors = run("trace", "--rom", GAME, "--actions", path)
+        self.assertEqual((status, errors), (0, []))
+        return printed.decode().splitlines()
+
+    def test_a_trace_gives_its_own_actions_back(self):
+        lines = played()
+        recorded = "\n".join(["# trace 1 rom=x frames=320", *lines, "S 0 00ff00ff"]).encode()
+        self.assertEqual(self.from_file("x.trace", recorded), lines)
+        self.assertEqual(self.from_file("x.trace.gz", gzip.compress(recorded)), lines)
+        self.assertEqual(played(data=gzip.compress(recorded)), lines)
+
+    def test_numbers_may_stand_on_lines_in_any_way(self):
+        self.assertEqual(played(data=b"1 2\n\n 3\t4 \r\n5"), played(data=b"1\n2\n3\n4\n5\n"))
+
+    def test_no_action_is_a_reset_alone(self):
+        self.assertEqual([line[0] for line in played(data=b"")], ["R"])
+
+
+class Refusals(unittest.TestCase):
+    def refused(self, complaint, lines, data):
+        status, printed, errors = trace(data=data)
+        self.assertEqual((status, len(printed), len(errors)), (1, lines, 1), errors)
+        self.assertRegex(errors[0], "^racebeam: .*" + complaint)
+
+    def test_a_word_that_is_no_number(self):
+        self.refused("line 2: 'up' is not a number", 0, b"1 2\n3 up\n")
+        self.refused("line 1: '3.5' is not a number", 0, b"3.5\n")
+        self.refused("line 1: '99999999999' is not a number", 0, b"99999999999\n")
+        self.refused("line 2: the action is missing", 0, b"A 1 0 0\nA\n")
+
+    def test_bytes_that_are_no_text(self):
+        self.refused("line 1: '.*' is not a number", 0, bytes(range(128, 160)))
+
+    def test_a_mebibyte_without_a_line_end(self):
+        self.refused("line 1: .* is not a number", 0, b"1" * (1 << 20))
+
+    def test_an_action_that_does_not_exist(self):
+        for action in (b"18", b"39", b"41", b"99", b"2147483647"):
+            with self.subTest(action=action):
+                self.refused(r"line 3 .*" + re.escape(action.decode()), 3, b"1\n0\n" + action + b"\n0\n")
+
+    def test_a_file_that_is_not_there(self):
+        status, printed, errors = run("trace", "--rom", GAME, "--actions", "no-such-file")
+        self.assertEqual((status, printed, len(errors)), (1, b"", 1), errors)
+        self.assertIn("no-such-file", errors[0])
+
+    def test_a_folder_for_a_file(self):
+        status, printed, errors = run("trace", "--rom", GAME, "--actions", ".")
+        self.assertEqual((status, printed, len(errors)), (1, b"", 1), errors)
+        self.assertIn("directory", errors[0])
+
+    def test_a_gzip_file_that_is_cut(self):
+        self.refused("unexpected end of file", 0, gzip.compress(os.urandom(200).hex().encode())[:-30])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,80 @@
+"""Runs the examples of the documents and compares what they print.
+
+An example is a block fenced as ```console. Its lines that begin with "$ " are commands, run by bash with racebeam in the
+PATH, in a new folder that all examples of a document share; a line that ends in a backslash goes on in the next. The
+other lines are what the command before them prints, standard error included; "..." stands for any text within a
+line, and on a line of its own for any lines. Blocks fenced otherwise (```sh) are not run.
+"""
+
+import glob
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+BINARY = os.environ.get("RACEBEAM_BINARY", os.path.join(SOURCE, "build", "release", "racebeam"))
+
+
+def documents():
+    names = ["README.md", "HACKING.md", *glob.glob("*/*.md", root_dir=SOURCE)]
+    return sorted({name for name in names if not name.startswith(("build/", "shared/"))})
+
+
+def examples(text):
+    """(line number, command, expected lines) of every command in the console blocks."""
+    found, inside = [], False
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.startswith("```"):
+            inside = line.strip() == "```console"
+        elif inside and line.startswith("$ "):
+            found.append((number, line[2:], []))
+        elif inside and found and found[-1][1].endswith("\\") and not found[-1][2]:
+            found[-1] = (found[-1][0], found[-1][1] + "\n" + line, [])
+        elif inside and found:
+            found[-1][2].append(line)
+    return found
+
+
+def pattern(lines):
+    """A regular expression for the expected output."""
+    parts = []
+    for line in lines:
+        if line == "...":
+            parts.append(r"(?:.*\n)*?")
+        else:
+            parts.append(".*?".join(re.escape(piece) for piece in line.split("...")) + r"\n")
+    return re.compile("".join(parts))
+
+
+def run(command, folder):
+    environment = dict(os.environ, PATH=os.path.dirname(BINARY) + os.pathsep + os.environ["PATH"])
+    done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
+    return done.stdout
+
+
+def check(name):
+    """The number of examples of a document, and of those that print something else than it says."""
+    with open(os.path.join(SOURCE, name)) as file:
+        found = examples(file.read())
+    wrong = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for number, command, expected in found:
+            printed = run(command, folder)
+            if not pattern(expected).fullmatch(printed):
+                wrong += 1
+                print(f"{name}:{number}: $ {command}\nexpected:\n" + "\n".join(expected) + f"\nprinted:\n{printed}")
+    return len(found), wrong
+
+
+def main():
+    counts = [check(name) for name in documents()]
+    ran, wrong = (sum(column) for column in zip(*counts))
+    print(f"{ran} examples in {len(counts)} documents, {wrong} wrong")
+    return 1 if wrong or not ran else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
