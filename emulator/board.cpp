@@ -83,6 +83,7 @@ const std::uint8_t* Board::fetch_slowly(std::uint16_t pc, std::uint8_t latch, st
   latch = opcode;
   for (unsigned i = 1; i < kOpcodes[opcode].length; ++i)
     fetched_[i] = latch = read(static_cast<std::uint16_t>(pc + i), latch, cycle + kOpcodes[opcode].cycles);
+  code.span = 0;
   return fetched_.data();
 }
 
@@ -93,7 +94,7 @@ std::uint8_t Board::read(std::uint16_t address, std::uint8_t latch, std::int32_t
 
 std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
   if (address & 0x1000) {
-    code = {};  // the bank may change
+    code.span = 0;  // the bank may change
     return slot.scheme.read(slot, address);
   }
   return address & 0x0080 ? read_riot(address, cycle) : read_tia(address, latch, cycle);
@@ -102,7 +103,7 @@ std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::
 std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
   const bool cartridge = (address & 0x1000) != 0;
   if (cartridge || (slot.scheme.owns_low_page && (address & 0x1FFF) < 0x40)) {
-    code = {};
+    code.span = 0;
     slot.scheme.write(slot, address, value);
   }
   if (cartridge && !slot.scheme.owns_low_page) return cycle;
@@ -154,7 +155,7 @@ std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int
 
 // The only reads that need the picture: the log is played up to now.
 std::uint8_t Board::collision_bits(unsigned reg, std::int32_t cycle) {
-  last_access_ = cycle;
+  touch_tia(cycle);
   tia.catch_up(cycle);
   return static_cast<std::uint8_t>((state.tia.collisions >> (2 * reg) & 3) << 6);
 }
@@ -167,14 +168,13 @@ std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::in
     stop = true;
   }
   switch (reg) {
-    case WSYNC: return after_read ? next_line(cycle) : cycle;
     case VSYNC: write_vsync(value, cycle); break;
     case VBLANK: write_dump((value & 0x80) != 0, cycle); break;
     case AUDC0: case AUDC1: case AUDF0: case AUDF1: case AUDV0: case AUDV1: sound.write(reg, value); break;
     default: break;
   }
   tia.log.append(cycle, reg, value);
-  return cycle;
+  return reg == WSYNC && after_read ? next_line(cycle) : cycle;
 }
 
 std::int32_t Board::next_line(std::int32_t cycle) const {

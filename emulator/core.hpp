@@ -21,7 +21,7 @@ struct Core {
   Board& board;
   std::int32_t cycle;      // T: at the end of the instruction from its second bus access on (cpu.md, section 3)
   std::int32_t budget;     // instructions still to run
-  std::uint16_t PC;
+  std::uint32_t at;        // PC, counted from the start of the code window
   std::uint8_t A, X, Y, SP;
   std::uint8_t n, z;       // N is bit 7 of n; Z is set when z is 0
   std::uint8_t C, V, D, I; // 0 or 1
@@ -29,15 +29,18 @@ struct Core {
   const std::uint8_t* code = nullptr;  // the bytes of the instruction that runs
 
   explicit Core(Board& on, std::int32_t instructions)
-      : board(on), cycle(on.state.cycle), budget(instructions), PC(on.state.cpu.PC), A(on.state.cpu.A),
-        X(on.state.cpu.X), Y(on.state.cpu.Y), SP(on.state.cpu.SP), latch(on.state.cpu.latch) {
+      : board(on), cycle(on.state.cycle), budget(instructions), A(on.state.cpu.A), X(on.state.cpu.X), Y(on.state.cpu.Y), SP(on.state.cpu.SP), latch(on.state.cpu.latch) {
+    jump(on.state.cpu.PC);
     set_status(on.state.cpu.P);
   }
+
+  RACEBEAM_INLINE std::uint16_t PC() const { return static_cast<std::uint16_t>(board.code.first + at); }
+  RACEBEAM_INLINE void jump(std::uint16_t target) { at = static_cast<std::uint16_t>(target - board.code.first); }
 
   RACEBEAM_INLINE void store_state() const {
     board.state.cycle = cycle;
     CpuState& cpu = board.state.cpu;
-    cpu.PC = PC;
+    cpu.PC = PC();
     cpu.A = A;
     cpu.X = X;
     cpu.Y = Y;
@@ -73,38 +76,50 @@ struct Core {
     return latch = board.state.riot.ram[address.at - 0x80U];
   }
 
-  // The instruction at PC: its bytes, wherever they are, and the cycles up to its end but penalties.
-  RACEBEAM_INLINE std::uint8_t fetch_opcode() {
-    const auto offset = static_cast<std::uint16_t>(PC - board.code.first);
-    code = offset < board.code.span ? board.code.memory + offset : board.locate_code(PC, latch, cycle);
-    latch = code[0];
-    return latch;
+  // The instruction at PC: its bytes, wherever they are.
+  RACEBEAM_INLINE unsigned fetch_opcode() {
+    if (at < board.code.span) [[likely]] code = board.code.memory + at;
+    else locate_code();
+    const unsigned opcode = code[0];
+    latch = static_cast<std::uint8_t>(opcode);
+    return opcode;
   }
 
+  RACEBEAM_INLINE void locate_code() {
+    const std::uint16_t pc = PC();
+    code = board.locate_code(pc, latch, cycle);
+    jump(pc);
+  }
+
+  // Its cycles up to the end but penalties.
   RACEBEAM_INLINE void begin(std::int32_t base_cycles) {
-    ++PC;
+    ++at;
     cycle += base_cycles;
-  }
-
-  // At the end of a taken branch that may close a timer loop: goes on before the last turn.
-  RACEBEAM_INLINE void skip_timer_loop(std::int32_t period) {
-    if (code < board.code.memory + 3 || code >= board.code.memory + board.code.span) return;
-    std::int32_t turns = sure_timer_turns(code, board.state.riot, cycle + 4, period);
-    turns = turns < budget / 2 ? turns : budget / 2;
-    cycle += turns * period;
-    budget -= 2 * turns;
   }
 
   // Its operand.
   RACEBEAM_INLINE std::uint8_t fetch() {
-    ++PC;
+    ++at;
     return latch = code[1];
   }
 
   RACEBEAM_INLINE std::uint16_t fetch_word() {
-    PC += 2;
+    at += 2;
     latch = code[2];
     return static_cast<std::uint16_t>(code[1] | latch << 8);
+  }
+
+  // A byte that is read when its turn comes, like any other.
+  RACEBEAM_INLINE std::uint8_t read_at_PC() { return read(PC()); }
+
+  // At the end of a taken branch that may close a timer loop: goes on before the last turn. One turn is left to be run
+  // in any case, for what it leaves in the registers.
+  RACEBEAM_INLINE void skip_timer_loop(std::int32_t period) {
+    if (at >= board.code.span || budget < 4) return;
+    const std::int32_t sure = sure_timer_turns(code, board.state.riot, cycle + 4, period), most = budget / 2 - 1;
+    const std::int32_t turns = sure < most ? sure : most;
+    cycle += turns * period;
+    budget -= 2 * turns;
   }
 
   RACEBEAM_INLINE void write(ZeroPage address, std::uint8_t value) {

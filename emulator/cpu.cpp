@@ -55,10 +55,10 @@ template <auto, bool (*kTaken)(Core&)>
 RACEBEAM_INLINE void Branch(Core& cpu) {
   const auto offset = static_cast<std::int8_t>(cpu.fetch());
   if (!kTaken(cpu)) return;
-  const auto target = static_cast<std::uint16_t>(cpu.PC + offset);
-  const int penalty = (target ^ cpu.PC) > 0xFF ? 2 : 1;
+  const std::uint16_t next = cpu.PC();
+  const int penalty = ((next + offset) ^ next) & 0xFF00 ? 2 : 1;
   cpu.cycle += penalty;
-  cpu.PC = target;
+  cpu.at += static_cast<std::uint32_t>(std::int32_t{offset});
   if (offset == kTimerLoopOffset) cpu.skip_timer_loop(kLoadCycles + kBranchCycles + penalty);
 }
 
@@ -70,7 +70,7 @@ void reset_cpu(Board& board) {
   board.state.cpu = CpuState{};
   Core cpu(board, 0);
   const std::uint8_t low = cpu.read(0xFFFC);
-  cpu.PC = static_cast<std::uint16_t>(low | cpu.read(0xFFFD) << 8);
+  cpu.jump(static_cast<std::uint16_t>(low | cpu.read(0xFFFD) << 8));
   cpu.store_state();
 }
 
@@ -88,7 +88,7 @@ void run(Board& board, std::int32_t instructions) {
 
 #define NEXT()                         \
   do {                                 \
-    if (cpu.budget-- <= 0) goto done;  \
+    if (--cpu.budget < 0) goto done;   \
     goto* kHandlers[cpu.fetch_opcode()];\
   } while (false)
 

@@ -69,7 +69,7 @@ std::uint64_t painted(std::uint64_t pixels, std::uint8_t covered, std::uint8_t c
   return pixels ^ ((pixels ^ ink) & kSpread[covered]);
 }
 
-// A whole row: most masks cover few of its groups of eight pixels.
+// Most masks cover few groups of eight pixels.
 void paint(std::uint8_t* row, const PixelMask& mask, std::uint8_t color) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::uint64_t rest = mask.word[i]; rest != 0;) {
@@ -84,14 +84,18 @@ void paint(std::uint8_t* row, const PixelMask& mask, std::uint8_t color) {
   }
 }
 
-void draw_row(const Line& line, const TiaState& tia, std::uint8_t* row) {
-  std::memset(row, tia.color[kColubk], kLinePixels);
+constexpr int kNarrow = 32;
+
+// Background first, then the groups of eight that a layer covers.
+void draw_wide(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
+  std::memset(row + first, tia.color[kColubk], static_cast<std::size_t>(last - first));
   if (line.covered == 0) return;
-  for (const Layer& layer : line.layer) paint(row, layer.mask, tia.color[layer.color]);
+  const PixelMask inside = PixelMask::range(first, last);
+  for (const Layer& layer : line.layer) paint(row, layer.mask & inside, tia.color[layer.color]);
 }
 
-// A part of a row, group by group.
-void draw_part(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
+// Group by group, all layers at once.
+void draw_narrow(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
   const PixelMask inside = PixelMask::range(first, last);
   for (auto group = static_cast<std::size_t>(first / 8); 8 * static_cast<int>(group) < last; ++group) {
     std::uint64_t pixels = tia.color[kColubk] * kOnes, old;
@@ -140,8 +144,8 @@ void Line::refresh(const TiaState& tia, std::uint8_t objects) {
 }
 
 void draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
-  if (first == 0 && last == kLinePixels) draw_row(line, tia, row);
-  else draw_part(line, tia, row, first, last);
+  if (last - first > kNarrow) draw_wide(line, tia, row, first, last);
+  else draw_narrow(line, tia, row, first, last);
 }
 
 Collisions meetings(const Line& line, int first, int last, Collisions known) {

@@ -25,8 +25,9 @@ constexpr std::uint8_t involved_by(unsigned reg) {
   switch (reg) {
     case GRP0: return bit(kP0) | bit(kP1);
     case GRP1: return bit(kP0) | bit(kP1) | bit(kBall);  // both move something to where VDELxx shows it
-    case VDELP0: return bit(kP0);
-    case VDELP1: return bit(kP1);
+    case VDELP0: case RESP0: return bit(kP0);  // RESPx: the old place decides how far the beam draws ahead
+    case VDELP1: case RESP1: return bit(kP1);
+    case CTRLPF: return bit(kP0) | bit(kP1);   // score mode shows the players' colours
     case ENAM0: return bit(kM0);
     case ENAM1: return bit(kM1);
     case RESMP0: return bit(kM0) | bit(kP0);

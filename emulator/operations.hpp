@@ -210,34 +210,36 @@ RACEBEAM_INLINE void plp(Core& cpu) {
   cpu.read_stack_dummy();
   cpu.set_status(cpu.pull());
 }
-RACEBEAM_INLINE void jmp(Core& cpu, Address target) { cpu.PC = target; }
+RACEBEAM_INLINE void jmp(Core& cpu, Address target) { cpu.jump(target); }
 RACEBEAM_INLINE void jsr(Core& cpu, Address) {
   const Byte low = cpu.fetch();
   cpu.read_stack_dummy();
-  cpu.push(byte(cpu.PC >> 8));
-  cpu.push(byte(cpu.PC & 0xFF), false);
-  cpu.PC = static_cast<Address>(low | cpu.read(cpu.PC) << 8);
+  cpu.push(byte(cpu.PC() >> 8));
+  cpu.push(byte(cpu.PC() & 0xFF), false);
+  cpu.jump(static_cast<Address>(low | cpu.read_at_PC() << 8));
 }
 RACEBEAM_INLINE void rts(Core& cpu, Address) {
   cpu.read_stack_dummy();
   const Byte low = cpu.pull();
-  cpu.PC = static_cast<Address>(low | cpu.pull() << 8);
-  cpu.read(cpu.PC++);
+  cpu.jump(static_cast<Address>(low | cpu.pull() << 8));
+  cpu.read_at_PC();
+  ++cpu.at;
 }
 RACEBEAM_INLINE void rti(Core& cpu, Address) {
   cpu.read_stack_dummy();
   cpu.set_status(cpu.pull());
   const Byte low = cpu.pull();
-  cpu.PC = static_cast<Address>(low | cpu.pull() << 8);
+  cpu.jump(static_cast<Address>(low | cpu.pull() << 8));
 }
 RACEBEAM_INLINE void brk(Core& cpu, Address) {
-  cpu.read(cpu.PC++);
-  cpu.push(byte(cpu.PC >> 8));
-  cpu.push(byte(cpu.PC & 0xFF), false);
+  cpu.read_at_PC();
+  ++cpu.at;
+  cpu.push(byte(cpu.PC() >> 8));
+  cpu.push(byte(cpu.PC() & 0xFF), false);
   cpu.push(cpu.status(), false);
   cpu.I = 1;
   const Byte low = cpu.read(0xFFFE);
-  cpu.PC = static_cast<Address>(low | cpu.read(0xFFFF) << 8);
+  cpu.jump(static_cast<Address>(low | cpu.read(0xFFFF) << 8));
 }
 
 // The twelve opcodes that stop the chip until a reset.

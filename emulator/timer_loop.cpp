@@ -14,31 +14,35 @@ TimerRegister register_at(unsigned address) {
   return address & 1 ? TimerRegister::kInstat : TimerRegister::kIntim;
 }
 
-// The loop goes on while more than this many intervals are left, as INTIM counts them; -1: until the timer has run
-// out; -2: no such loop.
-int last_count(const std::uint8_t* branch) {
+// The loop goes on while the intervals left, as INTIM counts them, are in [least, most].
+struct Range {
+  int least, most;
+};
+constexpr Range kNoLoop = {1, 0};
+
+Range looping_counts(const std::uint8_t* branch) {
   const std::uint8_t reads = branch[-3];
   const TimerRegister reg = register_at(static_cast<unsigned>(branch[-2] | branch[-1] << 8));
   const bool loads = reads == kLdaAbsolute || reads == kLdxAbsolute || reads == kLdyAbsolute;
   if (reg == TimerRegister::kIntim && loads) {
-    if (*branch == kBne) return 0;
-    if (*branch == kBpl) return -1;
-    if (*branch == kBmi) return 127;
+    if (*branch == kBne) return {1, 255};
+    if (*branch == kBpl) return {0, 127};
+    if (*branch == kBmi) return {128, 255};
   }
-  if (reg == TimerRegister::kInstat && (loads || reads == kBitAbsolute) && *branch == kBpl) return -1;
-  return -2;
+  if (reg == TimerRegister::kInstat && (loads || reads == kBitAbsolute) && *branch == kBpl) return {0, 255};
+  return kNoLoop;
 }
 
 }  // namespace
 
 std::int32_t sure_timer_turns(const std::uint8_t* branch, const RiotState& riot, std::int32_t next_read,
                               std::int32_t period) {
-  const int last = last_count(branch);
-  if (last < -1) return 0;
-  // INTIM is timer - 1 - (elapsed >> shift), see riot.hpp: it exceeds `last` for so many cycles.
+  const Range range = looping_counts(branch);
   const std::int64_t elapsed = static_cast<std::uint32_t>(next_read - 1 - static_cast<std::int32_t>(riot.timer_set));
-  const std::int64_t lasts = static_cast<std::int64_t>(riot.timer - 1 - last) * (std::int64_t{1} << riot.shift);
-  return elapsed >= lasts ? 0 : static_cast<std::int32_t>((lasts - elapsed + period - 1) / period);
+  const std::int64_t count = riot.timer - 1 - (elapsed >> riot.shift);  // as riot.hpp has it
+  if (count < range.least || count > range.most) return 0;
+  const std::int64_t ends = std::int64_t{riot.timer - range.least} << riot.shift;
+  return static_cast<std::int32_t>((ends - elapsed + period - 1) / period);
 }
 
 }  // namespace racebeam
