@@ -47,37 +47,44 @@ constexpr auto kSpread = make_spread();
 constexpr std::uint64_t kOnes = 0x0101010101010101;
 
 // Three layers make every priority mode.
-std::array<Layer, 3> layers(const Line& line, std::uint8_t ctrlpf) {
+void set_layers(Line& line, std::uint8_t ctrlpf) {
   const auto& m = line.mask;
-  const PixelMask first = m[kP0] | m[kM0], second = m[kP1] | m[kM1], playfield = m[kPlayfield] | m[kBall];
+  const auto set = [&line](unsigned place, const PixelMask& mask, Color color) {
+    line.layer[place].mask = mask;
+    line.layer[place].color = color;
+  };
+  const PixelMask &playfield = m[kPlayfield], &ball = m[kBall];
   const bool score = (ctrlpf & kScoreMode) != 0;
-  if (ctrlpf & kPriorityMode) {
-    if (score && line.enabled == bit(kPlayfield))
-      return {{{m[kPlayfield] & kRightHalf, kColup1}, {m[kPlayfield] & kLeftHalf, kColup0}, {}}};
-    return {{{second, kColup1}, {first, kColup0}, {playfield, kColupf}}};
+  if (score && !(ctrlpf & kPriorityMode)) {
+    set(0, ball, kColupf);
+    set(1, m[kP1] | m[kM1] | (playfield & kRightHalf), kColup1);
+    set(2, m[kP0] | m[kM0] | (playfield & kLeftHalf), kColup0);
+  } else if (score && line.enabled == bit(kPlayfield)) {
+    set(0, {}, kColupf);
+    set(1, playfield & kRightHalf, kColup1);
+    set(2, playfield & kLeftHalf, kColup0);
+  } else {
+    const unsigned front = ctrlpf & kPriorityMode ? 2 : 0;
+    set(front, playfield | ball, kColupf);
+    set(front == 0 ? 1 : 0, m[kP1] | m[kM1], kColup1);
+    set(front == 0 ? 2 : 1, m[kP0] | m[kM0], kColup0);
   }
-  if (score)
-    return {{{m[kBall], kColupf},
-             {second | (m[kPlayfield] & kRightHalf), kColup1},
-             {first | (m[kPlayfield] & kLeftHalf), kColup0}}};
-  return {{{playfield, kColupf}, {second, kColup1}, {first, kColup0}}};
 }
 
-// Where eight pixels are covered, the colour replaces what is there.
-std::uint64_t painted(std::uint64_t pixels, std::uint8_t covered, std::uint8_t color) {
-  const std::uint64_t ink = color * kOnes;
+// Where eight pixels are covered, the ink replaces what is there.
+std::uint64_t painted(std::uint64_t pixels, std::uint8_t covered, std::uint64_t ink) {
   return pixels ^ ((pixels ^ ink) & kSpread[covered]);
 }
 
 // Most masks cover few groups of eight pixels.
-void paint(std::uint8_t* row, const PixelMask& mask, std::uint8_t color) {
+void paint(std::uint8_t* row, const PixelMask& mask, std::uint64_t ink) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::uint64_t rest = mask.word[i]; rest != 0;) {
       const int group = std::countr_zero(rest) / 8;
       std::uint8_t* at = row + 64 * i + 8 * group;
       std::uint64_t pixels;
       std::memcpy(&pixels, at, sizeof pixels);
-      pixels = painted(pixels, static_cast<std::uint8_t>(rest >> (8 * group)), color);
+      pixels = painted(pixels, static_cast<std::uint8_t>(rest >> (8 * group)), ink);
       std::memcpy(at, &pixels, sizeof pixels);
       rest &= ~(std::uint64_t{0xFF} << (8 * group));
     }
@@ -91,17 +98,21 @@ void draw_wide(const Line& line, const TiaState& tia, std::uint8_t* row, int fir
   std::memset(row + first, tia.color[kColubk], static_cast<std::size_t>(last - first));
   if (line.covered == 0) return;
   const PixelMask inside = PixelMask::range(first, last);
-  for (const Layer& layer : line.layer) paint(row, layer.mask & inside, tia.color[layer.color]);
+  for (const Layer& layer : line.layer) paint(row, layer.mask & inside, tia.color[layer.color] * kOnes);
 }
 
 // Group by group, all layers at once.
 void draw_narrow(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
   const PixelMask inside = PixelMask::range(first, last);
-  for (auto group = static_cast<std::size_t>(first / 8); 8 * static_cast<int>(group) < last; ++group) {
-    std::uint64_t pixels = tia.color[kColubk] * kOnes, old;
-    for (const Layer& layer : line.layer) pixels = painted(pixels, layer.mask.byte(group), tia.color[layer.color]);
+  const std::array<Layer, 3> layers = line.layer;  // copies, which the stores below can't change
+  const std::uint64_t background = tia.color[kColubk] * kOnes;
+  const std::array<std::uint64_t, 3> ink = {tia.color[layers[0].color] * kOnes, tia.color[layers[1].color] * kOnes,
+                                            tia.color[layers[2].color] * kOnes};
+  for (auto group = static_cast<std::size_t>(first) / 8; group <= static_cast<std::size_t>(last - 1) / 8; ++group) {
+    std::uint64_t pixels = background, old;
+    for (std::size_t i = 0; i < layers.size(); ++i) pixels = painted(pixels, layers[i].mask.byte(group), ink[i]);
     std::memcpy(&old, row + 8 * group, sizeof old);
-    pixels = old ^ ((old ^ pixels) & kSpread[inside.byte(group)]);
+    pixels = painted(old, inside.byte(group), pixels);
     std::memcpy(row + 8 * group, &pixels, sizeof pixels);
   }
 }
@@ -140,7 +151,7 @@ void Line::refresh(const TiaState& tia, std::uint8_t objects) {
   }
   if (objects & bit(kBall)) set(kBall, ball_enabled(tia.ball), ball_mask(tia));
   if (objects & bit(kPlayfield)) set(kPlayfield, playfield_bits(tia) != 0, playfield_mask(tia));
-  layer = layers(*this, tia.ctrlpf);
+  set_layers(*this, tia.ctrlpf);
 }
 
 void draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {

@@ -62,6 +62,10 @@ struct ByteTables {
 };
 constexpr ByteTables kTables;
 
+constexpr unsigned wrapped(int position) {
+  return static_cast<unsigned>(position >= kLinePixels ? position - kLinePixels : position);
+}
+
 // A player whose pixels, left one in bit 0, are `graphics`. Wide players start a pixel late.
 PixelMask place_player(const PlayerState& player, std::uint8_t graphics) {
   PixelMask mask;
@@ -72,7 +76,7 @@ PixelMask place_player(const PlayerState& player, std::uint8_t graphics) {
     return mask;
   }
   for (unsigned i = player.skip ? 1 : 0; i < copies.count; ++i)
-    mask.add(graphics, (player.position + copies.offset[i]) % kLinePixels);
+    mask.add(graphics, wrapped(player.position + copies.offset[i]));
   return mask;
 }
 
@@ -121,7 +125,7 @@ PixelMask missile_mask(const TiaState& tia, unsigned which) {
   if (cosmic && tia.cosmic_shape == CosmicShape::kStretched) size |= 1;
   const Copies& copies = kCopies[nusiz & 7];
   for (unsigned i = 0; i < copies.count; ++i)
-    mask.add((1U << (1U << size)) - 1, (missile.position + copies.offset[i]) % kLinePixels);
+    mask.add((1U << (1U << size)) - 1, wrapped(missile.position + copies.offset[i]));
   return mask;
 }
 
