@@ -53,7 +53,6 @@ class Beam {
   void set_exact_spans(bool on) { exact_spans_ = on; }
   bool exact_spans() const { return exact_spans_; }
 
-  bool inside_window() const { return tia_.cursor > start() && tia_.cursor < end(); }
   std::int32_t start() const { return start_; }  // the window, in colour clocks
   std::int32_t end() const { return end_; }
 

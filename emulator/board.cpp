@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "emulator/line_key.hpp"
 #include "emulator/motion.hpp"
 #include "emulator/opcodes.hpp"
 #include "emulator/registers.hpp"
@@ -12,9 +13,9 @@ namespace {
 
 constexpr std::uint64_t bit(unsigned reg) { return std::uint64_t{1} << reg; }
 
-// Registers with an effect on more than the picture.
+// Registers with an effect on more than the picture, or on other registers.
 constexpr std::uint64_t kSpecialRegisters = bit(VSYNC) | bit(VBLANK) | bit(WSYNC) | bit(AUDC0) | bit(AUDC1) |
-                                            bit(AUDF0) | bit(AUDF1) | bit(AUDV0) | bit(AUDV1);
+                                            bit(AUDF0) | bit(AUDF1) | bit(AUDV0) | bit(AUDV1) | bit(HMCLR);
 
 constexpr int kLineLimit = 290, kLineLimitPal = 342;
 
@@ -132,7 +133,7 @@ void Board::write_riot(std::uint16_t address, std::uint8_t value, std::int32_t c
 // An access that draws up to its clock and changes nothing.
 void Board::touch_tia(std::int32_t cycle) {
   last_access_ = cycle;
-  if (tia.log.has_room()) tia.log.append(cycle, kTouch, 0);
+  if (tia.log.has_room()) tia.log.touch(cycle);
 }
 
 std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
@@ -173,7 +174,8 @@ std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::in
     case AUDC0: case AUDC1: case AUDF0: case AUDF1: case AUDV0: case AUDV1: sound.write(reg, value); break;
     default: break;
   }
-  tia.log.append(cycle, reg, value);
+  if (kDrawingRegisters >> reg & 1) tia.log.append(cycle, reg, value);
+  else tia.log.touch(cycle, reg);
   return reg == WSYNC && after_read ? next_line(cycle) : cycle;
 }
 

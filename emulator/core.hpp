@@ -126,32 +126,40 @@ struct Core {
     if (address.at >= 0x80) {
       board.state.riot.ram[address.at - 0x80U] = value;
     } else {
-      write_device(address.at, value, true);
+      write_device(address.at, value);
     }
     latch = value;
   }
 
-  // after_read: the CPU access before this one was a read, which WSYNC asks for.
-  RACEBEAM_INLINE void write(std::uint16_t address, std::uint8_t value, bool after_read = true) {
+  RACEBEAM_INLINE void write(std::uint16_t address, std::uint8_t value) {
     if ((address & 0x1280) == 0x0080) {
       board.state.riot.ram[address & 0x7F] = value;
     } else {
-      write_device(address, value, after_read);
+      write_device(address, value);
     }
     latch = value;
   }
 
-  RACEBEAM_INLINE void write_device(std::uint16_t address, std::uint8_t value, bool after_read) {
+  RACEBEAM_INLINE void write_device(std::uint16_t address, std::uint8_t value) {
     if ((address & 0x1080) == 0 && board.is_plain_write(address, cycle)) {
-      board.tia.log.append(cycle, address & 0x3F, value);
+      board.tia.log.append_change(cycle, address & 0x3F, value);
     } else {
-      cycle = board.write_device(address, value, cycle, after_read);
+      cycle = board.write_device(address, value, cycle, true);
       if (board.stop) budget = 0;
     }
   }
 
+  // after_read: the CPU access before this one was a read, which WSYNC asks for.
+  // Two pushes can reach the TIA in one cycle, where the first one's delay holds up the second: both are kept.
   RACEBEAM_INLINE void push(std::uint8_t value, bool after_read = true) {
-    write(0x0100 | SP--, value, after_read);
+    const std::uint16_t address = 0x0100 | SP--;
+    latch = value;
+    if (address & 0x80) {
+      board.state.riot.ram[address & 0x7F] = value;
+      return;
+    }
+    cycle = board.write_device(address, value, cycle, after_read);
+    if (board.stop) budget = 0;
   }
 
   RACEBEAM_INLINE std::uint8_t pull() { return read(0x0100 | ++SP); }

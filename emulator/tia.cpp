@@ -38,6 +38,7 @@ bool is_repeatable(TiaAccess access) {
 }
 
 constexpr std::size_t kNowhere = ~std::size_t{0};
+constexpr std::int32_t kLongestDelay = 11;  // colour clocks that an access may draw ahead
 
 }  // namespace
 
@@ -49,32 +50,35 @@ void Tia::begin_frame() {
 }
 
 void Tia::begin_step(Picture& picture) {
-  log.size = 0;
+  log.clear();
   beam_.aim(picture);
   beam_.changed(0);
   at_begin_ = tia_;
-  rewind();
+  rewind(log.changes);
 }
 
-void Tia::rewind() {
+void Tia::rewind(const AccessList& accesses) {
+  accesses_ = &accesses;
   played_ = 0;
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
 
 void Tia::catch_up(std::int32_t cycle) {
-  play_until(log.size);
+  play_until(accesses_->size);
   Drawing{beam_, reached_}.draw_to(3 * cycle);
 }
 
 void Tia::end_step(std::int32_t last_access) {
   catch_up(last_access);
-  if (!beam_.inside_window()) return;
-  // The picture stops inside the window, where what the reference writes ahead of the beam can be seen: play the
-  // step again, access by access.
+  // A picture that stops inside the window shows what the reference has drawn ahead of the beam: the step is played
+  // again, access by access.
+  if (tia_.cursor >= beam_.end() || log.all.size == 0) return;
+  const std::int32_t last_clock = 3 * log.all.entry[log.all.size - 1].cycle();
+  if (last_clock + kLongestDelay <= beam_.start()) return;
   tia_ = at_begin_;
   beam_.forget();
   beam_.set_exact_spans(true);
-  rewind();
+  rewind(log.all);
   catch_up(last_access);
   beam_.set_exact_spans(false);
 }
@@ -87,7 +91,7 @@ void Tia::play_until(std::size_t end) {
 
 // Access by access, or up to `next`.
 void Tia::play(std::size_t next) {
-  RegisterEffects(tia_, frame_, video_, Drawing{beam_, reached_}).play(&log.entry[played_], &log.entry[next]);
+  RegisterEffects(tia_, frame_, video_, Drawing{beam_, reached_}).play(&accesses_->entry[played_], &accesses_->entry[next]);
   played_ = next;
   if (beam_.exact_spans()) beam_.draw_to(reached_);
 }
@@ -96,7 +100,7 @@ void Tia::play(std::size_t next) {
 // that starts with the same visible registers and meets the same writes as when this row of the buffer was drawn last
 // is there already.
 bool Tia::play_line(std::size_t end) {
-  const std::int32_t clock = 3 * log.entry[played_].cycle();
+  const std::int32_t clock = 3 * accesses_->entry[played_].cycle();
   if (clock <= beam_.start() || !beam_.line_can_end() || beam_.exact_spans()) return false;
   if (!beam_.at_line_start()) {
     if (clock <= beam_.line_end()) return false;
@@ -117,16 +121,15 @@ std::size_t Tia::end_of_known_line(const LineRecord& known, std::size_t end) con
   const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles;
   unsigned count = 0;
   for (std::size_t i = played_; i < end; ++i) {
-    const TiaAccess access = log.entry[i];
+    const TiaAccess access = accesses_->entry[i];
     if (access.cycle() > first_cycle + kLineCycles) return count == known.count ? i : kNowhere;
-    if (!(kDrawingRegisters >> access.reg() & 1)) continue;
     if (count == known.count || known.event[count++] != access.since(first_cycle)) break;
   }
   return kNowhere;
 }
 
 void Tia::recall_line(std::size_t next) {
-  RegisterEffects(tia_, frame_, video_, Recalling{beam_}).play(&log.entry[played_], &log.entry[next]);
+  RegisterEffects(tia_, frame_, video_, Recalling{beam_}).play(&accesses_->entry[played_], &accesses_->entry[next]);
   played_ = next;
   beam_.take_line(beam_.record());
 }
@@ -155,13 +158,12 @@ std::size_t Tia::gather_events(std::size_t end, LineRecord& line, unsigned& coun
   const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles;
   line.involved = 0;
   for (std::size_t i = played_; i < end; ++i) {
-    const TiaAccess access = log.entry[i];
+    const TiaAccess access = accesses_->entry[i];
     const std::int32_t cycle = access.cycle() - first_cycle;
     if (cycle > kLineCycles) {
       line.key = line_key(tia_, line.involved);
       return i;
     }
-    if (!(kDrawingRegisters >> access.reg() & 1)) continue;
     const LineEffect effect = kLineEffects[access.reg()];
     if (count == line.event.size() || cycle > effect.last_cycle || !is_repeatable(access)) break;
     line.involved |= effect.involved;

@@ -25,7 +25,7 @@ class Tia {
   void grey(Picture& picture, std::int32_t cycle) const;  // rows not drawn when a step ended open
 
  private:
-  void rewind();  // the log is played from its beginning
+  void rewind(const AccessList& accesses);  // plays these, from the beginning
   void play_until(std::size_t end);
   void play(std::size_t next);
   bool play_line(std::size_t end);
@@ -38,7 +38,8 @@ class Tia {
   const FrameState& frame_;
   const Video& video_;
   Beam beam_;
-  std::size_t played_ = 0;         // accesses of the log
+  const AccessList* accesses_ = nullptr;
+  std::size_t played_ = 0;         // of them
   std::int32_t reached_ = 0;       // the beam as the reference has it: ours may be behind, with the same registers
   TiaState at_begin_;              // of the step, for playing it again
 };

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "emulator/registers.hpp"
+
 namespace racebeam {
 
 // One word, so that it is written and compared as such.
@@ -28,18 +30,65 @@ class TiaAccess {
 
 constexpr std::uint8_t kTouch = 0x3F;
 
-// One step's accesses. A step without a TIA write past the line limit has at most 343 lines of 76 cycles, and no
-// instruction makes more than one access in two cycles, so that writes always fit; see has_room() for the reads.
-struct WriteLog {
+// Accesses in the order in which they were made.
+struct AccessList {
   static constexpr std::size_t kCapacity = 16384;
 
   std::size_t size = 0;
   std::array<TiaAccess, kCapacity> entry;
 
-  void append(std::int32_t cycle, unsigned reg, std::uint8_t value) {
-    entry[size++] = TiaAccess(cycle, reg, value);
+  void append(TiaAccess access) { entry[size++] = access; }
+};
+
+// One step's accesses, twice: those that may change the picture, and all. Most writes repeat what the register holds;
+// they matter only to how far the reference has drawn ahead when a picture stops in the middle, which is rare. A step
+// without a TIA write past the line limit has at most 343 lines of 76 cycles, and no instruction makes more than one
+// access in two cycles, so that writes always fit; has_room() is for the reads.
+class WriteLog {
+ public:
+  AccessList changes;
+  AccessList all;
+
+  void clear() {
+    changes.size = all.size = 0;
+    written_.fill(kUnknown);
   }
-  bool has_room() const { return size < kCapacity - 8; }
+
+  // A write that may change the picture, whatever was written before.
+  void append(std::int32_t cycle, unsigned reg, std::uint8_t value) {
+    const TiaAccess access(cycle, reg, value);
+    all.append(access);
+    changes.append(access);
+    written_[reg] = kUnknown;
+    if (reg == HMCLR) written_[HMP0] = written_[HMP1] = written_[HMM0] = written_[HMM1] = written_[HMBL] = kUnknown;
+  }
+
+  // The same, unless it repeats the last one and the register only holds what is written.
+  void append_change(std::int32_t cycle, unsigned reg, std::uint8_t value) {
+    const TiaAccess access(cycle, reg, value);
+    all.append(access);
+    if (written_[reg] == value) return;
+    written_[reg] = value | kNeverRepeats[reg];
+    changes.append(access);
+  }
+
+  // Draws up to its clock and changes nothing.
+  void touch(std::int32_t cycle, unsigned reg = kTouch) { all.append(TiaAccess(cycle, reg, 0)); }
+
+  bool has_room() const { return all.size < AccessList::kCapacity - 8; }
+
+ private:
+  static constexpr std::uint16_t kUnknown = 0x100;
+
+  // kUnknown for the registers whose writes do something each time.
+  static constexpr std::array<std::uint16_t, 64> kNeverRepeats = [] {
+    std::array<std::uint16_t, 64> table{};
+    for (const TiaRegister reg : {NUSIZ0, NUSIZ1, CTRLPF, RESP0, RESP1, RESM0, RESM1, RESBL, GRP0, GRP1, HMOVE, HMCLR, CXCLR})
+      table[reg] = kUnknown;
+    return table;
+  }();
+
+  std::array<std::uint16_t, 64> written_{};
 };
 
 }  // namespace racebeam
