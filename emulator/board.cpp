@@ -102,6 +102,7 @@ std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::
 }
 
 std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
+  if (address == WSYNC && cycle < overlong_cycle_ && !slot.scheme.owns_low_page) return write_wsync(cycle, after_read);
   const bool cartridge = (address & 0x1000) != 0;
   if (cartridge || (slot.scheme.owns_low_page && (address & 0x1FFF) < 0x40)) {
     code.span = 0;
@@ -174,12 +175,17 @@ std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::in
     case AUDC0: case AUDC1: case AUDF0: case AUDF1: case AUDV0: case AUDV1: sound.write(reg, value); break;
     default: break;
   }
+  if (reg == WSYNC) return write_wsync(cycle, after_read);
   if (kDrawingRegisters >> reg & 1) tia.log.append(cycle, reg, value);
   else tia.log.touch(cycle, reg);
-  return reg == WSYNC && after_read ? next_line(cycle) : cycle;
+  return cycle;
 }
 
-std::int32_t Board::next_line(std::int32_t cycle) const {
+// The CPU stands still until the next line starts, if it was about to read.
+std::int32_t Board::write_wsync(std::int32_t cycle, bool after_read) {
+  last_access_ = cycle;
+  tia.log.touch(cycle, WSYNC);
+  if (!after_read) return cycle;
   const std::int32_t into = (cycle - state.tia.origin / 3) % kLineCycles;
   return into == 0 ? cycle : cycle + kLineCycles - into;
 }

@@ -57,7 +57,7 @@ class Board {
   std::int32_t write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
   void write_vsync(std::uint8_t value, std::int32_t cycle);
   void write_dump(bool on, std::int32_t cycle);
-  std::int32_t next_line(std::int32_t cycle) const;
+  std::int32_t write_wsync(std::int32_t cycle, bool after_read);
   void touch_tia(std::int32_t cycle);
   std::uint8_t collision_bits(unsigned reg, std::int32_t cycle);
 
