@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "emulator/inlining.hpp"
 #include "emulator/objects.hpp"
 #include "emulator/registers.hpp"
 
@@ -47,7 +48,7 @@ constexpr std::array<LineEffect, 64> make_effects() {
   return table;
 }
 
-unsigned enabled_objects(const TiaRegisters& r) {
+RACEBEAM_INLINE unsigned enabled_objects(const TiaRegisters& r) {
   unsigned objects = (ball_enabled(r.ball) ? 1U : 0U) << kBall;
   for (unsigned i = 0; i < 2; ++i) {
     objects |= (shown_graphics(r.player[i]) != 0 ? 1U : 0U) << (kP0 + i);
@@ -104,7 +105,7 @@ constexpr Words make_black_mask() {
 }
 constexpr Words kBlackMask = make_black_mask();
 
-const Words& mask_of(const TiaRegisters& registers, std::uint8_t involved) {
+RACEBEAM_INLINE const Words& mask_of(const TiaRegisters& registers, std::uint8_t involved) {
   if (registers.vblank && !(involved & kBlanks)) return kBlackMask;
   const unsigned score = registers.ctrlpf & 2 ? kScoreMode : 0U;
   return kMasks[enabled_objects(registers) | (involved & ~unsigned{kBlanks}) | score];

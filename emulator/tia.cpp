@@ -110,8 +110,9 @@ bool Tia::play_line(std::size_t end) {
   if (reached_ > tia_.cursor) return false;
   const LineRecord& known = beam_.record();
   const std::size_t next = end_of_known_line(known, end);
-  if (next != kNowhere && has_key(tia_, known.involved, known.key)) recall_line(next);
-  else if (!draw_line(end)) return false;
+  if (next == kNowhere) return draw_new_line(end);
+  if (has_key(tia_, known.involved, known.key)) recall_line(next);
+  else draw_line(next, known.count);
   return true;
 }
 
@@ -134,13 +135,10 @@ void Tia::recall_line(std::size_t next) {
   beam_.take_line(beam_.record());
 }
 
-// Draws the cursor's line and remembers it; false if it can't be taken as a whole.
-bool Tia::draw_line(std::size_t end) {
+// Draws the cursor's line, whose writes the row's record has, and remembers it.
+void Tia::draw_line(std::size_t next, std::uint8_t count) {
   LineRecord& record = beam_.record();
-  record.count = LineRecord::kInvalid;
-  unsigned count = 0;
-  const std::size_t next = gather_events(end, record, count);
-  if (next == kNowhere) return false;
+  record.key = line_key(tia_, record.involved);
   const std::uint16_t collisions = tia_.collisions;
   tia_.collisions = 0;  // the record keeps those of this line
   play(next);
@@ -148,22 +146,29 @@ bool Tia::draw_line(std::size_t end) {
   record.meetings = tia_.collisions;
   record.repeats = beam_.repeats();
   record.comb_armed = tia_.comb_armed;
-  record.count = static_cast<std::uint8_t>(count);
+  record.count = count;
   tia_.collisions |= collisions;
+}
+
+// The same for other writes than the record's; false if the line can't be taken as a whole.
+bool Tia::draw_new_line(std::size_t end) {
+  LineRecord& record = beam_.record();
+  record.count = LineRecord::kInvalid;
+  std::uint8_t count = 0;
+  const std::size_t next = gather_events(end, record, count);
+  if (next == kNowhere) return false;
+  draw_line(next, count);
   return true;
 }
 
-// The writes that the cursor's line meets, and its key. Returns the first access beyond it.
-std::size_t Tia::gather_events(std::size_t end, LineRecord& line, unsigned& count) const {
+// The writes that the cursor's line meets. Returns the first access beyond it.
+std::size_t Tia::gather_events(std::size_t end, LineRecord& line, std::uint8_t& count) const {
   const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles;
   line.involved = 0;
   for (std::size_t i = played_; i < end; ++i) {
     const TiaAccess access = accesses_->entry[i];
     const std::int32_t cycle = access.cycle() - first_cycle;
-    if (cycle > kLineCycles) {
-      line.key = line_key(tia_, line.involved);
-      return i;
-    }
+    if (cycle > kLineCycles) return i;
     const LineEffect effect = kLineEffects[access.reg()];
     if (count == line.event.size() || cycle > effect.last_cycle || !is_repeatable(access)) break;
     line.involved |= effect.involved;

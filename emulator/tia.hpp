@@ -31,8 +31,9 @@ class Tia {
   bool play_line(std::size_t end);
   std::size_t end_of_known_line(const LineRecord& known, std::size_t end) const;
   void recall_line(std::size_t next);
-  bool draw_line(std::size_t end);
-  std::size_t gather_events(std::size_t end, LineRecord& line, unsigned& count) const;
+  void draw_line(std::size_t next, std::uint8_t count);
+  bool draw_new_line(std::size_t end);
+  std::size_t gather_events(std::size_t end, LineRecord& line, std::uint8_t& count) const;
 
   TiaState& tia_;
   const FrameState& frame_;

@@ -60,6 +60,7 @@ class WriteLog {
     all.append(access);
     changes.append(access);
     written_[reg] = kUnknown;
+    written_[kDisturbed[reg]] |= kUnsettled;
     if (reg == HMCLR) written_[HMP0] = written_[HMP1] = written_[HMM0] = written_[HMM1] = written_[HMBL] = kUnknown;
   }
 
@@ -67,8 +68,10 @@ class WriteLog {
   void append_change(std::int32_t cycle, unsigned reg, std::uint8_t value) {
     const TiaAccess access(cycle, reg, value);
     all.append(access);
-    if (written_[reg] == value) return;
+    const std::uint16_t before = written_[reg];
+    if (before == value) return;
     written_[reg] = value | kNeverRepeats[reg];
+    if ((before & ~kUnsettled) != value) written_[kDisturbed[reg]] |= kUnsettled;
     changes.append(access);
   }
 
@@ -79,12 +82,22 @@ class WriteLog {
 
  private:
   static constexpr std::uint16_t kUnknown = 0x100;
+  static constexpr std::uint16_t kUnsettled = 0x200;  // the value is known, but writing it again does something
 
   // kUnknown for the registers whose writes do something each time.
   static constexpr std::array<std::uint16_t, 64> kNeverRepeats = [] {
     std::array<std::uint16_t, 64> table{};
-    for (const TiaRegister reg : {NUSIZ0, NUSIZ1, CTRLPF, RESP0, RESP1, RESM0, RESM1, RESBL, GRP0, GRP1, HMOVE, HMCLR, CXCLR})
+    for (const TiaRegister reg : {NUSIZ0, NUSIZ1, CTRLPF, RESP0, RESP1, RESM0, RESM1, RESBL, HMOVE, HMCLR, CXCLR})
       table[reg] = kUnknown;
+    return table;
+  }();
+
+  // A new value in these makes a write of the other one do something again: it moves the value on (tia.md, section 7).
+  static constexpr std::array<std::uint8_t, 64> kDisturbed = [] {
+    std::array<std::uint8_t, 64> table{};
+    table.fill(kTouch);  // nobody
+    table[GRP0] = table[ENABL] = GRP1;
+    table[GRP1] = GRP0;
     return table;
   }();
 

@@ -32,8 +32,8 @@ def parse_arguments():
     parser = argparse.ArgumentParser(prog="scripts/bench", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--games", nargs="+", default=GAMES, metavar="GAME", help="default: " + " ".join(GAMES))
-    parser.add_argument("--chunks", type=int, default=10, help="chunks on either side (default 10)")
-    parser.add_argument("--frames", type=int, default=2000, help="frames in a chunk (default 2000)")
+    parser.add_argument("--chunks", type=int, default=5, help="chunks on either side (default 5)")
+    parser.add_argument("--frames", type=int, default=20000, help="frames in a chunk (default 20000)")
     parser.add_argument("--frame-skip", type=int, default=1, help="frames of an act (default 1)")
     parser.add_argument("--screen", choices=["every", "last", "none"], default="every",
                         help="the screens that racebeam produces (default every; ALE always produces each)")
