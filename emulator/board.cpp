@@ -101,8 +101,13 @@ std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::
   return address & 0x0080 ? read_riot(address, cycle) : read_tia(address, latch, cycle);
 }
 
+// WSYNC, which most lines have, goes the shortest way.
 std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
-  if (address == WSYNC && cycle < overlong_cycle_ && !slot.scheme.owns_low_page) return write_wsync(cycle, after_read);
+  const bool plain = address == WSYNC && cycle < overlong_cycle_ && !slot.scheme.owns_low_page;
+  return plain ? write_wsync(cycle, after_read) : write_anywhere(address, value, cycle, after_read);
+}
+
+std::int32_t Board::write_anywhere(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
   const bool cartridge = (address & 0x1000) != 0;
   if (cartridge || (slot.scheme.owns_low_page && (address & 0x1FFF) < 0x40)) {
     code.span = 0;

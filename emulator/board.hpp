@@ -57,6 +57,8 @@ class Board {
   std::int32_t write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
   void write_vsync(std::uint8_t value, std::int32_t cycle);
   void write_dump(bool on, std::int32_t cycle);
+  [[gnu::noinline]] std::int32_t write_anywhere(std::uint16_t address, std::uint8_t value, std::int32_t cycle,
+                                                bool after_read);
   std::int32_t write_wsync(std::int32_t cycle, bool after_read);
   void touch_tia(std::int32_t cycle);
   std::uint8_t collision_bits(unsigned reg, std::int32_t cycle);

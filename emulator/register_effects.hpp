@@ -39,6 +39,12 @@ class RegisterEffects {
     return static_cast<std::uint8_t>(position >= kLinePixels ? position - kLinePixels : position);
   }
 
+  bool any_motion() const {
+    const auto& [p0, p1] = tia_.player;
+    const auto& [m0, m1] = tia_.missile;
+    return (p0.motion | p1.motion | m0.motion | m1.motion | tia_.ball.motion) != 0;
+  }
+
   // CPU cycle within the line, 0-75. The origin is a multiple of three.
   int line_cycle(std::int32_t cycle) const { return (cycle - tia_.origin / 3) % kLineCycles; }
 
@@ -302,14 +308,17 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(const TiaAccess& acc
     position = wrapped(position + movement[motion]);
     painter_.changed(objects);
   };
+  const bool moves = movement[0] != 0 || any_motion();
   for (unsigned i = 0; i < 2; ++i) {
     PlayerState& player = tia_.player[i];
-    move(player.position, player.motion, object(kP0, i));
-    move(tia_.missile[i].position, tia_.missile[i].motion, object(kM0, i));
+    if (moves) {
+      move(player.position, player.motion, object(kP0, i));
+      move(tia_.missile[i].position, tia_.missile[i].motion, object(kM0, i));
+    }
     if (player.skip) painter_.changed(object(kP0, i));
     player.skip = 0;
   }
-  move(tia_.ball.position, tia_.ball.motion, kBallBit);
+  if (moves) move(tia_.ball.position, tia_.ball.motion, kBallBit);
   if (video_.hmove_blanks && (x == 75 || x <= 20)) tia_.comb_armed = 1;
   tia_.cosmic = 0;
   show_cosmic_normally();
