@@ -1,5 +1,5 @@
-// A machine on the bench: a board whose registers are reached by hand at chosen cycles, or whose processor runs a few
-// instructions at a time. Frames open and close as in Console::step().
+// A machine on the bench: a board whose registers are reached by hand at chosen cycles, or whose processor
+// runs a few instructions at a time. Frames open and close as in Console::step().
 #pragma once
 
 #include <array>
@@ -34,6 +34,14 @@ struct Bench {
   }
 
  private:
+  void run_at(int cycle, unsigned opcode, unsigned operand) {
+    state.riot.ram[0] = static_cast<std::uint8_t>(opcode);
+    state.riot.ram[1] = static_cast<std::uint8_t>(operand);
+    cpu.PC = 0x80;
+    state.cycle = cycle - 3;
+    run(board, 1);
+  }
+
   struct Whole {
     Whole(std::shared_ptr<const Rom> rom, const Properties& properties) : board(std::move(rom), properties) {}
     Board board;
@@ -61,6 +69,16 @@ struct Bench {
     return board.read_device(static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch), cycle);
   }
   std::uint8_t read(int line, int x, unsigned address) { return read_at(line * kLineCycles + x, address); }
+
+  // The same by the processor, with STA and LDA in RAM: what it does on its own way to the TIA is included.
+  void store_at(int cycle, unsigned reg, unsigned value) {
+    cpu.A = static_cast<std::uint8_t>(value);
+    run_at(cycle, 0x85, reg);
+  }
+  std::uint8_t load_at(int cycle, unsigned reg) {
+    run_at(cycle, 0xA5, reg);
+    return cpu.A;
+  }
 
   // The processor's view: plain memory, or a device.
   std::uint8_t see(unsigned address, int cycle = 0) {

@@ -29,16 +29,24 @@ struct Machine {
   std::uint32_t digest() const { return crc(console.picture()) ^ crc(console.ram()); }
 };
 
-// A picture that changes with every line and frame, in frames of 4 + extra + 2n lines.
-Bytes frames_of(std::uint8_t n, std::uint8_t extra) {
-  Bytes program = {0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0x85, 0x02, 0xA9, 0x00, 0x85, 0x00,  // VSYNC
-                   0xE6, 0x80, 0xA2, 0xFF, 0x86, 0x1B, 0x86, 0x0E, 0x85, 0x10, 0x85, 0x02};           // GRP0 PF1 RESP0
-  program.insert(program.end(), 2u * extra, 0x85);
-  for (std::size_t i = program.size() - 2u * extra + 1; i < program.size(); i += 2) program[i] = 0x02;  // WSYNC
-  const Bytes lines = {0xA0, 0x02, 0xA2, n, 0x85, 0x02, 0x8A, 0x65, 0x80, 0x85, 0x09, 0x85, 0x0F,  // WSYNC COLUBK PF2
-                       0x85, 0x06, 0xCA, 0xD0, 0xF2, 0x88, 0xD0, 0xED, 0x4C, 0x00, 0xF0};          // COLUP0 DEX DEY
-  program.insert(program.end(), lines.begin(), lines.end());
-  return program;
+// A picture that changes with every line and frame, in frames of 4 + 2n lines, and one more with `extra`.
+Bytes frames_of(std::uint8_t n, bool extra = false) {
+  const std::uint8_t wsync_or_cxclr = extra ? 0x02 : 0x2C;
+  return {0xA9, 0x02, 0x85, 0x00,
+          0x85, 0x02, 0x85, 0x02,
+          0x85, 0x02, 0xA9, 0x00,
+          0x85, 0x00,  // VSYNC, 3 WSYNC
+          0xE6, 0x80, 0xA2, 0xFF,
+          0x86, 0x1B, 0x86, 0x0E,
+          0x85, 0x10,                        // GRP0, PF1, RESP0
+          0x85, 0x02, 0x85, wsync_or_cxclr,  //
+          0xA0, 0x02, 0xA2, n,               // twice n lines:
+          0x85, 0x02, 0x8A, 0x65,
+          0x80, 0x85, 0x09, 0x85,
+          0x0F, 0x85, 0x06,  // COLUBK, PF2, COLUP0
+          0xCA, 0xD0, 0xF2, 0x88,
+          0xD0, 0xED, 0x4C, 0x00,
+          0xF0};
 }
 
 TEST_CASE("The machine is one plain value of at most 2 KiB") {
@@ -48,7 +56,7 @@ TEST_CASE("The machine is one plain value of at most 2 KiB") {
 }
 
 TEST_CASE("A restored machine goes on as the saved one did") {
-  Machine machine(frames_of(129, 0));
+  Machine machine(frames_of(129));
   for (int i = 0; i < 7; ++i) machine.console.step();
   const State saved = machine.console.state();
   const Pictures pictures = machine.console.pictures();
@@ -70,7 +78,7 @@ TEST_CASE("A restored machine goes on as the saved one did") {
   }
   CHECK(first == second);
 
-  Machine other(frames_of(129, 0));
+  Machine other(frames_of(129));
   other.console.restore(saved);
   other.console.restore_pictures(pictures);
   CHECK(std::equal(current.begin(), current.end(), other.console.picture().begin()));
@@ -83,7 +91,7 @@ TEST_CASE("A restored machine goes on as the saved one did") {
 }
 
 TEST_CASE("Equal histories are equal values, and a reset is part of the history") {
-  Machine one(frames_of(129, 0)), two(frames_of(129, 0));
+  Machine one(frames_of(129)), two(frames_of(129));
   for (int i = 0; i < 3; ++i) {
     one.console.step();
     two.console.step();
@@ -96,9 +104,17 @@ TEST_CASE("Equal histories are equal values, and a reset is part of the history"
 }
 
 TEST_CASE("Long frames make a PAL console, short ones an NTSC one") {
-  struct Case { std::uint8_t n, extra; int lines; Format format; int height; };
-  constexpr Case kCases[] = {{129, 0, 262, Format::kNtsc, 210}, {154, 0, 312, Format::kPal, 250},
-                             {140, 1, 285, Format::kNtsc, 210}, {141, 0, 286, Format::kPal, 250}};
+  struct Case {
+    std::uint8_t n;
+    bool extra;
+    int lines;
+    Format format;
+    int height;
+  };
+  constexpr Case kCases[] = {{129, false, 262, Format::kNtsc, 210},
+                             {154, false, 312, Format::kPal, 250},
+                             {140, true, 285, Format::kNtsc, 210},
+                             {141, false, 286, Format::kPal, 250}};
   for (const Case& c : kCases) {
     INFO(c.lines << " lines");
     Properties detected = ntsc();
@@ -116,7 +132,7 @@ TEST_CASE("Long frames make a PAL console, short ones an NTSC one") {
 TEST_CASE("A format from the properties takes no detection run") {
   Properties pal60 = ntsc();
   pal60.format = Format::kPal60;
-  Machine machine(frames_of(129, 0), pal60);
+  Machine machine(frames_of(129), pal60);
   CHECK(machine.console.height() == 210);
   CHECK(machine.console.state().drawn == 128 + 1 + 1);
   CHECK(machine.console.state().cycle == 0);
@@ -125,7 +141,7 @@ TEST_CASE("A format from the properties takes no detection run") {
 TEST_CASE("A picture lower than 200 lines is filled up with black") {
   Properties low = ntsc();
   low.height = 150;
-  Machine machine(frames_of(129, 0), low);
+  Machine machine(frames_of(129), low);
   for (int i = 0; i < 4; ++i) machine.console.step();
   CHECK(machine.console.height() == 200);
   const auto rows = machine.console.picture();
@@ -146,7 +162,11 @@ TEST_CASE("Case 2: with swapped ports player A drives the right one") {
 }
 
 TEST_CASE("Case 3: the buttons of paddles, swapped or not") {
-  struct Case { bool swap; std::uint8_t fire; int swcha; };
+  struct Case {
+    bool swap;
+    std::uint8_t fire;
+    int swcha;
+  };
   for (const Case& c : {Case{false, 1, 0x7F}, {false, 2, 0xBF}, {true, 1, 0xBF}, {true, 2, 0x7F}}) {
     Properties paddles = ntsc();
     paddles.left = Controller::kPaddles;
@@ -177,11 +197,12 @@ TEST_CASE("Paddles of the right port, and a pot of no resistance") {
 }
 
 // COLUBK = $2E; frames of 254 lines; in the fourth, the processor jams after 100 lines.
-const Bytes kJams = {0xA9, 0x2E, 0x85, 0x09, 0xA9, 0x00, 0x85, 0x80,                                        // once
-                     0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0x85, 0x02, 0xA9, 0x00, 0x85, 0x00,  // VSYNC
-                     0xA2, 0x64, 0x85, 0x02, 0xCA, 0xD0, 0xFB,                                              // 100 lines
-                     0xE6, 0x80, 0xA5, 0x80, 0xC9, 0x04, 0xD0, 0x01, 0x02,                                  // JAM
-                     0xA2, 0x96, 0x85, 0x02, 0xCA, 0xD0, 0xFB, 0x4C, 0x08, 0xF0};                           // 150 lines
+const Bytes kJams = {0xA9, 0x2E, 0x85, 0x09, 0xA9, 0x00, 0x85, 0x80,  // once
+                     0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0x85, 0x02,
+                     0xA9, 0x00, 0x85, 0x00,                                       // VSYNC
+                     0xA2, 0x64, 0x85, 0x02, 0xCA, 0xD0, 0xFB,                     // 100 lines
+                     0xE6, 0x80, 0xA5, 0x80, 0xC9, 0x04, 0xD0, 0x01, 0x02,         // JAM
+                     0xA2, 0x96, 0x85, 0x02, 0xCA, 0xD0, 0xFB, 0x4C, 0x08, 0xF0};  // 150 lines
 
 void check_greyed(const Console& console) {
   for (int row = 0; row < 210; ++row) {
@@ -211,8 +232,9 @@ TEST_CASE("Case 5: a processor that jams leaves the rest of the picture grey, un
 }
 
 // RAM survives a reset: the first run jams at once, the second shows a colour that counts lines.
-const Bytes kCountsLines = {0xA5, 0x80, 0xC9, 0x5A, 0xF0, 0x05, 0xA9, 0x5A, 0x85, 0x80, 0x02,  // first time: JAM
-                            0xA2, 0x00, 0x85, 0x02, 0x86, 0x09, 0xE8, 0x4C, 0x0D, 0xF0};       // WSYNC; STX COLUBK; INX
+const Bytes kCountsLines = {
+    0xA5, 0x80, 0xC9, 0x5A, 0xF0, 0x05, 0xA9, 0x5A, 0x85, 0x80, 0x02,  // first time: JAM
+    0xA2, 0x00, 0x85, 0x02, 0x86, 0x09, 0xE8, 0x4C, 0x0D, 0xF0};       // WSYNC; STX COLUBK; INX
 
 std::vector<int> first_pixels(const Console& console, std::initializer_list<int> rows) {
   std::vector<int> colors;
@@ -220,7 +242,8 @@ std::vector<int> first_pixels(const Console& console, std::initializer_list<int>
   return colors;
 }
 
-TEST_CASE("After a reset in an open frame the picture is drawn from line 0 on, 34 rows lower than it should be") {
+TEST_CASE(
+    "After a reset in an open frame the picture is drawn from line 0 on, 34 rows lower than it should be") {
   Machine machine(kCountsLines);
   machine.console.step();
   CHECK(machine.console.state().frame.open == 1);
@@ -228,7 +251,8 @@ TEST_CASE("After a reset in an open frame the picture is drawn from line 0 on, 3
   CHECK(machine.console.state().frame.open == 1);
   machine.console.step();
   CHECK(machine.console.state().frame.open == 0);
-  CHECK(first_pixels(machine.console, {1, 51, 101, 209}) == std::vector{0, 50, 100, 208});
+  // Nothing is drawn before line 34, and then with what is written by then.
+  CHECK(first_pixels(machine.console, {0, 1, 33, 51, 101, 209}) == std::vector{32, 32, 32, 50, 100, 208});
 
   Machine fresh(kCountsLines);
   fresh.console.set_ram(0, 0x5A);

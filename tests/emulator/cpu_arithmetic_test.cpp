@@ -1,4 +1,5 @@
-// Adding, subtracting and their undocumented kin for all pairs of operands, decimal mode and carry on and off.
+// Adding, subtracting and their undocumented kin for all pairs of operands, decimal mode and carry on and
+// off.
 #include <catch2/catch.hpp>
 
 #include "tests/emulator/bench.hpp"
@@ -25,9 +26,10 @@ struct Case {
   bool immediate;
 };
 
-constexpr Case kCases[] = {{"ADC", 0x69, true},  {"SBC", 0xE9, true},  {"sbc", 0xEB, true}, {"arr", 0x6B, true},
-                           {"CMP", 0xC9, true},  {"sbx", 0xCB, true},  {"asr", 0x4B, true}, {"anc", 0x0B, true},
-                           {"rra", 0x67, false}, {"isb", 0xE7, false}, {"dcp", 0xC7, false}};
+constexpr Case kCases[] = {{"ADC", 0x69, true},  {"SBC", 0xE9, true}, {"sbc", 0xEB, true},
+                           {"arr", 0x6B, true},  {"CMP", 0xC9, true}, {"sbx", 0xCB, true},
+                           {"asr", 0x4B, true},  {"anc", 0x0B, true}, {"rra", 0x67, false},
+                           {"isb", 0xE7, false}, {"dcp", 0xC7, false}};
 
 class Pairs {
  public:
@@ -49,8 +51,8 @@ class Pairs {
     const bool same = cpu.A == model_.A && cpu.X == model_.X && (cpu.P | 0x30) == model_.status() &&
                       bench_.state.riot.ram[kOperand - 0x80] == bus_.memory[kOperand];
     if (!same)
-      FAIL("A " << a << ", operand " << m << ", P " << flags << ": A is " << int{cpu.A} << ", not " << model_.A
-                << "; P is " << (cpu.P | 0x30) << ", not " << model_.status());
+      FAIL("A " << a << ", operand " << m << ", P " << flags << ": A is " << int{cpu.A} << ", not "
+                << model_.A << "; P is " << (cpu.P | 0x30) << ", not " << model_.status());
   }
 
  private:
@@ -78,9 +80,13 @@ TEST_CASE("Arithmetic gives what the specification says for all operands") {
 
 // The model again, by values that were observed on the reference (cpu.md, "How to check", 1 to 3).
 TEST_CASE("Decimal arithmetic gives the observed values") {
-  struct Observed { int opcode, a, m, carry, result, status; };
-  constexpr Observed kObserved[] = {{0x69, 0x99, 0x01, 0, 0x00, 0x3B}, {0xE9, 0x00, 0xFF, 0, 0x7C, 0x38},
-                                    {0x69, 0x0F, 0x0F, 1, 0x31, 0x38}, {0x69, 0xFF, 0xFF, 0, 0x74, 0x79}};
+  struct Observed {
+    int opcode, a, m, carry, result, status;
+  };
+  constexpr Observed kObserved[] = {{0x69, 0x99, 0x01, 0, 0x00, 0x3B},
+                                    {0xE9, 0x00, 0xFF, 0, 0x7C, 0x38},
+                                    {0x69, 0x0F, 0x0F, 1, 0x31, 0x38},
+                                    {0x69, 0xFF, 0xFF, 0, 0x74, 0x79}};
   for (const Observed& o : kObserved) {
     Bench bench;
     bench.state.riot.ram[0] = static_cast<std::uint8_t>(o.opcode);

@@ -1,5 +1,5 @@
-// The interpreter and the model of reference_cpu.hpp side by side: every opcode from random states, and long random
-// programs that touch all of the machine.
+// The interpreter and the model of reference_cpu.hpp side by side: every opcode from random states, and long
+// random programs that touch all of the machine.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
@@ -50,7 +50,8 @@ struct Both {
     ours.A = static_cast<std::uint8_t>(cpu.A = below(engine, 256));
     ours.X = static_cast<std::uint8_t>(cpu.X = below(engine, 256));
     ours.Y = static_cast<std::uint8_t>(cpu.Y = below(engine, 256));
-    ours.SP = static_cast<std::uint8_t>(cpu.SP = percent(engine, 30) ? below(engine, 4) - 2 & 0xFF : below(engine, 256));
+    ours.SP = static_cast<std::uint8_t>(cpu.SP = percent(engine, 30) ? below(engine, 4) - 2 & 0xFF
+                                                                     : below(engine, 256));
     cpu.set_status(below(engine, 256));
     ours.P = static_cast<std::uint8_t>(cpu.status() & 0xCF);
     ours.latch = static_cast<std::uint8_t>(model.latch = below(engine, 256));
@@ -70,7 +71,8 @@ struct Both {
     bench.state.cycle = model.cpu.T = below(engine, latest);
     RiotState& riot = bench.state.riot;
     riot.timer = static_cast<std::uint8_t>(model.timer.V = below(engine, 256));
-    riot.shift = static_cast<std::uint8_t>(model.timer.s = std::vector{0, 3, 6, 10}[static_cast<std::size_t>(below(engine, 4))]);
+    riot.shift = static_cast<std::uint8_t>(
+        model.timer.s = std::vector{0, 3, 6, 10}[static_cast<std::size_t>(below(engine, 4))]);
     riot.timer_set = model.timer.Tset = static_cast<std::uint32_t>(model.cpu.T - below(engine, 300));
     model.timer.late = percent(engine, 20);
     riot.late = model.timer.late;
@@ -93,7 +95,8 @@ struct Both {
   void close_frame() {
     const auto& theirs = model.tia.buffers()[static_cast<std::size_t>(model.tia.current())];
     const auto [at, expected] = std::mismatch(theirs.begin(), theirs.end(), bench.picture().pixel.begin());
-    if (at != theirs.end()) FAIL("row " << (at - theirs.begin()) / 160 << ", pixel " << (at - theirs.begin()) % 160);
+    if (at != theirs.end())
+      FAIL("row " << (at - theirs.begin()) / 160 << ", pixel " << (at - theirs.begin()) % 160);
     bench.next_frame(bench.state.cycle);
     model.next_frame();
   }
@@ -137,18 +140,18 @@ TEST_CASE("Every opcode does what the model does, from random states") {
 
 // Loops that wait for the timer, as games have them, then a write that shows when they ended.
 const std::vector<std::vector<std::uint8_t>> kWaits = {
-    {0xAD, 0x84, 0x02, 0xD0, 0xFB, 0x85, 0x09},  // LDA INTIM; BNE; STA COLUBK
-    {0xAD, 0x84, 0x02, 0x10, 0xFB, 0x85, 0x09},  // LDA INTIM; BPL
-    {0xAE, 0x84, 0x02, 0xD0, 0xFB, 0x86, 0x09},  // LDX INTIM; BNE
-    {0xAC, 0x84, 0x02, 0x30, 0xFB, 0x84, 0x09},  // LDY INTIM; BMI
-    {0x2C, 0x85, 0x02, 0x10, 0xFB, 0x85, 0x09},  // BIT INSTAT; BPL
-    {0x2C, 0x84, 0x02, 0x10, 0xFB, 0x85, 0x09},  // BIT INTIM; BPL
-    {0xCD, 0x84, 0x02, 0xD0, 0xFB, 0x85, 0x09},  // CMP INTIM; BNE
-    {0xA5, 0x84, 0xD0, 0xFC, 0x85, 0x09},        // LDA $84; BNE: RAM, never ends
-    {0x85, 0x02, 0xCA, 0xD0, 0xFB, 0x85, 0x09},  // STA WSYNC; DEX; BNE
+    {0xAD, 0x84, 0x02, 0xD0, 0xFB, 0x85, 0x09},                    // LDA INTIM; BNE; STA COLUBK
+    {0xAD, 0x84, 0x02, 0x10, 0xFB, 0x85, 0x09},                    // LDA INTIM; BPL
+    {0xAE, 0x84, 0x02, 0xD0, 0xFB, 0x86, 0x09},                    // LDX INTIM; BNE
+    {0xAC, 0x84, 0x02, 0x30, 0xFB, 0x84, 0x09},                    // LDY INTIM; BMI
+    {0x2C, 0x85, 0x02, 0x10, 0xFB, 0x85, 0x09},                    // BIT INSTAT; BPL
+    {0x2C, 0x84, 0x02, 0x10, 0xFB, 0x85, 0x09},                    // BIT INTIM; BPL
+    {0xCD, 0x84, 0x02, 0xD0, 0xFB, 0x85, 0x09},                    // CMP INTIM; BNE
+    {0xA5, 0x84, 0xD0, 0xFC, 0x85, 0x09},                          // LDA $84; BNE: RAM, never ends
+    {0x85, 0x02, 0xCA, 0xD0, 0xFB, 0x85, 0x09},                    // STA WSYNC; DEX; BNE
     {0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0xA9, 0x00, 0x85, 0x00},  // a short VSYNC: a frame closes
-    {0xA9, 0x20, 0x8D, 0x96, 0x02},              // TIM64T = $20
-    {0xA9, 0x90, 0x8D, 0x95, 0x02},              // TIM8T = $90
+    {0xA9, 0x20, 0x8D, 0x96, 0x02},                                // TIM64T = $20
+    {0xA9, 0x90, 0x8D, 0x95, 0x02},                                // TIM8T = $90
 };
 
 void run_random_program(unsigned seed) {
@@ -165,7 +168,10 @@ void run_random_program(unsigned seed) {
   for (int turn = 0; turn < 60; ++turn) {
     INFO("turn " << turn << ", PC " << both.bench.cpu.PC);
     if (percent(engine, 30) || both.bench.cpu.jammed) {
-      const int offset = entries.empty() ? below(engine, 4096) : entries[static_cast<std::size_t>(below(engine, static_cast<int>(entries.size())))];
+      const int offset =
+          entries.empty()
+              ? below(engine, 4096)
+              : entries[static_cast<std::size_t>(below(engine, static_cast<int>(entries.size())))];
       both.set_registers(0x1000 | offset | (below(engine, 8) << 13), engine);
     }
     both.run(percent(engine, 50) ? 1 + below(engine, 20) : 1 + below(engine, 2000));

@@ -28,7 +28,10 @@ Bench ran(const Bytes& program, int instructions) {
 std::uint8_t ram(const Bench& bench, unsigned address) { return bench.board.state.riot.ram[address & 0x7F]; }
 
 TEST_CASE("Cases 1 to 3: decimal mode") {
-  struct Case { Bytes program; int a, pushed; };
+  struct Case {
+    Bytes program;
+    int a, pushed;
+  };
   const Case cases[] = {{{0xF8, 0x18, 0xA9, 0x99, 0x69, 0x01, 0x08}, 0x00, 0x3B},
                         {{0xF8, 0x18, 0xA9, 0x00, 0xE9, 0xFF, 0x08}, 0x7C, 0x38},
                         {{0xF8, 0x18, 0xA9, 0xFF, 0x69, 0xFF, 0x08}, 0x74, 0x79}};
@@ -41,10 +44,13 @@ TEST_CASE("Cases 1 to 3: decimal mode") {
 }
 
 TEST_CASE("Case 4: a TIA read shows the bus where the TIA drives nothing") {
-  struct Case { Bytes program; int instructions, a; };
-  const Case cases[] = {{{0xAD, 0x02, 0x2F}, 1, 0x2F},              // LDA $2F02
-                        {{0xA5, 0x02}, 1, 0x02},                    // LDA $02
-                        {{0xA2, 0x02, 0xB5, 0x00}, 2, 0x00},        // LDX #2, LDA $00,X
+  struct Case {
+    Bytes program;
+    int instructions, a;
+  };
+  const Case cases[] = {{{0xAD, 0x02, 0x2F}, 1, 0x2F},               // LDA $2F02
+                        {{0xA5, 0x02}, 1, 0x02},                     // LDA $02
+                        {{0xA2, 0x02, 0xB5, 0x00}, 2, 0x00},         // LDX #2, LDA $00,X
                         {{0xA2, 0x02, 0xBD, 0x00, 0x01}, 2, 0x01}};  // LDX #2, LDA $0100,X
   for (const Case& c : cases) CHECK(int{ran(c.program, c.instructions).cpu.A} == c.a);
 
@@ -95,8 +101,9 @@ TEST_CASE("Every jam opcode stops the processor until a reset") {
 
 TEST_CASE("A run ends after the instruction that closes the frame") {
   // VSYNC on, four times WSYNC, VSYNC off, INX.
-  Bench bench = ran({0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0x85, 0x02, 0x85, 0x02, 0xA9, 0x00, 0x85, 0x00, 0xE8},
-                    100);
+  Bench bench = ran(
+      {0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0x85, 0x02, 0x85, 0x02, 0xA9, 0x00, 0x85, 0x00, 0xE8},
+      100);
   CHECK(bench.board.stop);
   CHECK(bench.cpu.PC == 0xF010);
   CHECK(int{bench.cpu.X} == 0);

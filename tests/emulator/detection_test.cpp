@@ -18,8 +18,10 @@ struct Patch {
 // Bytes that hold no signature, no repetition and no run.
 Rom mixed(std::size_t size, std::initializer_list<Patch> patches = {}) {
   Rom rom(size);
-  for (std::size_t i = 0; i < size; ++i) rom[i] = static_cast<std::uint8_t>(i * 7 + (i >> 8) * 3 + (i >> 12) * 17);
-  for (const Patch& patch : patches) std::copy(patch.bytes.begin(), patch.bytes.end(), rom.begin() + static_cast<long>(patch.at));
+  for (std::size_t i = 0; i < size; ++i)
+    rom[i] = static_cast<std::uint8_t>(i * 7 + (i >> 8) * 3 + (i >> 12) * 17);
+  for (const Patch& patch : patches)
+    std::copy(patch.bytes.begin(), patch.bytes.end(), rom.begin() + static_cast<long>(patch.at));
   return rom;
 }
 
@@ -32,7 +34,8 @@ Rom with_halves_equal(std::size_t size) {
 // The first 256 bytes of every bank are the same.
 Rom with_ram_ports(std::size_t size) {
   Rom rom = mixed(size);
-  for (std::size_t bank = 0; bank < size; bank += 4096) std::fill_n(rom.begin() + static_cast<long>(bank), 256, bank >> 12);
+  for (std::size_t bank = 0; bank < size; bank += 4096)
+    std::fill_n(rom.begin() + static_cast<long>(bank), 256, bank >> 12);
   return rom;
 }
 
@@ -50,10 +53,21 @@ void check(const std::vector<Case>& cases) {
 }
 
 TEST_CASE("The size decides where no signature does") {
-  for (const auto& [size, scheme] : {std::pair<std::size_t, const char*>{2048, "2K"}, {4096, "4K"}, {8192, "F8"},
-                                     {16384, "F6"}, {32768, "F4"}, {8448, "AR"}, {16896, "AR"}, {10240, "DPC"},
-                                     {10495, "DPC"}, {10496, "DPC"}, {12288, "FASC"}, {65536, "MB"}, {131072, "MC"},
-                                     {5000, ""}, {0, ""}}) {
+  for (const auto& [size, scheme] : {std::pair<std::size_t, const char*>{2048, "2K"},
+                                     {4096, "4K"},
+                                     {8192, "F8"},
+                                     {16384, "F6"},
+                                     {32768, "F4"},
+                                     {8448, "AR"},
+                                     {16896, "AR"},
+                                     {10240, "DPC"},
+                                     {10495, "DPC"},
+                                     {10496, "DPC"},
+                                     {12288, "FASC"},
+                                     {65536, "MB"},
+                                     {131072, "MC"},
+                                     {5000, ""},
+                                     {0, ""}}) {
     INFO(size << " bytes");
     CHECK(scheme_name(mixed(size)) == scheme);
   }
@@ -67,8 +81,20 @@ TEST_CASE("Halves, RAM ports and constant bytes") {
          {"8K with RAM ports", with_ram_ports(8192), "F8SC"},
          {"16K with RAM ports", with_ram_ports(16384), "F6SC"},
          {"32K with RAM ports", with_ram_ports(32768), "F4SC"},
-         {"one bank's port is not constant", [] { Rom r = with_ram_ports(8192); r[4096 + 255] ^= 1; return r; }(), "F8"},
-         {"only 255 bytes are looked at beyond the first", [] { Rom r = with_ram_ports(8192); r[256] = 0x5A; return r; }(), "F8SC"}});
+         {"one bank's port is not constant",
+          [] {
+            Rom r = with_ram_ports(8192);
+            r[4096 + 255] ^= 1;
+            return r;
+          }(),
+          "F8"},
+         {"only 255 bytes are looked at beyond the first",
+          [] {
+            Rom r = with_ram_ports(8192);
+            r[256] = 0x5A;
+            return r;
+          }(),
+          "F8SC"}});
 }
 
 TEST_CASE("Every signature is found") {
@@ -91,12 +117,19 @@ TEST_CASE("Every signature is found") {
          {"3F in any size", mixed(6144, {{700, {0x85, 0x3F}}, {800, {0x85, 0x3F}}}), "3F"},
          {"CV in 2K", mixed(2048, {{700, {0x9D, 0xFF, 0xF3}}}), "CV"},
          {"CV in 4K", mixed(4096, {{700, {0x99, 0x00, 0xF4}}}), "CV"},
-         {"E7", [] { Rom r = mixed(16384); std::fill_n(r.begin() + 0x3800, 0x200, 0xFF); return r; }(), "E7"}});
+         {"E7",
+          [] {
+            Rom r = mixed(16384);
+            std::fill_n(r.begin() + 0x3800, 0x200, 0xFF);
+            return r;
+          }(),
+          "E7"}});
 }
 
 TEST_CASE("The first test that fits wins") {
-  const Patch e0{700, {0x8D, 0xE0, 0x1F}}, ua{800, {0x8D, 0x40, 0x02}}, fe{900, {0x20, 0x00, 0xD0, 0xC6, 0xC5}},
-      three_e{1000, {0x85, 0x3E, 0xA9, 0x00}}, f1{1100, {0x85, 0x3F}}, f2{1200, {0x85, 0x3F}};
+  const Patch e0{700, {0x8D, 0xE0, 0x1F}}, ua{800, {0x8D, 0x40, 0x02}},
+      fe{900, {0x20, 0x00, 0xD0, 0xC6, 0xC5}}, three_e{1000, {0x85, 0x3E, 0xA9, 0x00}},
+      f1{1100, {0x85, 0x3F}}, f2{1200, {0x85, 0x3F}};
   check({{"E0 before 3E", mixed(8192, {e0, three_e}), "E0"},
          {"3E before 3F", mixed(8192, {three_e, f1, f2}), "3E"},
          {"3F before UA", mixed(8192, {f1, f2, ua}), "3F"},

@@ -1,5 +1,5 @@
-; A program that checks every documented instruction in every addressing mode on the machine that runs it. STEP counts
-; the checks passed; a check that fails stops the processor with the number of the failing one in STEP. At the end
+; A program that checks every documented instruction in every addressing mode on the machine that runs it.
+; STEP counts the checks passed; a check that fails stops the processor with its number in STEP. At the end
 ; RESULT is $A5. Everything happens in $80-$FF, as on a 2600 there is no other RAM.
         processor 6502
 

@@ -7,7 +7,8 @@
 namespace racebeam::test {
 namespace {
 
-// cpu.md, section 5, as it stands there: mnemonic, mode, cycles; + a cycle more when a page is crossed, * branch.
+// cpu.md, section 5, as it stands there: mnemonic, mode, cycles; + a cycle more when a page is crossed, *
+// branch.
 constexpr const char* kGrid = R"(
     BRK 7|ORA ix 6|jam 2|slo ix 8|nop zp 3|ORA zp 3|ASL zp 5|slo zp 5|
     PHP 3|ORA # 2|ASL A 2|anc # 2|nop ab 4|ORA ab 4|ASL ab 6|slo ab 6|
@@ -57,8 +58,10 @@ Cell parse(const std::string& text) {
   cell.documented = word[0] <= 'Z';  // the others are in lower case
   while (words >> word) {
     const bool is_cycles = word[0] >= '0' && word[0] <= '9';
-    if (is_cycles) cell.cycles = word[0] - '0';
-    else cell.mode = op(word.c_str());
+    if (is_cycles)
+      cell.cycles = word[0] - '0';
+    else
+      cell.mode = op(word.c_str());
     cell.penalty = word.back() == '+';
   }
   return cell;
@@ -138,6 +141,7 @@ void ReferenceCpu::step() {
   run(cell.name, cell.mode, cell.penalty);
 }
 
+// clang-format off
 int ReferenceCpu::address_of(int mode, bool penalty) {
   const auto indexed = [&](int base, int index) {
     const int address = (base + index) & 0xFFFF;
@@ -162,6 +166,7 @@ int ReferenceCpu::address_of(int mode, bool penalty) {
     }
   }
 }
+// clang-format on
 
 void ReferenceCpu::run(int name, int mode, bool penalty) {
   if (run_control(name, mode) || (mode == 0 && run_implied(name))) return;
@@ -171,14 +176,27 @@ void ReferenceCpu::run(int name, int mode, bool penalty) {
   }
   const int address = address_of(mode, penalty);
   switch (name) {
-    case op("sta"): case op("stx"): case op("sty"): case op("sax"):
-    case op("sha"): case op("shx"): case op("shy"): case op("shs"):
-      return store(name, address);
-    case op("asl"): case op("lsr"): case op("rol"): case op("ror"): case op("inc"): case op("dec"):
-    case op("slo"): case op("rla"): case op("sre"): case op("rra"): case op("dcp"): case op("isb"):
-      return write(address, modify(name, read(address)));
-    default:
-      return use(name, read(address));
+    case op("sta"):
+    case op("stx"):
+    case op("sty"):
+    case op("sax"):
+    case op("sha"):
+    case op("shx"):
+    case op("shy"):
+    case op("shs"): return store(name, address);
+    case op("asl"):
+    case op("lsr"):
+    case op("rol"):
+    case op("ror"):
+    case op("inc"):
+    case op("dec"):
+    case op("slo"):
+    case op("rla"):
+    case op("sre"):
+    case op("rra"):
+    case op("dcp"):
+    case op("isb"): return write(address, modify(name, read(address)));
+    default: return use(name, read(address));
   }
 }
 
@@ -190,6 +208,7 @@ void ReferenceCpu::branch(bool taken) {
   PC = target;
 }
 
+// clang-format off
 // Jumps, branches and the stack: section 4. False: something else.
 bool ReferenceCpu::run_control(int name, int mode) {
   switch (name) {
@@ -268,5 +287,6 @@ bool ReferenceCpu::run_implied(int name) {
     default: return true;  // nop
   }
 }
+// clang-format on
 
 }  // namespace racebeam::test

@@ -1,12 +1,13 @@
-// The 6507 once more, straight from spec/cpu.md: its own copy of the opcode grid, one bus access after the other.
-// Slow, plain, and independent of emulator/: what the interpreter is compared with.
+// The 6507 once more, straight from spec/cpu.md: its own copy of the opcode grid, one bus access after the
+// other. Slow, plain, and independent of emulator/: what the interpreter is compared with.
 #pragma once
 
 #include <cstdint>
 
 namespace racebeam::test {
 
-// Where the model's accesses go. `T` is the cycle counter at the access; a write returns it, moved on by WSYNC.
+// Where the model's accesses go. `T` is the cycle counter at the access; a write returns it, moved on by
+// WSYNC.
 struct Bus {
   virtual ~Bus() = default;
   virtual int read(int address, int T) = 0;

@@ -9,6 +9,7 @@ int bcd(int n) { return 16 * (n % 100 / 10) + n % 10; }
 
 }  // namespace
 
+// clang-format off
 void ReferenceCpu::store(int name, int address) {
   const int h1 = (address >> 8) + 1;
   switch (name) {
@@ -66,6 +67,7 @@ void ReferenceCpu::use(int name, int m) {
     default: return;  // nop
   }
 }
+// clang-format on
 
 void ReferenceCpu::compare(int reg, int m) {
   nz(reg - m);

@@ -44,7 +44,8 @@ int ReferenceMachine::write(int address, int value, int T, bool after_read) {
   }
   static constexpr int kShift[4] = {0, 3, 6, 10};
   if ((address & 7) == 1) swacnt_ = value;
-  if ((address & 7) >= 4 && (address & 0x10)) timer = {value, kShift[address & 3], static_cast<std::uint32_t>(T), timer.R, false};
+  if ((address & 7) >= 4 && (address & 0x10))
+    timer = {value, kShift[address & 3], static_cast<std::uint32_t>(T), timer.R, false};
   return T;
 }
 
@@ -59,14 +60,17 @@ int ReferenceMachine::read_timer(int address, std::uint32_t T) {
     timer.late = true;
     timer.R = T;
   }
-  return static_cast<int>((static_cast<std::uint32_t>(timer.V) - (D >> timer.s) - (timer.R - (timer.Tset + E))) & 0xFF);
+  return static_cast<int>(
+      (static_cast<std::uint32_t>(timer.V) - (D >> timer.s) - (timer.R - (timer.Tset + E))) & 0xFF);
 }
 
 // tia.md, section 11: no pots, no button pressed.
 int ReferenceMachine::read_tia(int reg, int T) {
   int driven = reg == 12 || reg == 13 ? 0x80 : 0;
-  if (reg < 8) driven = static_cast<int>(tia.read(T, static_cast<unsigned>(reg)));
-  else tia.touch(T);
+  if (reg < 8)
+    driven = static_cast<int>(tia.read(T, static_cast<unsigned>(reg)));
+  else
+    tia.touch(T);
   return driven | (latch & 0x3F);
 }
 
@@ -104,7 +108,8 @@ std::string ReferenceMachine::difference(const State& state) const {
   check("jammed", state.cpu.jammed, cpu.jammed);
   check("bus latch", state.cpu.latch, latch);
   for (std::size_t i = 0; i < ram.size(); ++i)
-    if (state.riot.ram[i] != ram[i]) check(("RAM " + std::to_string(0x80 + i)).c_str(), state.riot.ram[i], ram[i]);
+    if (state.riot.ram[i] != ram[i])
+      check(("RAM " + std::to_string(0x80 + i)).c_str(), state.riot.ram[i], ram[i]);
   check("timer", state.riot.timer, timer.V);
   check("interval", state.riot.shift, timer.s);
   check("timer set", state.riot.timer_set, timer.Tset);

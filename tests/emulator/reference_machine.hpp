@@ -1,5 +1,5 @@
-// A whole machine with a plain 4K cartridge and two joysticks at rest, from spec/cpu.md, riot.md and tia.md: the models
-// of the 6507 and of the TIA, with RAM, timer, decoding and the frame around them.
+// A whole machine with a plain 4K cartridge and two joysticks at rest, from spec/cpu.md, riot.md and tia.md:
+// the models of the 6507 and of the TIA, with RAM, timer, decoding and the frame around them.
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@ namespace racebeam::test {
 
 class ReferenceMachine : public Bus {
  public:
-  ReferenceMachine(std::vector<std::uint8_t> rom, const ReferenceTia::Window& window) : tia(window), rom_(std::move(rom)) {
+  ReferenceMachine(std::vector<std::uint8_t> rom, const ReferenceTia::Window& window)
+      : tia(window), rom_(std::move(rom)) {
     tia.open_frame(0);
   }
 
@@ -22,7 +23,11 @@ class ReferenceMachine : public Bus {
   ReferenceTia tia;
   std::array<int, 128> ram{};
   int latch = 0;
-  struct { int V = 0, s = 0; std::uint32_t Tset = 0, R = 0; bool late = false; } timer;
+  struct {
+    int V = 0, s = 0;
+    std::uint32_t Tset = 0, R = 0;
+    bool late = false;
+  } timer;
   bool stop = false;
 
   void run(int instructions);

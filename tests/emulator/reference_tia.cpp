@@ -112,12 +112,15 @@ void ReferenceTia::draw_pixel(int p, std::uint8_t* at) {
 }
 
 bool ReferenceTia::group_rule() const {
-  static constexpr unsigned p0 = 1u << P0, p1 = 1u << P1, m0 = 1u << M0, m1 = 1u << M1, bl = 1u << BL, pf = 1u << PF;
+  static constexpr unsigned p0 = 1u << P0, p1 = 1u << P1, m0 = 1u << M0, m1 = 1u << M1, bl = 1u << BL,
+                            pf = 1u << PF;
   static constexpr unsigned kAlways[] = {pf, p0, p1, p0 | p1, m0, m1, bl, m0 | m1, bl | m0, bl | m1, bl | p1};
   static constexpr unsigned kUnlessScore[] = {pf | p0, pf | p1, pf | bl};
   unsigned on = 0;
   for (const Object object : kObjects) on |= enabled_[object] ? 1u << object : 0;
-  const auto lists = [on](const auto& sets) { return std::find(std::begin(sets), std::end(sets), on) != std::end(sets); };
+  const auto lists = [on](const auto& sets) {
+    return std::find(std::begin(sets), std::end(sets), on) != std::end(sets);
+  };
   return lists(kAlways) || ((ctrlpf_ & 2) == 0 && lists(kUnlessScore));
 }
 
@@ -130,7 +133,8 @@ bool ReferenceTia::group_is_clear(int p) const {
 
 // Section 7.
 const std::vector<int>& ReferenceTia::offsets(int mode) {
-  static const std::vector<int> kOffsets[8] = {{0}, {0, 16}, {0, 32}, {0, 16, 32}, {0, 64}, {0}, {0, 32, 64}, {0}};
+  static const std::vector<int> kOffsets[8] = {{0},     {0, 16}, {0, 32},     {0, 16, 32},
+                                               {0, 64}, {0},     {0, 32, 64}, {0}};
   return kOffsets[mode];
 }
 
@@ -144,8 +148,10 @@ int ReferenceTia::graphics(const Player& player) const {
 
 bool ReferenceTia::enabled(Object object) const {
   switch (object) {
-    case P0: case P1: return graphics(player_[object - P0]) != 0;
-    case M0: case M1: return missile_[object - M0].enam && !missile_[object - M0].resmp;
+    case P0:
+    case P1: return graphics(player_[object - P0]) != 0;
+    case M0:
+    case M1: return missile_[object - M0].enam && !missile_[object - M0].resmp;
     case BL: return ball_.vdel ? ball_.old : ball_.enabl;
     default: return (pf_[0] & 0xF0) != 0 || pf_[1] != 0 || pf_[2] != 0;
   }
@@ -206,12 +212,15 @@ std::uint8_t ReferenceTia::color_of(const std::array<bool, kObjectCount>& on, in
 
 namespace {
 
-struct Pair { int a, b; };
+struct Pair {
+  int a, b;
+};
 
 // Section 11, D7 and D6 of each register; a pair of an object with itself never meets.
 enum { p0, p1, m0, m1, bl, pf };
-constexpr Pair kLatch[8][2] = {{{m0, p1}, {m0, p0}}, {{m1, p0}, {m1, p1}}, {{p0, pf}, {p0, bl}}, {{p1, pf}, {p1, bl}},
-                               {{m0, pf}, {m0, bl}}, {{m1, pf}, {m1, bl}}, {{bl, pf}, {bl, bl}}, {{p0, p1}, {m0, m1}}};
+constexpr Pair kLatch[8][2] = {{{m0, p1}, {m0, p0}}, {{m1, p0}, {m1, p1}}, {{p0, pf}, {p0, bl}},
+                               {{p1, pf}, {p1, bl}}, {{m0, pf}, {m0, bl}}, {{m1, pf}, {m1, bl}},
+                               {{bl, pf}, {bl, bl}}, {{p0, p1}, {m0, m1}}};
 
 }  // namespace
 
@@ -226,7 +235,8 @@ unsigned ReferenceTia::read(int T, unsigned reg) {
 void ReferenceTia::meet(unsigned packed) {
   for (unsigned reg = 0; reg < 8; ++reg)
     for (unsigned i = 0; i < 2; ++i) {
-      const auto a = static_cast<std::size_t>(kLatch[reg][i].a), b = static_cast<std::size_t>(kLatch[reg][i].b);
+      const auto a = static_cast<std::size_t>(kLatch[reg][i].a),
+                 b = static_cast<std::size_t>(kLatch[reg][i].b);
       if (a != b) collided_[a][b] = collided_[b][a] = packed >> (2 * reg + 1 - i) & 1;
     }
 }

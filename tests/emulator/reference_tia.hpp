@@ -1,6 +1,6 @@
-// The picture side of the TIA once more, straight from spec/tia.md: clock by clock, pixel by pixel, everything drawn
-// at the moment at which the specification draws it. Slow, plain, and independent of emulator/: what the machine is
-// compared with.
+// The picture side of the TIA once more, straight from spec/tia.md: clock by clock, pixel by pixel,
+// everything drawn at the moment at which the specification draws it. Slow, plain, and independent of
+// emulator/: what the machine is compared with.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ class ReferenceTia {
 
   explicit ReferenceTia(const Window& window);
 
-  void open_frame(int T);       // section 2, action 1; what was T becomes 0
-  void reset_in_frame();        // section 13, the frame staying open
+  void open_frame(int T);  // section 2, action 1; what was T becomes 0
+  void reset_in_frame();   // section 13, the frame staying open
   void write(int T, unsigned reg, std::uint8_t value);
   unsigned read(int T, unsigned reg);  // D7 and D6 of $00-$07
   void touch(int T) { draw_to(3 * T); }

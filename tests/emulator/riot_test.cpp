@@ -7,7 +7,8 @@
 namespace racebeam::test {
 namespace {
 
-constexpr unsigned kSWCHA = 0x280, kSWACNT = 0x281, kSWCHB = 0x282, kSWBCNT = 0x283, kINTIM = 0x284, kINSTAT = 0x285;
+constexpr unsigned kSWCHA = 0x280, kSWACNT = 0x281, kSWCHB = 0x282, kSWBCNT = 0x283, kINTIM = 0x284,
+                   kINSTAT = 0x285;
 constexpr unsigned kTIM1T = 0x294, kTIM8T = 0x295, kTIM64T = 0x296, kT1024T = 0x297;
 
 struct Read {
@@ -27,7 +28,8 @@ void check_timer(unsigned reg, unsigned value, int cycle, std::initializer_list<
 TEST_CASE("Case 1: RAM and timers at power-on come from the generator") {
   SystemGenerator generator(4753849);
   Console console(std::make_shared<Rom>(4096, std::uint8_t{0x02}), ntsc(), generator);  // JAM: nothing runs
-  const std::uint8_t first[] = {0xB8, 0x96, 0xC0, 0x49, 0xCB, 0x55, 0xC8, 0x7F}, last[] = {0xAB, 0x14, 0x6F, 0xC0};
+  const std::uint8_t first[] = {0xB8, 0x96, 0xC0, 0x49, 0xCB, 0x55, 0xC8, 0x7F},
+                     last[] = {0xAB, 0x14, 0x6F, 0xC0};
   CHECK(std::equal(std::begin(first), std::end(first), console.ram().begin()));
   CHECK(std::equal(std::begin(last), std::end(last), console.ram().end() - 4));
   // Draw 129 was the construction's; 130 and 131 are the resets'.
@@ -42,30 +44,62 @@ TEST_CASE("Case 1: RAM and timers at power-on come from the generator") {
 }
 
 TEST_CASE("Case 2: TIM8T through its expiry, read in time") {
-  check_timer(kTIM8T, 3, 100, {{kINTIM, 101, 0x02}, {kINTIM, 108, 0x02}, {kINTIM, 109, 0x01}, {kINTIM, 117, 0x00},
-                               {kINTIM, 124, 0x00}, {kINTIM, 125, 0xFF}, {kINSTAT, 125, 0x80}, {kINTIM, 126, 0xFE},
-                               {kINSTAT, 126, 0x00}, {kINTIM, 127, 0xFE}, {kINTIM, 134, 0xFD}, {kINTIM, 200, 0xF5}});
+  check_timer(kTIM8T, 3, 100,
+              {{kINTIM, 101, 0x02},
+               {kINTIM, 108, 0x02},
+               {kINTIM, 109, 0x01},
+               {kINTIM, 117, 0x00},
+               {kINTIM, 124, 0x00},
+               {kINTIM, 125, 0xFF},
+               {kINSTAT, 125, 0x80},
+               {kINTIM, 126, 0xFE},
+               {kINSTAT, 126, 0x00},
+               {kINTIM, 127, 0xFE},
+               {kINTIM, 134, 0xFD},
+               {kINTIM, 200, 0xF5}});
 }
 
 TEST_CASE("Case 3: TIM8T read late for the first time") {
-  check_timer(kTIM8T, 3, 100, {{kINSTAT, 140, 0x80}, {kINTIM, 140, 0xEF}, {kINTIM, 141, 0xEE}, {kINTIM, 148, 0xEE},
-                               {kINTIM, 149, 0xED}});
+  check_timer(kTIM8T, 3, 100,
+              {{kINSTAT, 140, 0x80},
+               {kINTIM, 140, 0xEF},
+               {kINTIM, 141, 0xEE},
+               {kINTIM, 148, 0xEE},
+               {kINTIM, 149, 0xED}});
 }
 
 TEST_CASE("Case 4: TIM1T") {
-  check_timer(kTIM1T, 5, 1000, {{kINTIM, 1001, 0x04}, {kINTIM, 1005, 0x00}, {kINTIM, 1006, 0xFF}, {kINTIM, 1007, 0xFD},
-                                {kINTIM, 1008, 0xFC}, {kINTIM, 1010, 0xFA}, {kINTIM, 1300, 0xD8}});
+  check_timer(kTIM1T, 5, 1000,
+              {{kINTIM, 1001, 0x04},
+               {kINTIM, 1005, 0x00},
+               {kINTIM, 1006, 0xFF},
+               {kINTIM, 1007, 0xFD},
+               {kINTIM, 1008, 0xFC},
+               {kINTIM, 1010, 0xFA},
+               {kINTIM, 1300, 0xD8}});
 }
 
 TEST_CASE("Case 5: TIM64T, and what clears INSTAT") {
-  check_timer(kTIM64T, 2, 2000, {{kINSTAT, 2128, 0x00}, {kINSTAT, 2129, 0x80}, {kINTIM, 2129, 0xFF}, {kINSTAT, 2200, 0x80},
-                                 {kINTIM, 2300, 0x52}, {kINSTAT, 2301, 0x00}, {kINTIM, 2364, 0x51}});
+  check_timer(kTIM64T, 2, 2000,
+              {{kINSTAT, 2128, 0x00},
+               {kINSTAT, 2129, 0x80},
+               {kINTIM, 2129, 0xFF},
+               {kINSTAT, 2200, 0x80},
+               {kINTIM, 2300, 0x52},
+               {kINSTAT, 2301, 0x00},
+               {kINTIM, 2364, 0x51}});
 }
 
 TEST_CASE("Case 6: T1024T, and TIM64T set to 0") {
-  check_timer(kT1024T, 1, 3000, {{kINTIM, 3001, 0x00}, {kINTIM, 4024, 0x00}, {kINTIM, 4025, 0xFF}, {kINTIM, 4026, 0xFE},
-                                 {kINTIM, 5050, 0xFD}, {kINTIM, 7000, 0xFC}});
-  check_timer(kTIM64T, 0, 3000, {{kINTIM, 3001, 0xFF}, {kINTIM, 3002, 0xFE}, {kINTIM, 3003, 0xFE}, {kINTIM, 3100, 0xFD}});
+  check_timer(kT1024T, 1, 3000,
+              {{kINTIM, 3001, 0x00},
+               {kINTIM, 4024, 0x00},
+               {kINTIM, 4025, 0xFF},
+               {kINTIM, 4026, 0xFE},
+               {kINTIM, 5050, 0xFD},
+               {kINTIM, 7000, 0xFC}});
+  check_timer(kTIM64T, 0, 3000,
+              {{kINTIM, 3001, 0xFF}, {kINTIM, 3002, 0xFE}, {kINTIM, 3003, 0xFE}, {kINTIM, 3100, 0xFD}});
 }
 
 TEST_CASE("Case 7: the ports") {

@@ -10,8 +10,8 @@
 namespace racebeam::test {
 namespace {
 
-// As in the specification's cases: byte k of slice s is 16s + (k mod 16). For the detection of on-board RAM the first
-// 256 bytes of each bank are all 16s + 3.
+// As in the specification's cases: byte k of slice s is 16s + (k mod 16). For the detection of on-board RAM
+// the first 256 bytes of each bank are all 16s + 3.
 Rom filled(std::size_t size, std::size_t slice, bool ram_ports = false) {
   Rom rom(size);
   for (std::size_t i = 0; i < size; ++i)
@@ -24,11 +24,15 @@ Rom patched(Rom rom, std::size_t at, std::initializer_list<std::uint8_t> bytes) 
   return rom;
 }
 
-void expect_scheme(Bench& bench, const std::string& name) { REQUIRE(std::string(bench.board.slot.scheme.name) == name); }
+void expect_scheme(Bench& bench, const std::string& name) {
+  REQUIRE(std::string(bench.board.slot.scheme.name) == name);
+}
 
 void touch(Bench& bench, unsigned address, bool by_write) {
-  if (by_write) bench.write_at(0, address, 0xFF);
-  else bench.see(address);
+  if (by_write)
+    bench.write_at(0, address, 0xFF);
+  else
+    bench.see(address);
 }
 
 TEST_CASE("2K shows twice, 4K once, whatever the three address bits above say") {
@@ -56,9 +60,9 @@ struct BankScheme {
 };
 
 constexpr BankScheme kBankSchemes[] = {
-    {"F8", 8192, false, 0x1FF8, 1, true},    {"F8SC", 8192, true, 0x1FF8, 1, true},
-    {"F6", 16384, false, 0x1FF6, 0, true},   {"F6SC", 16384, true, 0x1FF6, 0, true},
-    {"F4", 32768, false, 0x1FF4, 0, true},   {"F4SC", 32768, true, 0x1FF4, 0, false},
+    {"F8", 8192, false, 0x1FF8, 1, true},  {"F8SC", 8192, true, 0x1FF8, 1, true},
+    {"F6", 16384, false, 0x1FF6, 0, true}, {"F6SC", 16384, true, 0x1FF6, 0, true},
+    {"F4", 32768, false, 0x1FF4, 0, true}, {"F4SC", 32768, true, 0x1FF4, 0, false},
 };
 
 void check_bank(Bench& bench, const Rom& rom, unsigned bank) {
@@ -99,7 +103,8 @@ TEST_CASE("On-board RAM is written at one port and read at the other") {
     Bench bench(rom);
     for (unsigned i = 0; i < 128; ++i) bench.write_at(0, 0x1000 + i, 200 - i);
     for (unsigned i = 0; i < 128; ++i) {
-      CHECK(int{bench.see(0x1000 + i)} == int{rom[scheme.initial * 4096 + i]});  // reading the write port changes nothing
+      CHECK(int{bench.see(0x1000 + i)} ==
+            int{rom[scheme.initial * 4096 + i]});  // reading the write port changes nothing
       CHECK(bench.see(0x1080 + i) == 200 - i);
       bench.write_at(0, 0x1080 + i, 1);  // nor does writing the read port
       CHECK(bench.see(0x1080 + i) == 200 - i);
@@ -129,7 +134,8 @@ TEST_CASE("Case 3: F8SC") {
   SystemGenerator generator(4753849);
   Console console(std::make_shared<Rom>(rom), ntsc(), generator);
   const int first[] = {0xC3, 0x39, 0x1D, 0x72};
-  for (unsigned i = 0; i < 4; ++i) CHECK(int{console.peek(static_cast<std::uint16_t>(0x1080 + i))} == first[i]);
+  for (unsigned i = 0; i < 4; ++i)
+    CHECK(int{console.peek(static_cast<std::uint16_t>(0x1080 + i))} == first[i]);
   Bench bench(rom);
   CHECK(int{bench.see(0x1105)} == 0x15);
   bench.write_at(0, 0x1FF8, 0);

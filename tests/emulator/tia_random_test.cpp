@@ -1,6 +1,6 @@
-// Random sequences of TIA accesses on the machine and on the model of reference_tia.hpp: pictures, collisions and
-// registers must be the same after every frame. Frames share two buffers, repeat what the one before did with small
-// changes, end inside the window or beyond it, and are now and then reset or restored.
+// Random sequences of TIA accesses on the machine and on the model of reference_tia.hpp: pictures, collisions
+// and registers must be the same after every frame. Frames share two buffers, repeat what the one before did
+// with small changes, end inside the window or beyond it, and are now and then reset or restored.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
@@ -15,11 +15,11 @@ namespace {
 struct Style {
   std::vector<unsigned> registers;
   std::vector<unsigned> values;
-  int longest_gap;     // cycles between two accesses
-  int reads_percent;   // of accesses
-  bool kernel;         // the same accesses on every line, as a game's kernel makes them
-  int cuts;            // percent of frames that end inside the window
-  int mutations;       // percent of accesses that change from line to line, or from frame to frame
+  int longest_gap;    // cycles between two accesses
+  int reads_percent;  // of accesses
+  bool kernel;        // the same accesses on every line, as a game's kernel makes them
+  int cuts;           // percent of frames that end inside the window
+  int mutations;      // percent of accesses that change from line to line, or from frame to frame
 };
 
 class Random {
@@ -30,7 +30,9 @@ class Random {
   bool percent(int chance) { return below(100) < chance; }
   unsigned byte() { return static_cast<unsigned>(below(256)); }
   template <class T>
-  T of(const std::vector<T>& list) { return list[static_cast<std::size_t>(below(static_cast<int>(list.size())))]; }
+  T of(const std::vector<T>& list) {
+    return list[static_cast<std::size_t>(below(static_cast<int>(list.size())))];
+  }
 
  private:
   std::mt19937 engine_;
@@ -78,13 +80,15 @@ Style random_style(Random& random) {
 Access random_access(Random& random, const Style& style, int cycle) {
   const bool any_value = random.percent(30);
   if (random.percent(style.reads_percent))
-    return {random.percent(70) ? Access::kLatches : Access::kInput, cycle, static_cast<unsigned>(random.below(8)), 0};
-  return {Access::kWrite, cycle, random.of(style.registers), any_value ? random.byte() : random.of(style.values)};
+    return {random.percent(70) ? Access::kLatches : Access::kInput, cycle,
+            static_cast<unsigned>(random.below(8)), 0};
+  return {Access::kWrite, cycle, random.of(style.registers),
+          any_value ? random.byte() : random.of(style.values)};
 }
 
-// Seven cycles or more lie between most accesses; two in one cycle is what INC or JSR do.
+// Three cycles or more lie between the accesses of two instructions; two in one cycle are pushes.
 int random_gap(Random& random, const Style& style) {
-  return random.percent(5) ? 0 : random.between(2, 2 + style.longest_gap);
+  return random.percent(5) ? 0 : random.between(3, 3 + style.longest_gap);
 }
 
 void mutate(Random& random, const Style& style, Script& script) {
@@ -118,9 +122,11 @@ Script with_blank(Random& random, const Style& style, const Script& script, int 
   const bool anything = random.percent(50);
   for (int cycle = 0; cycle < blank_cycles && random.percent(70); cycle += 4) {
     whole.push_back(random_access(random, style, cycle));
-    if (anything && whole.back().kind == Access::kWrite) whole.back().reg = static_cast<unsigned>(random.below(CXCLR + 1));
+    if (anything && whole.back().kind == Access::kWrite)
+      whole.back().reg = static_cast<unsigned>(random.below(CXCLR + 1));
   }
-  const auto first = std::find_if(script.begin(), script.end(), [&](const Access& a) { return a.cycle > blank_cycles; });
+  const auto first =
+      std::find_if(script.begin(), script.end(), [&](const Access& a) { return a.cycle > blank_cycles; });
   whole.insert(whole.end(), first, script.end());
   return whole;
 }
@@ -131,7 +137,8 @@ Script random_scene(Random& random) {
   const int density = random.of(std::vector<int>{5, 20, 60});
   for (unsigned reg = NUSIZ0; reg <= RESMP1; ++reg)
     if (random.percent(density)) scene.push_back({Access::kWrite, random.below(100), reg, random.byte()});
-  std::stable_sort(scene.begin(), scene.end(), [](const Access& a, const Access& b) { return a.cycle < b.cycle; });
+  std::stable_sort(scene.begin(), scene.end(),
+                   [](const Access& a, const Access& b) { return a.cycle < b.cycle; });
   return scene;
 }
 
@@ -142,7 +149,16 @@ void add_cosmic(Random& random, Script& script, int cycles) {
   script.push_back({Access::kWrite, at + 3, HMOVE, 0});
   script.push_back({Access::kWrite, at + 24, HMM0, 0x60});
   script.push_back({Access::kWrite, at + 27, ENAM0, 0x02});
-  std::stable_sort(script.begin(), script.end(), [](const Access& a, const Access& b) { return a.cycle < b.cycle; });
+  std::stable_sort(script.begin(), script.end(),
+                   [](const Access& a, const Access& b) { return a.cycle < b.cycle; });
+}
+
+Script with_pushes(Script script) {
+  for (std::size_t i = 1; i < script.size(); ++i)
+    if (script[i].cycle - script[i - 1].cycle < 3)
+      for (Access* access : {&script[i - 1], &script[i]})
+        if (access->kind == Access::kWrite) access->kind = Access::kPush;
+  return script;
 }
 
 void play_series(unsigned seed, int frames) {
@@ -158,19 +174,23 @@ void play_series(unsigned seed, int frames) {
   Script script = random_script(random, style, cycles);
   if (random.percent(15)) add_cosmic(random, script, cycles);
   Comparison machines(properties, pal);
-  machines.play(random_scene(random), cycles);
+  machines.play(with_pushes(random_scene(random)), cycles);
   machines.next_frame(cycles + kLineCycles);
   bool saved = false;
   for (int frame = 0; frame < frames; ++frame) {
     INFO("frame " << frame);
     const int until = random.percent(style.cuts) ? random.below(cycles) : cycles;
-    machines.play(random.percent(60) ? with_blank(random, style, script, blank) : script, until);
-    if (random.percent(5)) machines.reset_in_frame();
-    else machines.next_frame(random.percent(90) ? cycles + kLineCycles : until + random.below(100));
+    machines.play(with_pushes(random.percent(60) ? with_blank(random, style, script, blank) : script), until);
+    if (random.percent(5))
+      machines.reset_in_frame();
+    else
+      machines.next_frame(random.percent(90) ? cycles + kLineCycles : until + random.below(100));
     if (saved && random.percent(10)) machines.restore();
     if (random.percent(10)) machines.save(), saved = true;
-    if (random.percent(10)) script = random_script(random, style, cycles);
-    else mutate(random, style, script);
+    if (random.percent(10))
+      script = random_script(random, style, cycles);
+    else
+      mutate(random, style, script);
   }
 }
 

@@ -42,8 +42,8 @@ struct Write {
 // S0, then these, then everything is drawn.
 Bench played(std::initializer_list<Write> writes) {
   Bench bench;
-  for (const auto& [reg, x, value] : {std::tuple{COLUBK, 10, 0x0E}, {COLUPF, 13, 0x34}, {COLUP0, 16, 0x56},
-                                      {COLUP1, 19, 0x78}})
+  for (const auto& [reg, x, value] :
+       {std::tuple{COLUBK, 10, 0x0E}, {COLUPF, 13, 0x34}, {COLUP0, 16, 0x56}, {COLUP1, 19, 0x78}})
     bench.write(0, x, reg, static_cast<unsigned>(value));
   for (const Write& w : writes) bench.write(w.line, w.x, w.reg, w.value);
   bench.write(250, 0, VSYNC, 0);
@@ -69,8 +69,9 @@ TEST_CASE("Case 1: score mode colours a lone playfield even under priority") {
 }
 
 TEST_CASE("Case 2: a playfield write acts from the next block of four pixels on") {
-  const std::pair<int, std::string> cases[] = {{24, ""}, {25, ""}, {26, ""}, {27, ""}, {28, "16-19:34"},
-                                               {29, "16-23:34"}, {30, "16-23:34"}, {31, "16-27:34"}};
+  const std::pair<int, std::string> cases[] = {{24, ""},         {25, ""},         {26, ""},
+                                               {27, ""},         {28, "16-19:34"}, {29, "16-23:34"},
+                                               {30, "16-23:34"}, {31, "16-27:34"}};
   for (const auto& [x, expected] : cases) {
     INFO("x = " << x);
     check_rows(played({{50, 0, PF1, 0xFF}, {50, x, PF1, 0x00}}), {{16, expected}});
@@ -78,9 +79,17 @@ TEST_CASE("Case 2: a playfield write acts from the next block of four pixels on"
 }
 
 TEST_CASE("Case 3: a player that is placed anew is left out for a line, unless its start is met") {
-  check_rows(played({{1, 0, GRP0, 0xFF}, {40, 23, RESP0, 0}, {41, 30, RESP0, 0}, {50, 10, RESP0, 0},
+  check_rows(played({{1, 0, GRP0, 0xFF},
+                     {40, 23, RESP0, 0},
+                     {41, 30, RESP0, 0},
+                     {50, 10, RESP0, 0},
                      {60, 22, RESP0, 0}}),
-             {{6, "0-7:56"}, {7, "6-13:56"}, {8, "27-34:56"}, {15, "27-34:56"}, {16, ""}, {17, "3-10:56"},
+             {{6, "0-7:56"},
+              {7, "6-13:56"},
+              {8, "27-34:56"},
+              {15, "27-34:56"},
+              {16, ""},
+              {17, "3-10:56"},
               {26, "3-10:56"}});
 }
 
@@ -90,30 +99,44 @@ TEST_CASE("Case 4: an HMOVE in vertical blank blanks the start of row 0") {
 
 TEST_CASE("Case 5: how far HMOVE moves depends on its cycle") {
   constexpr unsigned kMotions[] = {0x70, 0x60, 0x10, 0x00, 0xF0, 0x90, 0x80};
-  struct Case { int x; int moved[7]; };
-  constexpr Case kCases[] = {{3, {-7, -6, -1, 0, 1, 7, 8}},  {8, {-3, -3, -1, 0, 1, 7, 8}},
-                             {16, {3, 3, 3, 3, 3, 7, 8}},    {20, {6, 6, 6, 6, 6, 7, 8}},
-                             {60, {-5, -4, 0, 0, 0, 0, 0}},  {73, {-15, -14, -9, -8, -7, -1, 0}}};
+  struct Case {
+    int x;
+    int moved[7];
+  };
+  constexpr Case kCases[] = {{3, {-7, -6, -1, 0, 1, 7, 8}}, {8, {-3, -3, -1, 0, 1, 7, 8}},
+                             {16, {3, 3, 3, 3, 3, 7, 8}},   {20, {6, 6, 6, 6, 6, 7, 8}},
+                             {60, {-5, -4, 0, 0, 0, 0, 0}}, {73, {-15, -14, -9, -8, -7, -1, 0}}};
   for (const Case& c : kCases)
     for (std::size_t i = 0; i < 7; ++i) {
       INFO("x = " << c.x << ", HMBL = " << hex(kMotions[i]));
       const std::string expected = std::to_string(56 + c.moved[i]) + ":34";
-      check_rows(played({{1, 0, ENABL, 2}, {1, 40, RESBL, 0}, {1, 43, HMBL, kMotions[i]}, {2, c.x, HMOVE, 0}}),
-                 {{1, expected}});
+      check_rows(
+          played({{1, 0, ENABL, 2}, {1, 40, RESBL, 0}, {1, 43, HMBL, kMotions[i]}, {2, c.x, HMOVE, 0}}),
+          {{1, expected}});
     }
 }
 
 TEST_CASE("Case 6: Cosmic Ark's stars") {
-  check_rows(played({{1, 0, ENAM0, 2}, {33, 5, HMM0, 0x70}, {33, 60, RESM0, 0}, {34, 3, HMOVE, 0},
+  check_rows(played({{1, 0, ENAM0, 2},
+                     {33, 5, HMM0, 0x70},
+                     {33, 60, RESM0, 0},
+                     {34, 3, HMOVE, 0},
                      {34, 24, HMM0, 0x60}}),
-             {{0, "0-7:00 109:56"}, {1, "76-77:56"}, {2, ""}, {3, "59:56"}, {4, "41:56"}, {5, "8-9:56"}, {6, ""},
+             {{0, "0-7:00 109:56"},
+              {1, "76-77:56"},
+              {2, ""},
+              {3, "59:56"},
+              {4, "41:56"},
+              {5, "8-9:56"},
+              {6, ""},
               {7, "151:56"}});
 }
 
 TEST_CASE("Case 7: late in a line the playfield is turned round only from the next one on") {
   const std::string copied = "0-3:34 80-83:34", mirrored = "0-3:34 156-159:34";
-  check_rows(played({{1, 0, PF0, 0x10}, {40, 48, CTRLPF, 1}, {42, 48, CTRLPF, 0}, {44, 50, CTRLPF, 1}}),
-             {{6, mirrored}, {7, mirrored}, {8, copied}, {9, copied}, {10, copied}, {11, mirrored}, {12, mirrored}});
+  check_rows(
+      played({{1, 0, PF0, 0x10}, {40, 48, CTRLPF, 1}, {42, 48, CTRLPF, 0}, {44, 50, CTRLPF, 1}}),
+      {{6, mirrored}, {7, mirrored}, {8, copied}, {9, copied}, {10, copied}, {11, mirrored}, {12, mirrored}});
 }
 
 TEST_CASE("Case 8: a collision is seen once its pixel is drawn, and never under VBLANK") {
@@ -138,7 +161,8 @@ Bench paddles_released_at(int line) {
   return bench;
 }
 
-TEST_CASE("Case 9: a paddle's capacitor is charged after a time, if it was let go in this frame or just before") {
+TEST_CASE(
+    "Case 9: a paddle's capacitor is charged after a time, if it was let go in this frame or just before") {
   Bench same = paddles_released_at(20);
   CHECK((same.read_at(9303, kINPT0) & 0x80) == 0);
   CHECK((same.read_at(9304, kINPT0) & 0x80) == 0x80);
@@ -170,7 +194,11 @@ TEST_CASE("Case 10: without VSYNC a frame closes with the first write after line
 // What the reference writes ahead of the beam (section 6), on a frame that closes inside the window.
 
 TEST_CASE("A picture that stops after a group of four has begun shows the whole group") {
-  struct Case { std::initializer_list<Write> enable; int last_cycle; std::string expected; };
+  struct Case {
+    std::initializer_list<Write> enable;
+    int last_cycle;
+    std::string expected;
+  };
   const Case cases[] = {
       // Only the background: nothing is grouped. COLUBK at cycle 42: 126 - 68 = 58 pixels.
       {{}, 42, "58-159:00"},
