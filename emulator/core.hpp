@@ -29,7 +29,8 @@ struct Core {
   const std::uint8_t* code = nullptr;  // the bytes of the instruction that runs
 
   explicit Core(Board& on, std::int32_t instructions)
-      : board(on), cycle(on.state.cycle), budget(instructions), A(on.state.cpu.A), X(on.state.cpu.X), Y(on.state.cpu.Y), SP(on.state.cpu.SP), latch(on.state.cpu.latch) {
+      : board(on), cycle(on.state.cycle), budget(instructions), A(on.state.cpu.A), X(on.state.cpu.X),
+        Y(on.state.cpu.Y), SP(on.state.cpu.SP), latch(on.state.cpu.latch) {
     jump(on.state.cpu.PC);
     set_status(on.state.cpu.P);
   }
