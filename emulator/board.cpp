@@ -17,6 +17,8 @@ constexpr std::uint64_t bit(unsigned reg) { return std::uint64_t{1} << reg; }
 constexpr std::uint64_t kSpecialRegisters = bit(VSYNC) | bit(VBLANK) | bit(WSYNC) | bit(AUDC0) | bit(AUDC1) |
                                             bit(AUDF0) | bit(AUDF1) | bit(AUDV0) | bit(AUDV1) | bit(HMCLR);
 
+std::size_t ram_beside_state(const Scheme& scheme) { return scheme.ram > kRamInState ? scheme.ram : 0; }
+
 constexpr int kLineLimit = 290, kLineLimitPal = 342;
 
 }  // namespace
@@ -24,10 +26,13 @@ constexpr int kLineLimit = 290, kLineLimitPal = 342;
 Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
     : video{properties.ystart, properties.height, properties.hmove_blanks, false},
       tia(state.tia, state.frame, video),
-      slot{*rom, detect_scheme(*rom), state.cartridge, map},
+      cartridge_ram(ram_beside_state(scheme_of(*rom, properties.scheme))),
+      slot{*rom, scheme_of(*rom, properties.scheme), state, {}, map},
       rom_(std::move(rom)),
       ports_(properties),
-      plain_registers_(slot.scheme.owns_low_page ? 0 : ~kSpecialRegisters) {
+      plain_registers_(slot.scheme.watches_tia ? 0 : ~kSpecialRegisters) {
+  slot.ram = cartridge_ram.empty() ? std::span(state.cartridge.ram).first(slot.scheme.ram) : std::span(cartridge_ram);
+  if (slot.scheme.power_on != nullptr) slot.scheme.power_on(slot);
   map_memory();
 }
 
@@ -55,6 +60,7 @@ void Board::open_frame() {
   state.riot.late_read -= now;
   state.frame.dump_release -= now;
   state.frame.vsync_finish -= 3 * now;
+  state.frame.cartridge_clock -= now;
   state.tia.hmove_clock -= 3 * now;
   state.cycle = 0;
   state.tia.origin = -phase;
@@ -96,25 +102,24 @@ std::uint8_t Board::read(std::uint16_t address, std::uint8_t latch, std::int32_t
 std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
   if (address & 0x1000) {
     code.span = 0;  // the bank may change
-    return slot.scheme.read(slot, address);
+    return slot.scheme.read(slot, address, cycle);
   }
   return address & 0x0080 ? read_riot(address, cycle) : read_tia(address, latch, cycle);
 }
 
 // WSYNC, which most lines have, goes the shortest way.
 std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
-  const bool plain = address == WSYNC && cycle < overlong_cycle_ && !slot.scheme.owns_low_page;
+  const bool plain = address == WSYNC && cycle < overlong_cycle_ && !slot.scheme.watches_tia;
   return plain ? write_wsync(cycle, after_read) : write_anywhere(address, value, cycle, after_read);
 }
 
 std::int32_t Board::write_anywhere(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
-  const bool cartridge = (address & 0x1000) != 0;
-  if (cartridge || (slot.scheme.owns_low_page && (address & 0x1FFF) < 0x40)) {
+  const bool to_cartridge = (address & 0x1000) != 0, to_tia = (address & 0x1080) == 0;
+  if (to_cartridge || (to_tia && slot.scheme.watches_tia)) {
     code.span = 0;
-    slot.scheme.write(slot, address, value);
+    if (slot.scheme.write(slot, address, value) == Delivery::kTaken) return cycle;
   }
-  if (cartridge && !slot.scheme.owns_low_page) return cycle;
-  if (cartridge || (address & 0x0080) == 0) return write_tia(address, value, cycle, after_read);
+  if (to_cartridge || to_tia) return write_tia(address, value, cycle, after_read);
   write_riot(address, value, cycle);
   return cycle;
 }
@@ -145,6 +150,10 @@ void Board::touch_tia(std::int32_t cycle) {
 std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
   const unsigned reg = address & 0x0F;
   const FrameState& frame = state.frame;
+  if (slot.scheme.watches_tia) [[unlikely]] {
+    code.span = 0;
+    slot.scheme.read(slot, address, cycle);
+  }
   std::uint8_t driven = 0;
   if (reg < 8) {
     driven = collision_bits(reg, cycle);

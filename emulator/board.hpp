@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "emulator/memory_map.hpp"
 #include "emulator/ports.hpp"
@@ -24,6 +25,7 @@ class Board {
   Video video;
   Tia tia;
   Sound sound;
+  std::vector<std::uint8_t> cartridge_ram;  // what doesn't fit into the state; mostly none
   Slot slot;
   CodeWindow code;    // where the CPU fetches; nowhere after the map has changed
   bool stop = false;  // the frame has closed: the CPU ends after this instruction

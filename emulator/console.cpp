@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "emulator/board.hpp"
@@ -76,7 +78,7 @@ void Console::Impl::reset() {
   blank(pictures.current);
   blank(pictures.previous);
   const Scheme& scheme = board.slot.scheme;
-  power_on.fill_cartridge(std::span(state().cartridge.ram).first(scheme.ram), state().drawn);
+  if (scheme.random_ram) power_on.fill_cartridge(board.slot.ram, state().drawn);
   scheme.reset(board.slot);
   board.map_memory();
   reset_cpu(board);
@@ -147,9 +149,18 @@ Sound& Console::sound() { return impl_->board.sound; }
 const Sound& Console::sound() const { return impl_->board.sound; }
 const State& Console::state() const { return impl_->board.state; }
 
-void Console::restore(const State& state) {
-  impl_->board.state = state;
-  impl_->board.map_memory();
+std::span<const std::uint8_t> Console::cartridge_ram() const { return impl_->board.cartridge_ram; }
+
+void Console::restore(const State& state, std::span<const std::uint8_t> cartridge_ram) {
+  Board& board = impl_->board;
+  if (cartridge_ram.size() != board.cartridge_ram.size()) {
+    throw std::invalid_argument("the state has " + std::to_string(cartridge_ram.size()) +
+                                " bytes of cartridge RAM; the cartridge that runs has " +
+                                std::to_string(board.cartridge_ram.size()));
+  }
+  board.state = state;
+  std::ranges::copy(cartridge_ram, board.cartridge_ram.begin());
+  board.map_memory();
 }
 
 Format Console::format() const { return impl_->format; }

@@ -31,8 +31,12 @@ class Console {
   const Sound& sound() const;
   const State& state() const;     // the whole machine, one trivially copyable value
 
-  // The machine alone: exact in everything but what undrawn rows of the two pictures show.
-  void restore(const State& state);
+  // RAM on the cartridge that `state` has no room for (E7, 3E, CV, AR, MC); mostly empty. It belongs to a saved state.
+  std::span<const std::uint8_t> cartridge_ram() const;
+
+  // The machine alone: exact in everything but what undrawn rows of the two pictures show. Throws
+  // std::invalid_argument, and changes nothing, when `cartridge_ram` is not as large as this console's.
+  void restore(const State& state, std::span<const std::uint8_t> cartridge_ram = {});
 
   Format format() const;          // kNtsc, kPal, kPal60 or kSecam: detected, or from the properties
   bool has_paddles() const;       // either port

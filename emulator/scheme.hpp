@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -19,28 +20,43 @@ struct Scheme;
 struct Slot {
   const Rom& rom;
   const Scheme& scheme;
-  CartridgeState& state;
+  State& machine;
+  std::span<std::uint8_t> ram;  // the scheme's: in the state if it fits there, else beside it
   MemoryMap& map;
+  CartridgeState& state = machine.cartridge;
 };
+
+// What happens to a write once the cartridge has seen it.
+enum class Delivery : bool { kTaken, kToTia };
 
 struct Scheme {
   std::string_view name;
+  unsigned image;                // bytes of an image, at least
   unsigned hotspot;              // Atari's family: offset in 4K of the first hot spot, number of banks, initial bank
   std::uint8_t banks, initial;
-  unsigned ram;                  // bytes on the cartridge, filled at every reset
-  bool owns_low_page;            // takes part in accesses to $0000-$003F
+  unsigned ram;                  // bytes on the cartridge
+  bool random_ram;               // filled at every reset
+  bool watches_tia;              // takes part in accesses to the TIA's addresses
 
   void (*reset)(Slot&);                                 // initial banks
   void (*map)(Slot&);                                   // shows what the banks select
-  std::uint8_t (*read)(Slot&, std::uint16_t address);   // of a hidden page
-  void (*write)(Slot&, std::uint16_t address, std::uint8_t value);  // of any cartridge address, or the low page
+  std::uint8_t (*read)(Slot&, std::uint16_t address, std::int32_t cycle);  // of a hidden page, or seen at the TIA
+  Delivery (*write)(Slot&, std::uint16_t address, std::uint8_t value);  // of any cartridge address, or seen at the TIA
+  void (*power_on)(Slot&) = nullptr;                    // what is not zero before the first reset
 };
 
-// The scheme of an image by its size and signatures; throws std::invalid_argument when none fits, or the one that
-// does is not built.
-const Scheme& detect_scheme(const Rom& rom);
+// RAM of at most this size is part of the state; larger RAM lies in a block of its own, so that the state of the many
+// cartridges that have little stays small.
+constexpr std::size_t kRamInState = std::tuple_size_v<decltype(CartridgeState::ram)>;
 
-// The name alone, built or not; empty when none fits.
+// The scheme of an image by its size and signatures, or the one that is asked for by name. Throws
+// std::invalid_argument when none fits, no scheme has that name, or the image is too small for it.
+const Scheme& scheme_of(const Rom& rom, std::string_view asked_for = {});
+
+// The detected name; empty when none fits.
 std::string_view scheme_name(const Rom& rom);
+
+// All names that can be asked for.
+std::span<const std::string_view> scheme_names();
 
 }  // namespace racebeam

@@ -90,11 +90,12 @@ struct FrameState {
   std::uint8_t open = 0;                    // the last step ended without closing its frame
   std::uint8_t greyed = 0;                  // and its undrawn rows have been greyed
   std::uint8_t spare = 0;
+  std::uint32_t cartridge_clock = 0;        // cycle at which a cartridge with a clock (DPC) last looked at it
 };
 
 struct CartridgeState {
   std::array<std::uint8_t, 8> bank{};   // what each window shows; its meaning is the scheme's
-  std::array<std::uint8_t, 256> ram{};  // on-board RAM of the SC schemes
+  std::array<std::uint8_t, 256> ram{};  // on-board RAM, or registers; larger RAM lies beside the state (scheme.hpp)
 };
 
 struct State {
@@ -111,6 +112,6 @@ struct State {
 static_assert(sizeof(TiaRegisters) == 48);
 static_assert(std::is_trivially_copyable_v<State>);
 static_assert(std::has_unique_object_representations_v<State>);  // no padding, no floats
-static_assert(sizeof(State) <= 2048);
+static_assert(sizeof(State) <= 640);
 
 }  // namespace racebeam

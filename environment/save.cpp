@@ -39,6 +39,7 @@ std::shared_ptr<const Environment::Saved> Environment::Impl::save(bool with_rand
   auto saved = std::make_shared<Saved>();
   saved->identity = identity;
   saved->values = {console.state(), play, rule.tally(), console.sound(), audio};
+  saved->cartridge_ram.assign(console.cartridge_ram().begin(), console.cartridge_ram().end());
   saved->properties = properties;
   saved->pictures = console.pictures();
   saved->height = console.height();
@@ -48,7 +49,7 @@ std::shared_ptr<const Environment::Saved> Environment::Impl::save(bool with_rand
 
 void Environment::Impl::restore(const Saved& saved) {
   check(saved);
-  console.restore(saved.values.machine);
+  console.restore(saved.values.machine, saved.cartridge_ram);
   console.restore_pictures(saved.pictures);
   console.sound() = saved.values.sound;
   rule.restore(saved.values.tally);
@@ -74,7 +75,7 @@ void Environment::Impl::restore_classic(const Saved& saved) {
   restored.ram_is_stale = 1;
   restored.stale_ram = play.stale_ram;
   if (play.ram_is_stale == 0) std::ranges::copy(console.ram(), restored.stale_ram.begin());
-  console.restore(saved.values.machine);
+  console.restore(saved.values.machine, saved.cartridge_ram);
   rule.restore(saved.values.tally);
   play = restored;
 }

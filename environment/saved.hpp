@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "emulator/picture.hpp"
 #include "emulator/properties.hpp"
@@ -42,6 +43,7 @@ class Environment::Saved {
 
   Identity identity;
   Values values;
+  std::vector<std::uint8_t> cartridge_ram;  // Console::cartridge_ram()
   Properties properties;  // of the console
   Pictures pictures;      // shared with it until it draws again
   int height = 0;         // rows of them that are shown

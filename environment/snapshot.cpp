@@ -32,10 +32,11 @@ struct Prefix {
   Identity identity;
   std::int32_t height;  // rows of a picture
   std::uint32_t has_random;
+  std::uint32_t cartridge_ram;  // bytes of it
 
   std::size_t picture_size() const { return static_cast<std::size_t>(height) * kScreenWidth; }
   std::size_t size_of_rest() const {
-    return sizeof(Values) + 2 * picture_size() + (has_random != 0 ? sizeof(GeneratorWords) : 0);
+    return sizeof(Values) + cartridge_ram + 2 * picture_size() + (has_random != 0 ? sizeof(GeneratorWords) : 0);
   }
 };
 
@@ -120,11 +121,13 @@ std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved) {
   prefix.identity = saved.identity;
   prefix.height = saved.height;
   prefix.has_random = saved.random.has_value();
+  prefix.cartridge_ram = static_cast<std::uint32_t>(saved.cartridge_ram.size());
 
   std::vector<std::uint8_t> bytes(sizeof(Header));
   bytes.reserve(sizeof(Header) + sizeof(Prefix) + prefix.size_of_rest());
   append(bytes, prefix);
   append(bytes, saved.values);
+  bytes.insert(bytes.end(), saved.cartridge_ram.begin(), saved.cartridge_ram.end());
   append_pixels(bytes, *saved.pictures.current, prefix.picture_size());
   append_pixels(bytes, *saved.pictures.previous, prefix.picture_size());
   if (saved.random) append(bytes, words_of(*saved.random));
@@ -155,6 +158,8 @@ std::shared_ptr<const Environment::Saved> from_bytes(std::span<const std::uint8_
   saved->properties = environment.game().properties_for(environment.image().md5);
   saved->height = prefix.height;
   saved->values = take<Values>(bytes);
+  saved->cartridge_ram.assign(bytes.begin(), bytes.begin() + prefix.cartridge_ram);
+  bytes = bytes.subspan(prefix.cartridge_ram);
   saved->pictures.current = take_picture(bytes, prefix.picture_size());
   saved->pictures.previous = take_picture(bytes, prefix.picture_size());
   if (prefix.has_random != 0) saved->random = generator_of(take<GeneratorWords>(bytes));

@@ -16,7 +16,7 @@
 
 namespace racebeam {
 
-constexpr std::uint32_t kSnapshotVersion = 1;
+constexpr std::uint32_t kSnapshotVersion = 2;
 
 std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved);
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "emulator/scheme.hpp"
 #include "games/game_lists.hpp"
 #include "games/rule_compiler.hpp"
 #include "games/toml_section.hpp"
@@ -37,6 +38,8 @@ Properties properties_of(const Section& section) {
   made.right_difficulty_a = section.choice("right_difficulty", difficulties) == 1;
   made.hmove_blanks = section.flag("hmove_blanks").value_or(made.hmove_blanks);
   made.format = static_cast<Format>(section.choice("format", formats).value_or(0));
+  const std::vector<std::string> schemes(scheme_names().begin(), scheme_names().end());
+  if (const auto number = section.choice("scheme", schemes)) made.scheme = scheme_names()[static_cast<std::size_t>(*number)];
   made.ystart = section.number("ystart").value_or(made.ystart);
   made.height = section.number("height").value_or(made.height);
   return made;
@@ -45,7 +48,7 @@ Properties properties_of(const Section& section) {
 GameImage read_image(const TomlSource& source, const toml::table& table) {
   const Section section(source, table, "image");
   section.allow({"md5", "left", "right", "swap_ports", "swap_paddles", "left_difficulty", "right_difficulty",
-                 "hmove_blanks", "format", "ystart", "height", "accepted"});
+                 "hmove_blanks", "format", "scheme", "ystart", "height", "accepted"});
   GameImage image{.md5 = section.text("md5").value_or(""),
                   .properties = properties_of(section),
                   .accepted = section.flag("accepted").value_or(true)};

@@ -1,6 +1,7 @@
 // Atari's own schemes. 2K and 4K: the image as it is. F8, F6, F4: two, four or eight banks of 4K, selected by touching
 // the addresses up to $1FF9 or $1FFB. With SC ("super chip"): 128 bytes of RAM, written at $1000-$107F and read at
-// $1080-$10FF; the write port reads as ROM.
+// $1080-$10FF; the write port reads as ROM. CBS's FA is the same with three banks and 256 bytes, $1000-$10FF and
+// $1100-$11FF.
 #pragma once
 
 #include "emulator/scheme.hpp"
@@ -8,20 +9,19 @@
 namespace racebeam::atari {
 
 constexpr unsigned kBankSize = 4096;
-constexpr unsigned kRamPort = 128;
 
 inline const std::uint8_t* bank(const Slot& slot) { return slot.rom.data() + kBankSize * slot.state.bank[0]; }
 
 inline void reset(Slot& slot) { slot.state.bank[0] = slot.scheme.initial; }
 
 inline void map_plain(Slot& slot) {
-  const unsigned size = slot.scheme.hotspot;  // of the image: 2K shows twice
+  const unsigned size = slot.scheme.image;  // 2K shows twice
   for (unsigned offset = 0; offset < kBankSize; offset += size) slot.map.show(offset, slot.rom.data(), size);
 }
 
 inline void map(Slot& slot) {
   slot.map.show(0, bank(slot), kBankSize - MemoryMap::kPageSize);
-  if (slot.scheme.ram != 0) slot.map.show(kRamPort, slot.state.ram.data(), kRamPort);
+  slot.map.show(slot.scheme.ram, slot.ram.data(), slot.scheme.ram);
   slot.map.hide(kBankSize - MemoryMap::kPageSize, MemoryMap::kPageSize);
 }
 
@@ -32,21 +32,22 @@ inline void touch(Slot& slot, std::uint16_t address) {
   map(slot);
 }
 
-inline std::uint8_t read(Slot& slot, std::uint16_t address) {
+inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {
   touch(slot, address);
   return bank(slot)[address & 0xFFF];
 }
 
-inline void write_ram(Slot& slot, std::uint16_t address, std::uint8_t value) {
+inline Delivery write_ram(Slot& slot, std::uint16_t address, std::uint8_t value) {
   const unsigned offset = address & 0xFFF;
-  if (slot.scheme.ram != 0 && offset < kRamPort) slot.state.ram[offset] = value;
+  if (offset < slot.scheme.ram) slot.ram[offset] = value;
+  return Delivery::kTaken;
 }
 
-inline void write(Slot& slot, std::uint16_t address, std::uint8_t value) {
+inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t value) {
   touch(slot, address);
-  write_ram(slot, address, value);
+  return write_ram(slot, address, value);
 }
 
-inline void ignore_write(Slot&, std::uint16_t, std::uint8_t) {}
+inline Delivery ignore_write(Slot&, std::uint16_t, std::uint8_t) { return Delivery::kTaken; }
 
 }  // namespace racebeam::atari

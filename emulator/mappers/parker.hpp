@@ -28,11 +28,14 @@ inline void touch(Slot& slot, std::uint16_t address) {
   slot.map.show(kSlice * (hotspot / 8), slice(slot, hotspot / 8), kSlice);
 }
 
-inline std::uint8_t read(Slot& slot, std::uint16_t address) {
+inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {
   touch(slot, address);
   return slice(slot, 3)[address & (kSlice - 1)];
 }
 
-inline void write(Slot& slot, std::uint16_t address, std::uint8_t) { touch(slot, address); }
+inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t) {
+  touch(slot, address);
+  return Delivery::kTaken;
+}
 
 }  // namespace racebeam::parker

@@ -1,5 +1,6 @@
 // The table of schemes, and which one an image has (spec: cartridges.md, section 2).
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <span>
 #include <stdexcept>
@@ -7,35 +8,55 @@
 
 #include "emulator/mappers/activision.hpp"
 #include "emulator/mappers/atari.hpp"
+#include "emulator/mappers/commavid.hpp"
+#include "emulator/mappers/dpc.hpp"
+#include "emulator/mappers/dynacom.hpp"
+#include "emulator/mappers/megacart.hpp"
+#include "emulator/mappers/mnetwork.hpp"
 #include "emulator/mappers/parker.hpp"
+#include "emulator/mappers/starpath.hpp"
 #include "emulator/mappers/tigervision.hpp"
+#include "emulator/mappers/ua.hpp"
+#include "emulator/mappers/unmapped.hpp"
 #include "emulator/scheme.hpp"
 
 namespace racebeam {
 namespace {
 
-std::uint8_t no_hidden_page(Slot&, std::uint16_t) { return 0; }
+std::uint8_t no_hidden_page(Slot&, std::uint16_t, std::int32_t) { return 0; }
 
 // F4SC's hot spots react to reads only.
-void write_f4sc(Slot& slot, std::uint16_t address, std::uint8_t value) { atari::write_ram(slot, address, value); }
+Delivery write_f4sc(Slot& slot, std::uint16_t address, std::uint8_t value) { return atari::write_ram(slot, address, value); }
 
+// clang-format off
 constexpr Scheme kSchemes[] = {
-    // name  hotspot  banks initial ram  low page  reset                map                read            write
-    {"2K",   2048,      1, 0,   0, false, atari::reset,       atari::map_plain,  no_hidden_page, atari::ignore_write},
-    {"4K",   4096,      1, 0,   0, false, atari::reset,       atari::map_plain,  no_hidden_page, atari::ignore_write},
-    {"F8",   0xFF8,     2, 1,   0, false, atari::reset,       atari::map,        atari::read,    atari::write},
-    {"F8SC", 0xFF8,     2, 1, 128, false, atari::reset,       atari::map,        atari::read,    atari::write},
-    {"F6",   0xFF6,     4, 0,   0, false, atari::reset,       atari::map,        atari::read,    atari::write},
-    {"F6SC", 0xFF6,     4, 0, 128, false, atari::reset,       atari::map,        atari::read,    atari::write},
-    {"F4",   0xFF4,     8, 0,   0, false, atari::reset,       atari::map,        atari::read,    atari::write},
-    {"F4SC", 0xFF4,     8, 0, 128, false, atari::reset,       atari::map,        atari::read,    write_f4sc},
-    {"E0",   0,         0, 0,   0, false, parker::reset,      parker::map,       parker::read,   parker::write},
-    {"FE",   0,         0, 0,   0, false, activision::reset,  activision::map,   no_hidden_page, atari::ignore_write},
-    {"3F",   0,         0, 0,   0, true,  tigervision::reset, tigervision::map,  no_hidden_page, tigervision::write},
+    // name         image hotspot banks init   ram  random  TIA    reset                   map                  read             write
+    {"2K",           2048, 0,      1, 0,     0, false, false, atari::reset,           atari::map_plain,    no_hidden_page,  atari::ignore_write},
+    {"4K",           4096, 0,      1, 0,     0, false, false, atari::reset,           atari::map_plain,    no_hidden_page,  atari::ignore_write},
+    {"F8",           8192, 0xFF8,  2, 1,     0, false, false, atari::reset,           atari::map,          atari::read,     atari::write},
+    {"F8 swapped",   8192, 0xFF8,  2, 0,     0, false, false, atari::reset,           atari::map,          atari::read,     atari::write},
+    {"F8SC",         8192, 0xFF8,  2, 1,   128, true,  false, atari::reset,           atari::map,          atari::read,     atari::write},
+    {"F6",          16384, 0xFF6,  4, 0,     0, false, false, atari::reset,           atari::map,          atari::read,     atari::write},
+    {"F6SC",        16384, 0xFF6,  4, 0,   128, true,  false, atari::reset,           atari::map,          atari::read,     atari::write},
+    {"F4",          32768, 0xFF4,  8, 0,     0, false, false, atari::reset,           atari::map,          atari::read,     atari::write},
+    {"F4SC",        32768, 0xFF4,  8, 0,   128, true,  false, atari::reset,           atari::map,          atari::read,     write_f4sc},
+    {"FASC",        12288, 0xFF8,  3, 2,   256, true,  false, atari::reset,           atari::map,          atari::read,     atari::write},
+    {"E0",           8192, 0,      0, 0,     0, false, false, parker::reset,          parker::map,         parker::read,    parker::write},
+    {"E7",          16384, 0,      0, 0,  2048, true,  false, mnetwork::reset,        mnetwork::map,       mnetwork::read,  mnetwork::write},
+    {"FE",           8192, 0,      0, 0,     0, false, false, activision::reset,      activision::map,     no_hidden_page,  atari::ignore_write},
+    {"DPC",         10240, 0xFF8,  2, 1,     0, false, false, dpc::reset,             dpc::map,            dpc::read,       dpc::write, dpc::power_on},
+    {"3F",           2048, 0,      0, 0,     0, false, true,  tigervision::reset,     tigervision::map,    no_hidden_page,  tigervision::write},
+    {"3E",           2048, 0,      0, 0, 32768, true,  true,  tigervision::reset_3e,  tigervision::map_3e, no_hidden_page,  tigervision::write_3e},
+    {"UA",           8192, 0,      2, 0,     0, false, true,  atari::reset,           ua::map,             ua::read,        ua::write},
+    {"CV",           2048, 0,      0, 0,  1024, true,  false, commavid::reset_empty,  commavid::map,       no_hidden_page,  commavid::write},
+    {"CV 4K",        4096, 0,      0, 0,  1024, false, false, commavid::reset_filled, commavid::map,       no_hidden_page,  commavid::write},
+    {"AR",           8448, 0,      0, 0,  6144, true,  false, starpath::reset,        starpath::map,       starpath::read,  starpath::write},
+    {"MB",          65536, 0xFF0, 16, 1,     0, false, false, atari::reset,           atari::map,          dynacom::read,   dynacom::write},
+    {"MC",         131072, 0,      0, 0, 32768, true,  true,  megacart::reset,        megacart::map,       megacart::read,  megacart::write},
+    {"0840",            1, 0,      0, 0,     0, false, false, unmapped::reset,        unmapped::map,       no_hidden_page,  atari::ignore_write},
+    {"4A50",            1, 0,      0, 0,     0, false, false, unmapped::reset,        unmapped::map,       no_hidden_page,  atari::ignore_write},
 };
-
-// Recognised, so that nothing is taken for what it is not, and refused.
-constexpr std::string_view kNotBuilt[] = {"E7", "FASC", "3E", "UA", "DPC", "AR", "CV", "MB", "MC"};
+// clang-format on
 
 using Signature = std::initializer_list<std::uint8_t>;
 
@@ -123,7 +144,7 @@ std::string_view scheme_name(const Rom& rom) {
   if (!rom.empty() && rom.size() % 8448 == 0) return "AR";
   switch (rom.size()) {
     case 2048: return is_cv(rom) ? "CV" : "2K";
-    case 4096: return is_cv(rom) ? "CV" : halves_equal(rom) ? "2K" : "4K";
+    case 4096: return is_cv(rom) ? "CV 4K" : halves_equal(rom) ? "2K" : "4K";
     case 8192: return name_8k(rom);
     case 10240: case 10495: case 10496: return "DPC";
     case 12288: return "FASC";
@@ -135,16 +156,29 @@ std::string_view scheme_name(const Rom& rom) {
   }
 }
 
-const Scheme& detect_scheme(const Rom& rom) {
-  const std::string_view name = scheme_name(rom);
-  for (const Scheme& scheme : kSchemes)
-    if (scheme.name == name) return scheme;
+const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {
+  const std::string_view name = asked_for.empty() ? scheme_name(rom) : asked_for;
   const std::string size = std::to_string(rom.size()) + " bytes";
-  if (std::find(std::begin(kNotBuilt), std::end(kNotBuilt), name) != std::end(kNotBuilt))
-    throw std::invalid_argument("the image (" + size + ") needs the cartridge scheme " + std::string(name) +
-                                ", which is not emulated yet");
-  throw std::invalid_argument("no cartridge scheme fits an image of " + size +
-                              "; 2048, 4096, 8192, 16384 and 32768 bytes are usual");
+  if (name.empty()) {
+    throw std::invalid_argument("no cartridge scheme fits an image of " + size +
+                                "; 2048, 4096, 8192, 16384 and 32768 bytes are usual");
+  }
+  const auto scheme = std::ranges::find(kSchemes, name, &Scheme::name);
+  if (scheme == std::end(kSchemes)) throw std::invalid_argument("there is no cartridge scheme " + std::string(name));
+  if (rom.size() < scheme->image) {
+    throw std::invalid_argument("the cartridge scheme " + std::string(name) + " needs an image of at least " +
+                                std::to_string(scheme->image) + " bytes; this one has " + size);
+  }
+  return *scheme;
+}
+
+std::span<const std::string_view> scheme_names() {
+  static constexpr auto kNames = [] {
+    std::array<std::string_view, std::size(kSchemes)> names;
+    std::ranges::transform(kSchemes, names.begin(), &Scheme::name);
+    return names;
+  }();
+  return kNames;
 }
 
 }  // namespace racebeam

@@ -16,7 +16,6 @@ from concurrent.futures import ThreadPoolExecutor
 from harness import BINARY, SKIPPED, SOURCE, rom
 
 TRACES = os.path.join(os.environ.get("RACEBEAM_SHARED", os.path.join(os.path.dirname(SOURCE), "shared")), "traces")
-LATER = {"pitfall2": "DPC"}  # games whose cartridge scheme is not there yet
 OPTIONS = {"skip": "--frame-skip", "sticky": "--sticky", "rseed": "--seed", "mode": "--mode", "diff": "--difficulty",
            "maxf": "--max-frames"}
 FLAGS = {"avg": "--color-averaging", "audio": "--audio", "ram": "--ram"}
@@ -57,8 +56,6 @@ def replay(game):
         return "skipped", "there is no recording"
     if image is None:
         return "skipped", "there is no image"
-    if game in LATER:
-        return "skipped", f"the cartridge scheme {LATER[game]} is not there yet"
     settings, expected = read_trace(path)
     run = subprocess.run([BINARY, "trace", "--rom", image, "--actions", path, *options_of(settings)],
                          capture_output=True, text=True, timeout=250)
