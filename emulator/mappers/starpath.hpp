@@ -17,18 +17,20 @@ constexpr unsigned kBank = 2048, kBios = 3;
 constexpr unsigned kLoad = 8448, kHeader = 8192, kPage = 256;
 constexpr std::uint16_t kConfigure = 0x1FF8, kLoader = 0x1850;
 
-// A BIOS of our own; the specification has none. It asks for load 0 (from $F80A) or for the one whose number is in $FA
-// (from $F800), and starts it under its configuration by the last six bytes of RAM: CMP $FFF8, JMP to what the load said.
+// A BIOS of our own, since the specification has none; the reference's also shows a picture for some frames. From $F80A
+// it clears RAM and asks for load 0, from $F800 for the load whose number is in $FA. It starts the program by the last
+// six bytes of RAM, CMP $FFF8 and JMP, under the configuration and at the address that came with the load.
 inline constexpr std::uint8_t kBiosCode[] = {
     0xA5, 0xFA,                                      // F800  LDA $FA
-    0x4C, 0x10, 0xF8,                                //       JMP $F810
+    0x4C, 0x18, 0xF8,                                //       JMP $F818
     0xEA, 0xEA, 0xEA, 0xEA, 0xEA,                    //
-    0x78, 0xD8, 0xA2, 0xFF, 0x9A, 0xE8,              // F80A  SEI, CLD, LDX #$FF, TXS, INX
-    0xAA,                                            // F810  TAX     number of the load: A is 0 after a reset
-    0x86, 0x80,                                      //       STX $80
+    0x78, 0xD8, 0xA2, 0xFF, 0x9A,                    // F80A  SEI, CLD, LDX #$FF, TXS
+    0xA9, 0x00, 0xA2, 0x80,                          //       LDA #0, LDX #$80
+    0x95, 0x00, 0xE8, 0xD0, 0xFB,                    // F813  STA 0,X, INX, BNE $F813
+    0x85, 0x80,                                      // F818  STA $80
     0xAD, 0x50, 0xF8,                                //       LDA $F850
     0xA9, 0xCD, 0x85, 0xFA, 0xA9, 0xF8, 0x85, 0xFB,  //       CMP $FFF8 to $FA
-    0xA9, 0xFF, 0x85, 0xFC, 0xA9, 0x4C, 0x85, 0xFD,  //       JMP      to $FD
+    0xA9, 0xFF, 0x85, 0xFC, 0xA9, 0x4C, 0x85, 0xFD,  //       JMP       to $FD
     0xA6, 0x80,                                      //       LDX $80
     0xDD, 0x00, 0xF0,                                //       CMP $F000,X
     0x4C, 0xFA, 0x00,                                //       JMP $00FA
