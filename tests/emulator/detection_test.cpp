@@ -116,7 +116,7 @@ TEST_CASE("Every signature is found") {
          {"3F in 64K", mixed(65536, {{700, {0x85, 0x3F}}, {800, {0x85, 0x3F}}}), "3F"},
          {"3F in any size", mixed(6144, {{700, {0x85, 0x3F}}, {800, {0x85, 0x3F}}}), "3F"},
          {"CV in 2K", mixed(2048, {{700, {0x9D, 0xFF, 0xF3}}}), "CV"},
-         {"CV in 4K", mixed(4096, {{700, {0x99, 0x00, 0xF4}}}), "CV"},
+         {"CV in 4K", mixed(4096, {{700, {0x99, 0x00, 0xF4}}}), "CV 4K"},
          {"E7",
           [] {
             Rom r = mixed(16384);
@@ -146,9 +146,19 @@ TEST_CASE("The search misses the last place, and skips a byte after each hit") {
 }
 
 TEST_CASE("What can't be played is refused with a sentence that says why") {
-  CHECK_THROWS_WITH(detect_scheme(mixed(10240)), Catch::Contains("DPC") && Catch::Contains("10240"));
-  CHECK_THROWS_WITH(detect_scheme(mixed(5000)), Catch::Contains("5000") && Catch::Contains("4096"));
-  CHECK_THROWS_AS(detect_scheme(Rom{}), std::invalid_argument);
+  CHECK_THROWS_WITH(scheme_of(mixed(5000)), Catch::Contains("5000") && Catch::Contains("4096"));
+  CHECK_THROWS_AS(scheme_of(Rom{}), std::invalid_argument);
+  CHECK_THROWS_WITH(scheme_of(mixed(4096), "F9"), Catch::Contains("no cartridge scheme F9"));
+}
+
+TEST_CASE("A scheme that is asked for goes before the detected one, if the image is large enough") {
+  for (const std::string_view name : scheme_names()) {
+    INFO(name);
+    CHECK(scheme_of(mixed(131072), name).name == name);
+    const unsigned least = scheme_of(mixed(131072), name).image;
+    CHECK(scheme_of(mixed(least), name).name == name);
+    CHECK_THROWS_WITH(scheme_of(mixed(least - 1), name), Catch::Contains(std::string(name)) && Catch::Contains(std::to_string(least)));
+  }
 }
 
 }  // namespace

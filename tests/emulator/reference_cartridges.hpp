@@ -1,0 +1,258 @@
+// Models of the cartridge schemes, written from spec/cartridges.md, sections 5 to 10, and from nothing else: each decodes every
+// address anew. They know no memory map, and of emulator/ nothing at all.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace racebeam::test {
+
+using Image = std::vector<std::uint8_t>;
+
+// `a` has 13 bits: a cartridge address, or below $40. Time is in cycles.
+struct CartridgeModel {
+  explicit CartridgeModel(Image bytes) : image(std::move(bytes)) {}
+  virtual ~CartridgeModel() = default;
+  virtual unsigned read(unsigned a, int cycle) = 0;
+  virtual void write(unsigned a, unsigned v) = 0;
+  virtual std::unique_ptr<CartridgeModel> copy() const = 0;
+  Image image;
+};
+
+template <class Model>
+struct Copyable : CartridgeModel {
+  using CartridgeModel::CartridgeModel;
+  std::unique_ptr<CartridgeModel> copy() const override {
+    return std::make_unique<Model>(static_cast<const Model&>(*this));
+  }
+};
+
+struct ModelFasc : Copyable<ModelFasc> {
+  using Copyable::Copyable;
+  unsigned bank = 2;
+  std::array<unsigned, 256> ram{};
+  void access(unsigned a) {
+    if (a >= 0x1FF8 && a <= 0x1FFA) bank = a - 0x1FF8;
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    return a >= 0x1100 && a <= 0x11FF ? ram[a - 0x1100] : image[bank * 4096 + (a & 0xFFF)];
+  }
+  void write(unsigned a, unsigned v) override {
+    access(a);
+    if (a <= 0x10FF) ram[a - 0x1000] = v;
+  }
+};
+
+struct ModelE7 : Copyable<ModelE7> {
+  using Copyable::Copyable;
+  unsigned s = 0, b = 0;
+  std::array<unsigned, 2048> ram{};
+  void access(unsigned a) {
+    if (a >= 0x1FE0 && a <= 0x1FE7) s = a - 0x1FE0;
+    if (a >= 0x1FE8 && a <= 0x1FEB) b = a - 0x1FE8;
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    if (a <= 0x17FF && s < 7) return image[s * 2048 + (a & 0x7FF)];
+    if (a >= 0x1400 && a <= 0x17FF) return ram[a - 0x1400];
+    if (a >= 0x1900 && a <= 0x19FF) return ram[1024 + 256 * b + (a - 0x1900)];
+    return image[7 * 2048 + (a & 0x7FF)];
+  }
+  void write(unsigned a, unsigned v) override {
+    access(a);
+    if (a <= 0x13FF && s == 7) ram[a - 0x1000] = v;
+    if (a >= 0x1800 && a <= 0x18FF) ram[1024 + 256 * b + (a - 0x1800)] = v;
+  }
+};
+
+struct Model3e : Copyable<Model3e> {
+  using Copyable::Copyable;
+  unsigned rom_bank = 0, ram_bank = 0;
+  bool ram_shows = false;
+  std::vector<unsigned> ram = std::vector<unsigned>(32768);
+  unsigned read(unsigned a, int) override {
+    const bool fixed = a >= 0x1800;
+    if (fixed) return image[image.size() - 2048 + (a & 0x7FF)];
+    return ram_shows ? ram[ram_bank * 1024 + (a & 0x3FF)] : image[rom_bank * 2048 + (a & 0x7FF)];
+  }
+  void write(unsigned a, unsigned v) override {
+    if ((a & 0xFFF) == 0x3F) {
+      rom_bank = v % static_cast<unsigned>(image.size() / 2048);
+      ram_shows = false;
+    } else if ((a & 0xFFF) == 0x3E) {
+      ram_bank = v % 32;
+      ram_shows = true;
+    } else if (ram_shows && a >= 0x1400 && a <= 0x17FF) {
+      ram[ram_bank * 1024 + (a & 0x3FF)] = v;
+    }
+  }
+};
+
+struct ModelCv : Copyable<ModelCv> {
+  explicit ModelCv(Image bytes) : Copyable(std::move(bytes)) {
+    if (image.size() == 4096)
+      for (unsigned i = 0; i < 1024; ++i) ram[i] = image[i];
+  }
+  std::array<unsigned, 1024> ram{};
+  unsigned read(unsigned a, int) override {
+    return a <= 0x13FF ? ram[a - 0x1000] : image[image.size() - 2048 + (a & 0x7FF)];
+  }
+  void write(unsigned a, unsigned v) override {
+    if (a >= 0x1400 && a <= 0x17FF) ram[a - 0x1400] = v;
+  }
+};
+
+struct ModelMb : Copyable<ModelMb> {
+  using Copyable::Copyable;
+  unsigned bank = 1;
+  void access(unsigned a) {
+    if (a == 0x1FF0) bank = (bank + 1) % 16;
+  }
+  unsigned read(unsigned a, int) override {
+    access(a);
+    return image[bank * 4096 + (a & 0xFFF)];
+  }
+  void write(unsigned a, unsigned) override { access(a); }
+};
+
+struct ModelMc : Copyable<ModelMc> {
+  using Copyable::Copyable;
+  std::array<unsigned, 4> block{};
+  bool locked = false;
+  std::vector<unsigned> ram = std::vector<unsigned>(32768);
+  unsigned number(unsigned a) {
+    if (a == 0x1FFC || a == 0x1FFD) locked = true;
+    if (a >= 0x1000 && a <= 0x1BFF) locked = false;
+    const unsigned window = (a & 0xC00) >> 10;
+    return window == 3 && locked ? 0xFF : block[window];
+  }
+  unsigned read(unsigned a, int) override {
+    if (a < 0x40) return 0;
+    const unsigned n = number(a);
+    if (n & 0x80) return image[(n & 0x7F) * 1024 + (a & 0x3FF)];
+    unsigned& byte = ram[(n & 0x3F) * 512 + (a & 0x1FF)];
+    if ((a & 0x200) == 0) byte = 0;
+    return byte;
+  }
+  void write(unsigned a, unsigned v) override {
+    if (a >= 0x3C && a <= 0x3F) {
+      block[a - 0x3C] = v;
+      return;
+    }
+    const unsigned n = number(a);
+    if ((n & 0x80) == 0 && (a & 0x200) == 0) ram[(n & 0x3F) * 512 + (a & 0x1FF)] = v;
+  }
+};
+
+// Without a load: there is no RIOT here.
+struct ModelAr : Copyable<ModelAr> {
+  using Copyable::Copyable;
+  unsigned configuration = 0, hold = 0;
+  bool pending = false;
+  std::vector<unsigned> ram = std::vector<unsigned>(6144);
+  void access(unsigned a) {
+    const bool write_enabled = (configuration & 2) != 0;
+    if ((a & 0x0F00) == 0 && (!write_enabled || !pending)) {
+      hold = a & 0xFF;
+      pending = true;
+    } else if (a == 0x1FF8) {
+      pending = false;
+      configuration = hold;
+    }
+  }
+  static constexpr unsigned kBios = 0x100;  // more than a byte: what it is, is not said
+  unsigned read(unsigned a, int) override {
+    static constexpr unsigned kBanks[8][2] = {{2, 3}, {0, 3}, {2, 0}, {0, 2}, {2, 3}, {1, 3}, {2, 1}, {1, 2}};
+    access(a);
+    const unsigned bank = kBanks[configuration >> 2 & 7][a >> 11 & 1];
+    return bank == 3 ? kBios : ram[bank * 2048 + (a & 0x7FF)];
+  }
+  void write(unsigned a, unsigned) override { access(a); }
+};
+
+struct ModelDpc : Copyable<ModelDpc> {
+  using Copyable::Copyable;
+  unsigned bank = 1, rn = 1;
+  std::array<unsigned, 8> top{}, bottom{}, counter{}, flag{};
+  std::array<bool, 8> music{};
+  int base = 0;
+  double fraction = 0;
+
+  void access(unsigned a, bool writes) {
+    if (a == 0x1FF8) bank = 0;
+    if (a == 0x1FF9) bank = 1;
+    if (a <= 0x107F || a >= 0x1FC0 || writes) {
+      const auto b = [&](unsigned bit) { return rn >> bit & 1; };
+      rn = ((rn << 1) & 0xFF) + (1 - (b(7) ^ b(5) ^ b(4) ^ b(3)));
+    }
+  }
+  void set_low(unsigned i, unsigned low) { counter[i] = (counter[i] & 0x700) + low; }
+
+  void update(int cycle) {
+    const double clocks = 15750.0 * (cycle - base) / 1193191.66666667 + fraction;
+    base = cycle;
+    const int w = static_cast<int>(clocks);
+    fraction = clocks - w;
+    for (unsigned i = 5; w >= 1 && i < 8; ++i) {
+      if (!music[i]) continue;
+      int low = 0;
+      if (top[i] != 0) {
+        low = static_cast<int>(counter[i] & 0xFF) - w % static_cast<int>(top[i] + 1);
+        if (low < 0) low += static_cast<int>(top[i]) + 1;
+      }
+      set_low(i, static_cast<unsigned>(low));
+      if (low <= static_cast<int>(bottom[i])) flag[i] = 0;
+      else if (low <= static_cast<int>(top[i])) flag[i] = 0xFF;
+    }
+  }
+
+  unsigned result(unsigned i, unsigned f, int cycle) {
+    static constexpr unsigned kLevels[] = {0, 4, 5, 9, 6, 10, 11, 15};
+    const unsigned display = image[8192 + 2047 - counter[i]];
+    if (f == 0 && i < 4) return rn;
+    if (f == 0) {
+      update(cycle);
+      const auto loud = [&](unsigned m) { return music[m] && flag[m] != 0 ? 1U : 0U; };
+      return kLevels[loud(5) + 2 * loud(6) + 4 * loud(7)];
+    }
+    if (f == 1) return display;
+    if (f == 2) return display & flag[i];
+    return f == 7 ? flag[i] : 0;
+  }
+
+  unsigned read(unsigned a, int cycle) override {
+    access(a, false);
+    if (a >= 0x1040) return image[bank * 4096 + (a & 0xFFF)];
+    const unsigned i = a & 7, f = a >> 3 & 7;
+    if ((counter[i] & 0xFF) == top[i]) flag[i] = 0xFF;
+    else if ((counter[i] & 0xFF) == bottom[i]) flag[i] = 0;
+    const unsigned value = result(i, f, cycle);
+    if (!(i >= 5 && music[i])) counter[i] = (counter[i] + 2047) % 2048;
+    return value;
+  }
+
+  void write(unsigned a, unsigned v) override {
+    access(a, true);
+    if (a < 0x1040 || a > 0x107F) return;
+    const unsigned i = a & 7, f = a >> 3 & 7;
+    if (f == 0) {
+      top[i] = v;
+      flag[i] = 0;
+    } else if (f == 1) {
+      bottom[i] = v;
+    } else if (f == 2) {
+      set_low(i, music[i] ? top[i] : v);
+    } else if (f == 3) {
+      counter[i] = (v & 7) * 256 + (counter[i] & 0xFF);
+      if (i >= 5) music[i] = (v & 0x10) != 0;
+    } else if (f == 6) {
+      rn = 1;
+    }
+  }
+};
+
+}  // namespace racebeam::test
