@@ -104,7 +104,16 @@ std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::
     code.span = 0;  // the bank may change
     return slot.scheme.read(slot, address, cycle);
   }
-  return address & 0x0080 ? read_riot(address, cycle) : read_tia(address, latch, cycle);
+  if (address & 0x0080) return read_riot(address, cycle);
+  if (plain_registers_ == 0) [[unlikely]] return read_watched_tia(address, latch, cycle);
+  return read_tia(address, latch, cycle);
+}
+
+// A cartridge sees the access, too.
+std::uint8_t Board::read_watched_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
+  code.span = 0;
+  slot.scheme.read(slot, address, cycle);
+  return read_tia(address, latch, cycle);
 }
 
 // WSYNC, which most lines have, goes the shortest way.
@@ -150,10 +159,6 @@ void Board::touch_tia(std::int32_t cycle) {
 std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
   const unsigned reg = address & 0x0F;
   const FrameState& frame = state.frame;
-  if (slot.scheme.watches_tia) [[unlikely]] {
-    code.span = 0;
-    slot.scheme.read(slot, address, cycle);
-  }
   std::uint8_t driven = 0;
   if (reg < 8) {
     driven = collision_bits(reg, cycle);

@@ -53,6 +53,7 @@ class Board {
   void map_memory();  // everything that is derived from the state: after a reset or a restored state
 
  private:
+  [[gnu::noinline]] std::uint8_t read_watched_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
   std::uint8_t read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
   std::uint8_t read_riot(std::uint16_t address, std::int32_t cycle);
   void write_riot(std::uint16_t address, std::uint8_t value, std::int32_t cycle);
@@ -70,7 +71,7 @@ class Board {
 
   std::shared_ptr<const Rom> rom_;
   Ports ports_;
-  std::uint64_t plain_registers_;
+  std::uint64_t plain_registers_;  // none if the cartridge watches the TIA
   std::int32_t overlong_cycle_ = 0;  // from this cycle on, a TIA write closes the frame
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
   std::int32_t last_access_ = 0;     // cycle of the last TIA access, for how far the picture is drawn

@@ -21,7 +21,7 @@ struct Properties {
   bool right_difficulty_a = false;
   bool hmove_blanks = true;       // HMOVE leaves its comb of eight black pixels
   Format format = Format::kAuto;
-  std::string_view scheme;        // of the cartridge, a name of scheme_names(); empty: detected
+  std::string_view scheme{};      // of the cartridge, a name of scheme_names(); empty: detected
   int ystart = 34;                // first line of the picture
   int height = 210;               // lines of the picture; 210 becomes 250 for PAL and SECAM
 

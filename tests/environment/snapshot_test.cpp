@@ -4,6 +4,7 @@
 
 #include "environment/saved.hpp"
 #include "environment/snapshot.hpp"
+#include "games/digest.hpp"
 #include "tests/support/counter_image.hpp"
 #include "tests/support/observation.hpp"
 
@@ -41,6 +42,42 @@ TEST_CASE("A state carries its generator through bytes") {
   for (int i = 0; i < 700; ++i) first.act(i % 18);  // past one turn of the generator's 624 words
   second.restore(*from_bytes(to_bytes(*first.save(true)), second));
   CHECK(*second.save(true)->random == *first.save(true)->random);
+}
+
+// 4K of CommaVid's: counts frames in the cartridge's RAM, which a state has no room for, and shows the count at $80.
+std::shared_ptr<const Image> image_with_ram() {
+  std::vector<std::uint8_t> bytes(4096, 0xEA);
+  bytes[0] = 100;  // first contents of the RAM
+  const std::uint8_t code[] = {0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0xA9, 0x00, 0x85, 0x00,  // VSYNC
+                               0xAE, 0x00, 0xF0, 0xE8, 0x8E, 0x00, 0xF4, 0x86, 0x80,                    // count
+                               0x4C, 0x00, 0xF8, 0x9D, 0xFF, 0xF3};                                     // again; signature
+  std::ranges::copy(code, bytes.begin() + 2048);
+  bytes[4093] = bytes[4095] = 0xF8;
+  bytes[4092] = bytes[4094] = 0x00;
+  Image image{std::make_shared<const std::vector<std::uint8_t>>(bytes), md5_of(bytes), "ram"};
+  return std::make_shared<const Image>(std::move(image));
+}
+
+TEST_CASE("A state has the cartridge's RAM, in memory and as bytes") {
+  Environment environment(image_with_ram(), test::game(), {});
+  environment.set_ram(0x11, 0);  // the game is not over
+  for (int i = 0; i < 10; ++i) environment.act(0);
+  const auto saved = environment.save();
+  const int count = environment.ram()[0];
+  const Bytes bytes = to_bytes(*saved);
+  for (int i = 0; i < 5; ++i) environment.act(0);
+  REQUIRE(environment.ram()[0] == count + 5);
+
+  Environment other(image_with_ram(), test::game(), {});
+  for (Environment* restored : {&environment, &other}) {
+    restored->restore(*from_bytes(bytes, *restored));
+    CHECK(to_bytes(*restored->save()) == bytes);
+    for (int i = 0; i < 5; ++i) restored->act(0);
+    CHECK(restored->ram()[0] == count + 5);
+  }
+  environment.restore(*saved);
+  environment.act(0);
+  CHECK(environment.ram()[0] == count + 1);
 }
 
 TEST_CASE("Bytes that are no state are refused") {
