@@ -26,8 +26,8 @@ constexpr int kLineLimit = 290, kLineLimitPal = 342;
 Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
     : video{properties.ystart, properties.height, properties.hmove_blanks, false},
       tia(state.tia, state.frame, video),
-      cartridge_ram(ram_beside_state(scheme_of(*rom, properties.scheme))),
       slot{*rom, scheme_of(*rom, properties.scheme), state, {}, map},
+      cartridge_ram(ram_beside_state(slot.scheme)),
       rom_(std::move(rom)),
       ports_(properties),
       plain_registers_(slot.scheme.watches_tia ? 0 : ~kSpecialRegisters) {
@@ -100,20 +100,15 @@ std::uint8_t Board::read(std::uint16_t address, std::uint8_t latch, std::int32_t
 }
 
 std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
-  if (address & 0x1000) {
-    code.span = 0;  // the bank may change
-    return slot.scheme.read(slot, address, cycle);
-  }
+  if (address & 0x1000) return read_cartridge(address, cycle);
   if (address & 0x0080) return read_riot(address, cycle);
-  if (plain_registers_ == 0) [[unlikely]] return read_watched_tia(address, latch, cycle);
+  if (plain_registers_ == 0) [[unlikely]] read_cartridge(address, cycle);
   return read_tia(address, latch, cycle);
 }
 
-// A cartridge sees the access, too.
-std::uint8_t Board::read_watched_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
-  code.span = 0;
-  slot.scheme.read(slot, address, cycle);
-  return read_tia(address, latch, cycle);
+std::uint8_t Board::read_cartridge(std::uint16_t address, std::int32_t cycle) {
+  code.span = 0;  // the bank may change
+  return slot.scheme.read(slot, address, cycle);
 }
 
 // WSYNC, which most lines have, goes the shortest way.
@@ -123,14 +118,20 @@ std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std:
 }
 
 std::int32_t Board::write_anywhere(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
-  const bool to_cartridge = (address & 0x1000) != 0, to_tia = (address & 0x1080) == 0;
-  if (to_cartridge || (to_tia && slot.scheme.watches_tia)) {
-    code.span = 0;
-    if (slot.scheme.write(slot, address, value) == Delivery::kTaken) return cycle;
+  const bool to_tia = (address & 0x1080) == 0;
+  if (!to_tia || plain_registers_ == 0) {
+    if ((address & 0x1080) == 0x0080) {
+      write_riot(address, value, cycle);
+      return cycle;
+    }
+    if (write_cartridge(address, value) == Delivery::kTaken) return cycle;
   }
-  if (to_cartridge || to_tia) return write_tia(address, value, cycle, after_read);
-  write_riot(address, value, cycle);
-  return cycle;
+  return write_tia(address, value, cycle, after_read);
+}
+
+Delivery Board::write_cartridge(std::uint16_t address, std::uint8_t value) {
+  code.span = 0;  // the bank may change
+  return slot.scheme.write(slot, address, value);
 }
 
 std::uint8_t Board::read_riot(std::uint16_t address, std::int32_t cycle) {

@@ -25,8 +25,8 @@ class Board {
   Video video;
   Tia tia;
   Sound sound;
-  std::vector<std::uint8_t> cartridge_ram;  // what doesn't fit into the state; mostly none
   Slot slot;
+  std::vector<std::uint8_t> cartridge_ram;  // what doesn't fit into the state; mostly none
   CodeWindow code;    // where the CPU fetches; nowhere after the map has changed
   bool stop = false;  // the frame has closed: the CPU ends after this instruction
 
@@ -53,7 +53,8 @@ class Board {
   void map_memory();  // everything that is derived from the state: after a reset or a restored state
 
  private:
-  [[gnu::noinline]] std::uint8_t read_watched_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
+  std::uint8_t read_cartridge(std::uint16_t address, std::int32_t cycle);
+  [[gnu::noinline]] Delivery write_cartridge(std::uint16_t address, std::uint8_t value);
   std::uint8_t read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
   std::uint8_t read_riot(std::uint16_t address, std::int32_t cycle);
   void write_riot(std::uint16_t address, std::uint8_t value, std::int32_t cycle);

@@ -60,24 +60,25 @@ std::shared_ptr<const Image> image_with_ram() {
 
 TEST_CASE("A state has the cartridge's RAM, in memory and as bytes") {
   Environment environment(image_with_ram(), test::game(), {});
-  environment.set_ram(0x11, 0);  // the game is not over
+  environment.set_ram(0x11, 0);  // the game is not over, whatever was there at power-on
+  environment.reset_game();
   for (int i = 0; i < 10; ++i) environment.act(0);
   const auto saved = environment.save();
   const int count = environment.ram()[0];
   const Bytes bytes = to_bytes(*saved);
   for (int i = 0; i < 5; ++i) environment.act(0);
-  REQUIRE(environment.ram()[0] == count + 5);
+  REQUIRE(int{environment.ram()[0]} == count + 5);
 
   Environment other(image_with_ram(), test::game(), {});
   for (Environment* restored : {&environment, &other}) {
     restored->restore(*from_bytes(bytes, *restored));
     CHECK(to_bytes(*restored->save()) == bytes);
     for (int i = 0; i < 5; ++i) restored->act(0);
-    CHECK(restored->ram()[0] == count + 5);
+    CHECK(int{restored->ram()[0]} == count + 5);
   }
   environment.restore(*saved);
   environment.act(0);
-  CHECK(environment.ram()[0] == count + 1);
+  CHECK(int{environment.ram()[0]} == count + 1);
 }
 
 TEST_CASE("Bytes that are no state are refused") {
