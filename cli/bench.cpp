@@ -18,7 +18,8 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter = R"(Processor seconds of this process are counted, of the acts alone; resets are counted apart. Without
+constexpr auto kFooter =
+    R"(Processor seconds of this process are counted, of the acts alone; resets are counted apart. Without
 --actions the game's legal actions are drawn at random from a fixed seed, so that two runs do the same.
 
   --screen every   every frame's screen is produced, also those in the middle of a frame skip
@@ -64,8 +65,7 @@ std::vector<int> random_actions(const std::vector<int>& legal, int count) {
 
 std::vector<int> choose_actions(const BenchOptions& options, const Game& game) {
   if (options.actions.empty()) return random_actions(game.legal_actions, options.frames);
-  std::vector<int> actions;
-  for (const ScriptedAction& step : read_actions(options.actions)) actions.push_back(step.action);
+  const auto actions = read_actions(options.actions);
   if (actions.empty()) throw std::invalid_argument("there are no actions in '" + options.actions + "'");
   return actions;
 }
