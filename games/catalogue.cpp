@@ -53,17 +53,28 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
                               (near.empty() ? "; `racebeam games` lists them" : near + "?"));
 }
 
-Recognition given(std::shared_ptr<const Game> game, RecognisedBy how, const Image& image) {
-  const bool matches = game->accepts(image.md5);
-  return {std::move(game), how, matches};
+bool describes(const Game& game, const Image& image) {
+  return std::ranges::any_of(game.images,
+                             [&](const GameImage& one) { return one.md5.empty() || one.md5 == image.md5; });
+}
+
+// Whatever plays by the game's rule, the console is told what is known about the image (spec: console.md).
+std::shared_ptr<const Game> with_properties_of(const Image& image, std::shared_ptr<const Game> game) {
+  const CatalogueImage* const known = known_image(image.md5);
+  if (known == nullptr || describes(*game, image)) return game;
+  Game more = *game;
+  more.images.push_back({image.md5, parsed(known->entry)->properties_for(image.md5), false});
+  return std::make_shared<const Game>(std::move(more));
+}
+
+Recognition given(const std::shared_ptr<const Game>& game, RecognisedBy how, const Image& image) {
+  return {with_properties_of(image, game), how, game->accepts(image.md5)};
 }
 
 // Nobody's game; but the image may be another dump of a known one, which needs the same controllers.
 Recognition unknown(const Image& image) {
-  Game game = game_without_rule(image.stem);
-  if (const CatalogueImage* known = known_image(image.md5))
-    game.images.push_back({image.md5, parsed(known->entry)->properties_for(image.md5)});
-  return {std::make_shared<const Game>(std::move(game)), RecognisedBy::kNothing, true};
+  auto game = std::make_shared<const Game>(game_without_rule(image.stem));
+  return {with_properties_of(image, std::move(game)), RecognisedBy::kNothing, true};
 }
 
 std::string stem_of(const std::string& path) {
@@ -121,10 +132,10 @@ Recognition recognise(const Image& image, const std::optional<std::string>& game
   if (game_name) {
     auto game = find_game(*game_name);
     if (!game) refuse_name(*game_name);
-    return given(std::move(game), RecognisedBy::kGivenName, image);
+    return given(game, RecognisedBy::kGivenName, image);
   }
   if (auto game = find_game_by_md5(image.md5)) return {std::move(game), RecognisedBy::kMd5, true};
-  if (auto game = find_game(image.stem)) return given(std::move(game), RecognisedBy::kFileName, image);
+  if (auto game = find_game(image.stem)) return given(game, RecognisedBy::kFileName, image);
   return unknown(image);
 }
 

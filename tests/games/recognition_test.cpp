@@ -76,6 +76,14 @@ TEST_CASE(
   CHECK_FALSE(named.md5_matches);
 }
 
+TEST_CASE("a known image keeps its properties when it is scored as another game") {
+  const std::string warlords = "cbe5a166550a8129a5e6d374901dffad";
+  const Recognition found = recognise(image(warlords, "warlords"), "venture");
+  CHECK(found.game->name == "venture");
+  CHECK_FALSE(found.md5_matches);
+  CHECK(found.game->properties_for(warlords).left == Controller::kPaddles);
+}
+
 TEST_CASE("an unknown name is refused with those that are like it") {
   CHECK_THROWS_WITH(recognise(image(kNobody, "x"), "seaqest"),
                     Contains("'seaqest'") && Contains("did you mean seaquest"));
