@@ -1,0 +1,147 @@
+"""Compares racebeam with ALE, frame by frame, on fresh random play. See docs/conformance.md for what is compared.
+
+Without options all games are played in the default settings, 20,000 frames with each of two seeds, and 2,000 frames in
+every other setting: less than an hour on two cores. Results are kept in build/conformance; where a run differs, its picture and its
+actions too. Status: 0 all identical, 1 something is not, 2 the command line makes no sense, 77 nothing to compare with.
+"""
+
+import argparse
+import datetime
+import os
+import pathlib
+import random
+import shlex
+import sys
+
+SKIPPED = 77
+try:
+    import ours
+    from compare import DIFFERENT, FAILED, IDENTICAL, Comparison
+    from images import games as images_of
+    from images import folder as image_folder
+    from plan import plan
+    from pool import results as pool_results
+    from progress import Progress
+    from reference import VERSION as REFERENCE_VERSION
+    from report import markdown
+    from results import Results
+    from run import parse_run
+except ModuleNotFoundError as missing:
+    print(f"skipped: there is nothing to compare with: the Python package {missing.name} is not installed here")
+    sys.exit(SKIPPED)
+
+PATIENCE = 300  # seconds for one run
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(prog="scripts/conformance", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    add = parser.add_argument
+    add("--frames", type=int, default=20000, metavar="N", help="of a run in the default settings (default 20000)")
+    add("--other-frames", type=int, metavar="N", help="of a run in another setting (default 2000, or --frames if fewer)")
+    add("--seed", help="of the first series of runs; 'date' takes today's (default: drawn, and printed)")
+    add("--seeds", type=int, default=2, metavar="N", help="series in the default settings (default 2)")
+    add("--games", metavar="A,B", help="only these games (default: all that there are images of)")
+    add("--settings", choices=["default", "sample", "all"], default="all",
+        help="default: the default settings; sample: these, and one other drawn for each game; all (the default)")
+    add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="processes at once (default: one a processor)")
+    add("--run", action="append", metavar="NAME", help="this run alone, by the name that a report gives it; repeatable")
+    add("--resume", action="store_true", help="go on with the results that are kept")
+    add("--out", type=pathlib.Path, default=ours.SOURCE / "build/conformance", metavar="FOLDER",
+        help="where results, pictures and the report go (default build/conformance)")
+    add("--publish", action="store_true", help="write docs/conformance.md, too")
+    add("--racebeam-options", default="", metavar="WORDS", help="options for racebeam's side alone, e.g. '--cpu interpreter'")
+    return parser, parser.parse_args()
+
+
+def base_seed(text):
+    if text is None:
+        return random.SystemRandom().randrange(1, 10**6)
+    return int(datetime.date.today().strftime("%Y%m%d") if text == "date" else text)
+
+
+def chosen_games(text):
+    known = [game for game in images_of() if game in ours.catalogue()]
+    if not known:
+        print(f"skipped: there are no cartridge images in {image_folder()}")
+        sys.exit(SKIPPED)
+    games = text.split(",") if text else known
+    for game in games:
+        if game not in known:
+            raise ValueError(f"there is no image of '{game}'; there are {', '.join(known)}")
+    return games
+
+
+def chosen_runs(options, seeds):
+    if options.run:
+        return [parse_run(name) for name in options.run], []
+    for name in ("frames", "seeds", "jobs"):
+        if getattr(options, name) < 1:
+            raise ValueError(f"--{name} is {getattr(options, name)}; it must be 1 or more")
+    other_frames = options.other_frames or min(2000, options.frames)
+    return plan(chosen_games(options.games), options.settings, seeds, options.frames, other_frames)
+
+
+def as_result(run, result):
+    """A sentence in place of a result is why the comparison did not come back."""
+    if not isinstance(result, str):
+        return result
+    return {"run": run.name, "verdict": FAILED, "frames": 0, "report": result}
+
+
+def compare_all(runs, options, kept):
+    extra = shlex.split(options.racebeam_options)
+    todo = [run for run in runs if run.name not in kept.results]
+    if len(todo) < len(runs):
+        print(f"{len(runs) - len(todo)} runs are done already")
+    progress = Progress(len(todo))
+    compare = lambda run: Comparison(run, options.out, extra).result()
+    for run, returned in pool_results(compare, todo, options.jobs, PATIENCE):
+        result = as_result(run, returned)
+        kept.add(result)
+        if result["verdict"] != IDENTICAL:
+            progress.say(f"{result['run']}: {result['verdict']}: {result['report']}")
+        progress.step(result["frames"], result["verdict"] == IDENTICAL)
+
+
+def conclude(runs, options, kept, exceptions):
+    """The report; the exit status."""
+    done = [kept.results[run.name] for run in runs if run.name in kept.results]
+    identical = sum(result["verdict"] == IDENTICAL for result in done)
+    text = markdown(done, kept.identity, shlex.join(["scripts/conformance", *command_line()]), exceptions)
+    (options.out / "conformance.md").write_text(text)
+    if options.publish and len(done) == len(runs):
+        (ours.SOURCE / "docs/conformance.md").write_text(text)
+    frames = sum(result["frames"] for result in done)
+    print(f"{identical} of {len(runs)} runs identical, {frames:,} frames, {len(exceptions)} not comparable in part; "
+          f"ale-py {kept.identity['reference']}, seeds {', '.join(map(str, kept.identity['seeds']))}")
+    return 0 if identical == len(runs) else 1
+
+
+def command_line():
+    """As given; where it says nothing of this machine."""
+    return [word for word in sys.argv[1:] if word not in ("--resume", "--publish")]
+
+
+def main():
+    parser, options = parse_arguments()
+    try:
+        first = base_seed(options.seed)
+        identity = {"version": ours.version(), "program": ours.digest(), "reference": REFERENCE_VERSION,
+                    "options": options.racebeam_options, "seeds": [first + i for i in range(options.seeds)]}
+        path = options.out / ("run.jsonl" if options.run else "results.jsonl")
+        kept = Results(path, identity, options.resume)
+        runs, exceptions = chosen_runs(options, kept.identity["seeds"])
+    except (ValueError, OSError) as error:
+        parser.error(str(error))
+    try:
+        compare_all(runs, options, kept)
+    except KeyboardInterrupt:
+        print(f"\nstopped; scripts/conformance --resume goes on where this ended")
+        conclude(runs, options, kept, exceptions)
+        return 130
+    return conclude(runs, options, kept, exceptions)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,99 @@
+"""One run on both sides, line by line; and what to say about the first line that differs."""
+
+import itertools
+import shlex
+
+import ours
+from images import Image, rule_of
+from picture import write_comparison
+from reference import Reference
+from run import step_word
+
+EVENT = {"R": [], "A": ["action", "reward", "over"], "M": ["index", "value"]}
+OBSERVATION = ["lives", "ram", "screen", "audio", "truncated", "frame", "episode frame", "rgb", "grey"]
+IDENTICAL, DIFFERENT, FAILED = "identical", "DIFFERENT", "failed"
+
+
+def fields(line):
+    words = line.split()
+    return dict(zip([*EVENT.get(words[0], []), *OBSERVATION], words[1:]))
+
+
+def differing_fields(theirs, line):
+    """(field, reference, racebeam) of all that differ."""
+    if line.split()[:1] != theirs.split()[:1]:
+        return [("event", theirs.split()[0], line[:1])]
+    a, b = fields(theirs), fields(line)
+    return [(field, a[field], b.get(field, "nothing")) for field in a if a[field] != b.get(field)]
+
+
+def differing_lists(game, reference):
+    """(list, reference, racebeam) of what the game offers."""
+    listed = ours.catalogue().get(rule_of(game), {})
+    sort = lambda key, values: sorted(values) if key in ("modes", "difficulties") else values
+    return [(key, theirs, listed.get(key)) for key, theirs in reference.lists().items()
+            if theirs != sort(key, listed.get(key, []))]
+
+
+class Comparison:
+    def __init__(self, run, folder, extra=()):
+        self.run, self.folder, self.extra = run, folder, extra
+        self.image = Image(run.game)
+        self.steps = list(run.steps())
+        self.played = 0  # steps
+
+    def counted(self):
+        for step in self.steps:
+            self.played += 1
+            yield step
+
+    def result(self):
+        reference = Reference(self.run, self.image)
+        lists = differing_lists(self.run.game, reference)
+        if lists:
+            return self.verdict(DIFFERENT, 0, "what the game offers differs\n" + table(lists))
+        printed = ours.play(self.run, self.image, self.steps, self.extra)
+        for number, (theirs, line) in enumerate(
+                itertools.zip_longest(reference.lines(self.counted()), printed.lines)):
+            if theirs != line:
+                return self.verdict(DIFFERENT, reference.frames,
+                                    self.explain(reference, number, theirs, line, printed.end))
+        if printed.end:
+            return self.verdict(DIFFERENT, reference.frames, f"racebeam ended with {printed.end}")
+        return self.verdict(IDENTICAL, reference.frames, "")
+
+    def verdict(self, verdict, frames, report):
+        return {"run": self.run.name, "verdict": verdict, "frames": frames, "report": report}
+
+    def explain(self, reference, number, theirs, line, end):
+        where = (f"line {number}, frame {reference.ale.getFrameNumber()}, "
+                 f"act {reference.act_of_episode} of episode {reference.episode}")
+        if line is None:
+            return f"{where}: racebeam ended with {end or 'fewer lines'}"
+        differences = differing_fields(theirs or "nothing", line)
+        sight = ours.look(self.run, self.image, self.steps[:self.played], number, self.extra)
+        return "\n".join([f"first difference in {where}", table(differences), *self.evidence(reference, number, sight)])
+
+    def evidence(self, reference, number, sight):
+        """The differing bytes of RAM, a picture, and the commands that show it again."""
+        stem = self.folder / self.run.name.replace(":", "-").replace(",", "-").replace("=", "")
+        self.folder.mkdir(parents=True, exist_ok=True)
+        script = stem.with_name(stem.name + ".actions")
+        script.write_text("\n".join(map(step_word, self.steps[:self.played])) + "\n")
+        command = ours.trace_command(self.run, self.image.path, script, [*self.extra, "--screen-of", str(number)])
+        if sight:
+            bytes_of_ram = [(f"ram[{0x80 + i:02X}]", f"{theirs:02x}", f"{mine:02x}")
+                            for i, (theirs, mine) in enumerate(zip(reference.ram.tobytes(), sight.ram)) if theirs != mine]
+            if bytes_of_ram:
+                yield table(bytes_of_ram[:16])
+            reference.colors()
+            picture = stem.with_name(stem.name + ".png")
+            pixels = write_comparison(picture, reference.screen, reference.rgb, sight.screen, sight.rgb)
+            yield f"  {pixels} pixels differ: {picture} (reference | racebeam | difference)"
+        extra = f" --racebeam-options={shlex.quote(shlex.join(self.extra))}" if self.extra else ""
+        yield f"  again:    scripts/conformance --run {shlex.quote(self.run.name)}{extra}"
+        yield f"  racebeam: {shlex.join(map(str, command))}"
+
+
+def table(differences):
+    return "\n".join(f"  {field:13} reference {theirs}  racebeam {mine}" for field, theirs, mine in differences)

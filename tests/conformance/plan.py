@@ -1,0 +1,51 @@
+"""Which runs the suite consists of."""
+
+import itertools
+import random
+
+import ours
+from exceptions import comparable
+from images import rule_of
+from run import Run
+
+SKIPS, STICKIES, AVERAGINGS = (1, 4), (0, 0.25), (0, 1)
+# In settings other than the default, what else is tried, and in how many runs of 100.
+EXTRAS = (("writes", 25), ("limit", 25), ("lifeloss", 12), ("strengths", 50))
+
+
+def variants(game):
+    """(mode, difficulty): the default, each other mode, each other difficulty. None is the default, left alone."""
+    rule = ours.catalogue()[rule_of(game)]
+    modes = [mode for mode in rule["modes"] if mode != rule["default_mode"]]
+    difficulties = [difficulty for difficulty in rule["difficulties"] if difficulty != 0]
+    return [(None, None), *((mode, None) for mode in modes), *((None, difficulty) for difficulty in difficulties)]
+
+
+def with_extras(run):
+    """The run, with what chance adds to it."""
+    generator, values = random.Random(f"extras {run.name}"), {}
+    for key, percent in EXTRAS:
+        if generator.randrange(100) < percent:
+            values[key] = generator.randrange(60, 1200) if key == "limit" else 1
+    return Run(**{**vars(run), **values})
+
+
+def other_runs(game, seed, frames):
+    """One run in each setting but the default one."""
+    for (mode, difficulty), skip, sticky, averaging in itertools.product(variants(game), SKIPS, STICKIES, AVERAGINGS):
+        if (mode, difficulty, skip, sticky, averaging) != (None, None, 1, 0, 0):
+            yield with_extras(Run(game, mode, difficulty, skip, sticky, averaging, seed=seed, frames=frames))
+
+
+def plan(games, settings, seeds, frames, other_frames):
+    """The runs, big ones first, and how often each exception was made."""
+    runs = [Run(game, seed=seed, frames=frames) for seed in seeds for game in games]
+    for game in games:
+        others = list(other_runs(game, seeds[0], other_frames))
+        if settings == "all":
+            runs += others
+        elif settings == "sample":
+            runs.append(random.Random(f"sample {game} {seeds[0]}").choice(others))
+    pairs = [comparable(run) for run in runs]
+    exceptions = [(run.name, rule) for run, made in pairs for rule in made]
+    return sorted((run for run, _ in pairs), key=lambda run: -run.acts), exceptions

@@ -1,0 +1,72 @@
+"""Work on all processors: a process for each piece, so that one that dies or hangs takes nothing with it."""
+
+import multiprocessing
+import multiprocessing.connection
+import os
+import signal
+import tempfile
+import time
+
+CONTEXT = multiprocessing.get_context("fork")
+
+
+class Task:
+    def __init__(self, function, item, patience):
+        self.item, self.deadline = item, time.monotonic() + patience
+        self.errors = tempfile.TemporaryFile()
+        self.inbox, outbox = CONTEXT.Pipe(duplex=False)
+        self.process = CONTEXT.Process(target=self.work, args=(function, outbox))
+        self.process.start()
+        outbox.close()
+
+    def work(self, function, outbox):
+        """In the child. It has a group of its own: an interrupt is for the parent, which then ends the whole group."""
+        os.setpgid(0, 0)
+        for stream in (1, 2):
+            os.dup2(self.errors.fileno(), stream)
+        outbox.send(function(self.item))
+
+    def result(self):
+        """What the function returned; a sentence (str) if it did not come back."""
+        try:
+            result = self.inbox.recv()
+        except EOFError:
+            self.process.join()
+            result = f"the process ended with status {self.process.exitcode}: {self.last_words()}"
+        self.process.join()
+        return result
+
+    def last_words(self):
+        self.errors.seek(0)
+        lines = self.errors.read().decode(errors="replace").split("\n")
+        return next((line for line in reversed(lines) if line.strip()), "no message")
+
+    def kill(self):
+        try:
+            os.killpg(self.process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            self.process.kill()  # it has no group yet, or is gone
+        self.process.join()
+
+
+def results(function, items, jobs, patience):
+    """(item, result) as they come. A result is what `function(item)` returned, or a sentence if it didn't return."""
+    waiting, running = list(reversed(items)), []
+    try:
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                running.append(Task(function, waiting.pop(), patience))
+            ready = multiprocessing.connection.wait([task.inbox for task in running], timeout=1)
+            for task in list(running):
+                late = time.monotonic() > task.deadline
+                if task.inbox not in ready and not late:
+                    continue
+                running.remove(task)
+                if task.inbox in ready:
+                    yield task.item, task.result()
+                else:
+                    task.kill()
+                    yield task.item, f"not done after {patience} seconds"
+    finally:
+        for task in running:
+            task.kill()

@@ -1,0 +1,91 @@
+"""docs/conformance.md, made of results and of nothing else."""
+
+import collections
+import datetime
+
+from compare import IDENTICAL
+from exceptions import NOT_COMPARABLE
+from images import HOST, WITHOUT_RULE
+from run import COLORS_EVERY, WRITE, parse_run
+
+HEAD = """# Conformance
+
+Made by `scripts/conformance`; not written by hand. racebeam and the reference, ALE through ale-py, play the same random
+actions with the same settings. After every act and every reset these must be the same: the screen's palette indices, RAM, the 512
+samples of sound, reward, game over, truncated, lives, frame number and episode frame number. The pictures in RGB and in grey,
+which follow from the indices, are compared after every act with colour averaging, else in every {every}th line. At loading, modes,
+difficulties, and the legal and minimal actions are compared. Actions are drawn from all 18 and held for four acts in
+the mean; an episode that is over is followed by a reset on both sides.
+
+The default settings are: the game's own mode and difficulty, frame skip 1, no sticky actions, no averaging. The other settings are
+all of {{default, each other mode, each other difficulty}} x frame skip {{1, 4}} x sticky {{0, 0.25}} x colour averaging {{off, on}}.
+By chance some of these runs also write bytes of RAM (before {write:.0%} of the acts), limit an episode's frames, truncate at
+the loss of a life, or turn paddles by random strengths.
+
+    {command}
+
+| | |
+|---|---|
+| date | {date} |
+| racebeam | {version} |
+| reference | ale-py {reference} |
+| seeds | {seeds} |
+"""
+
+
+def is_default(run):
+    return run.setting == (None, None, 1, 0, 0) and not (run.writes or run.limit or run.lifeloss or run.strengths)
+
+
+def row(game, results):
+    runs = [parse_run(result["run"]) for result in results]
+    default = [result["frames"] for run, result in zip(runs, results) if is_default(run)]
+    other = [result["frames"] for run, result in zip(runs, results) if not is_default(run)]
+    bad = sum(result["verdict"] != IDENTICAL for result in results)
+    verdict = "identical" if not bad else f"**{bad} of {len(results)} runs are not identical**"
+    return (f"| {game} | {' + '.join(f'{frames:,}' for frames in default) or '-'} | "
+            f"{len({run.setting for run in runs} - {(None, None, 1, 0, 0)})} | {sum(other):,} | {verdict} |")
+
+
+def totals(results):
+    runs = [parse_run(result["run"]) for result in results]
+    count = lambda key: sum(bool(getattr(run, key)) for run in runs)
+    bad = [result for result in results if result["verdict"] != IDENTICAL]
+    games = {run.game for run in runs}
+    good_games = games - {parse_run(result["run"]).game for result in bad}
+    frames = sum(result["frames"] for result in results)
+    return (f"{len(good_games)} of {len(games)} games are identical in all their runs; {len(results) - len(bad):,} of {len(results):,} runs, "
+            f"{frames:,} frames. Among them {count('writes'):,} runs with writes to RAM, {count('limit'):,} with a limit of "
+            f"frames, {count('lifeloss'):,} truncated at the loss of a life, {count('strengths'):,} with random strengths.")
+
+
+def exceptions(made):
+    counts = collections.Counter(rule for _, rule in made)
+    lines = [f"| {', '.join(rule.games)} | {rule.key} | {counts[rule]} | {rule.reason} |" for rule in NOT_COMPARABLE]
+    return "\n".join(["| game | what | left out of | why |", "|---|---|---|---|",
+                      *(line.replace(" | 0 | ", " | 0 runs | ").replace(" | 1 | ", " | 1 run | ") for line in lines)])
+
+
+def mismatches(results):
+    bad = [result for result in results if result["verdict"] != IDENTICAL]
+    lines = [f"- `{result['run']}`: {result['verdict']}: {result['report'].splitlines()[0]}" for result in bad[:50]]
+    if len(bad) > len(lines):
+        lines.append(f"- and {len(bad) - len(lines)} more")
+    return "\n".join(["## Not identical", "", *lines, ""]) if bad else ""
+
+
+def markdown(results, identity, command, made):
+    by_game = collections.defaultdict(list)
+    for result in results:
+        by_game[parse_run(result["run"]).game].append(result)
+    head = HEAD.format(every=COLORS_EVERY, write=WRITE, command=command, date=datetime.date.today().isoformat(),
+                       version=identity["version"], reference=identity["reference"],
+                       seeds=", ".join(map(str, identity["seeds"])))
+    hosted = ", ".join(game for game in WITHOUT_RULE if game in by_game)
+    parts = [head, "## Verdict", "", totals(results), "", mismatches(results), "## Not comparable", "", exceptions(made), "",
+             "## Games", "", "| game | frames, default settings | other settings | frames in them | verdict |",
+             "|---|---|---|---|---|", *(row(game, by_game[game]) for game in sorted(by_game))]
+    if hosted:
+        parts += ["", f"The reference has no rule for {hosted}: their machines are compared with the actions, rule and "
+                  f"difficulties of {HOST} on both sides."]
+    return "\n".join(parts).replace("\n\n\n", "\n\n") + "\n"

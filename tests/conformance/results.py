@@ -1,0 +1,41 @@
+"""What has been found so far, kept in a file from which a run can be resumed: a line of JSON each."""
+
+import json
+import os
+
+
+class Results:
+    """`identity` names what was compared: results of another program, or another reference, are not taken up."""
+
+    def __init__(self, path, identity, resume):
+        self.path, self.results = path, {}
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self.identity = self.resumed(identity) if resume and path.exists() else None
+        if self.identity is None:
+            self.identity = identity
+            path.write_text(json.dumps(identity) + "\n")
+        self.file = open(path, "a")
+
+    def resumed(self, identity):
+        """The identity kept in the file, and its results. Raises ValueError if they are about something else."""
+        header, *lines = self.path.read_text().splitlines()
+        kept = json.loads(header)
+        for key in ("program", "reference", "options"):
+            if kept.get(key) != identity[key]:
+                raise ValueError(f"can't resume {self.path}: its {key} was {kept.get(key)}, this is {identity[key]}")
+        for line in lines:
+            try:
+                result = json.loads(line)
+            except ValueError:
+                break  # the last one, cut when the suite was stopped
+            self.results[result["run"]] = result
+        text = "".join(json.dumps(line) + "\n" for line in (kept, *self.results.values()))
+        temporary = self.path.with_suffix(".new")
+        temporary.write_text(text)
+        os.replace(temporary, self.path)
+        return kept
+
+    def add(self, result):
+        self.results[result["run"]] = result
+        self.file.write(json.dumps(result) + "\n")
+        self.file.flush()

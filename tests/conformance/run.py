@@ -1,0 +1,89 @@
+"""One run of the suite: a game, its settings, a seed, a number of frames; and what is played in it.
+
+A run's name says all that makes it what it is: `pong:skip=4,sticky=0.25,averaging=1,seed=7,frames=2000` is the same run
+on every machine. What isn't named is at its default.
+"""
+
+import dataclasses
+import random
+from dataclasses import dataclass
+
+HOLD = 0.75  # the probability that an action is held for another act
+WRITE = 0.01  # the probability of a RAM write before an act, in runs with writes
+COLORS_EVERY = 16  # acts; without averaging, the palette indices of a screen say all
+
+
+@dataclass(frozen=True)
+class Run:
+    game: str
+    mode: int | None = None
+    difficulty: int | None = None
+    skip: int = 1
+    sticky: float = 0
+    averaging: int = 0
+    writes: int = 0  # bytes of RAM are written at random moments
+    limit: int = 0  # frames of an episode
+    lifeloss: int = 0  # an episode is truncated when a life is lost
+    strengths: int = 0  # paddles turn by random strengths
+    seed: int = 1
+    frames: int = 2000
+
+    @property
+    def name(self):
+        told = [field for field in dataclasses.fields(self)[1:]
+                if getattr(self, field.name) != field.default or field.name in ("seed", "frames")]
+        return f"{self.game}:" + ",".join(f"{field.name}={getattr(self, field.name)}" for field in told)
+
+    @property
+    def setting(self):
+        """The cell of the table of settings that the run belongs to."""
+        return self.mode, self.difficulty, self.skip, self.sticky, self.averaging
+
+    @property
+    def acts(self):
+        return -(-self.frames // self.skip)
+
+    @property
+    def colors_every(self):
+        return 1 if self.averaging else COLORS_EVERY
+
+    @property
+    def generator_seed(self):
+        """Of sticky actions; never 0, which some take for "from the clock"."""
+        return random.Random(f"generator {self.name}").randrange(1, 1 << 31)
+
+    def steps(self):
+        """What is played: ("A", action, strength) and ("M", index, value)."""
+        generator, action = random.Random(f"steps {self.name}"), 0
+        for _ in range(self.acts):
+            if self.writes and generator.random() < WRITE:
+                yield "M", generator.randrange(128), generator.randrange(256)
+            if generator.random() >= HOLD:
+                action = generator.randrange(18)
+            yield "A", action, generator.randrange(-64, 129) / 64 if self.strengths else 1
+
+
+def parse_run(text):
+    """The run of that name. Raises ValueError with a sentence."""
+    game, _, settings = text.partition(":")
+    kinds = {field.name: float if field.name == "sticky" else int for field in dataclasses.fields(Run)[1:]}
+    values = {}
+    for word in filter(None, settings.split(",")):
+        key, _, value = word.partition("=")
+        if key not in kinds:
+            raise ValueError(f"'{key}' of the run '{text}' is not one of {', '.join(kinds)}")
+        try:
+            values[key] = kinds[key](value)
+        except ValueError:
+            raise ValueError(f"'{value}' is not a value for {key} of the run '{text}'") from None
+    return Run(game, **values)
+
+
+def action_word(action, strength):
+    return f"{action}" if strength == 1 else f"{action}@{strength:.9g}"
+
+
+def step_word(step):
+    """A step as `racebeam trace` reads it."""
+    kind, first, second = step
+    return f"M {first} {second}" if kind == "M" else action_word(first, second)
