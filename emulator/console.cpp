@@ -97,6 +97,7 @@ void Console::Impl::step() {
   board.begin_step(picture);
   run(board, kInstructionsPerStep);
   board.end_step();
+  state().cpu.latch = state().riot.ram.back();  // RAM is looked at over the bus after each step (console.md, section 4)
   if (!frame.open) {
     frame.lines = (3 * state().cycle - state().tia.origin) / kLineClocks;
     frame.greyed = 0;
@@ -185,6 +186,7 @@ std::span<const std::uint8_t, 128> Console::ram() const { return impl_->board.st
 
 void Console::set_ram(int index, std::uint8_t value) {
   impl_->board.state.riot.ram[static_cast<std::size_t>(index)] = value;
+  impl_->board.state.cpu.latch = value;
 }
 
 std::uint8_t Console::peek(std::uint16_t address) const {

@@ -57,29 +57,43 @@ def parse_arguments():
 def base_seed(text):
     if text is None:
         return random.SystemRandom().randrange(1, 10**6)
-    return int(datetime.date.today().strftime("%Y%m%d") if text == "date" else text)
+    if text == "date":
+        return int(datetime.date.today().strftime("%Y%m%d"))
+    if not text.isdecimal():
+        raise ValueError(f"'{text}' is not a seed: a whole number, or 'date'")
+    return int(text)
 
 
-def chosen_games(text):
+def games_with_images():
     known = [game for game in images_of() if game in ours.catalogue()]
     if not known:
         print(f"skipped: there are no cartridge images in {image_folder()}")
         sys.exit(SKIPPED)
-    games = text.split(",") if text else known
+    return known
+
+
+def check_games(games):
+    known = games_with_images()
     for game in games:
         if game not in known:
             raise ValueError(f"there is no image of '{game}'; there are {', '.join(known)}")
     return games
 
 
-def chosen_runs(options, seeds):
-    if options.run:
-        return [parse_run(name) for name in options.run], []
+def check_numbers(options):
     for name in ("frames", "seeds", "jobs"):
         if getattr(options, name) < 1:
             raise ValueError(f"--{name} is {getattr(options, name)}; it must be 1 or more")
+
+
+def chosen_runs(options, seeds):
+    if options.run:
+        runs = [parse_run(name) for name in options.run]
+        check_games([run.game for run in runs])
+        return runs, []
     other_frames = options.other_frames or min(2000, options.frames)
-    return plan(chosen_games(options.games), options.settings, seeds, options.frames, other_frames)
+    games = check_games(options.games.split(",")) if options.games else games_with_images()
+    return plan(games, options.settings, seeds, options.frames, other_frames)
 
 
 def as_result(run, result):
@@ -126,6 +140,7 @@ def command_line():
 def main():
     parser, options = parse_arguments()
     try:
+        check_numbers(options)
         first = base_seed(options.seed)
         identity = {"version": ours.version(), "program": ours.digest(), "reference": REFERENCE_VERSION,
                     "options": options.racebeam_options, "seeds": [first + i for i in range(options.seeds)]}
@@ -137,7 +152,7 @@ def main():
     try:
         compare_all(runs, options, kept)
     except KeyboardInterrupt:
-        print(f"\nstopped; scripts/conformance --resume goes on where this ended")
+        print("\nstopped; scripts/conformance --resume goes on where this ended")
         conclude(runs, options, kept, exceptions)
         return 130
     return conclude(runs, options, kept, exceptions)

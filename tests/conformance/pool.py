@@ -33,7 +33,7 @@ class Task:
         except EOFError:
             self.process.join()
             result = f"the process ended with status {self.process.exitcode}: {self.last_words()}"
-        self.process.join()
+        self.close()
         return result
 
     def last_words(self):
@@ -46,7 +46,12 @@ class Task:
             os.killpg(self.process.pid, signal.SIGKILL)
         except ProcessLookupError:
             self.process.kill()  # it has no group yet, or is gone
+        self.close()
+
+    def close(self):
         self.process.join()
+        self.inbox.close()
+        self.errors.close()
 
 
 def results(function, items, jobs, patience):

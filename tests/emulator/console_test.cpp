@@ -55,6 +55,27 @@ TEST_CASE("The machine is one plain value of at most 2 KiB") {
   STATIC_REQUIRE(std::has_unique_object_representations_v<State>);
 }
 
+// RAM[$FF] = n; the frame is closed by JSR $000E, whose return address goes into VSYNC.
+Bytes fetches_what_the_bus_holds(std::uint8_t n) {
+  return {0xA9, n,    0x85, 0xFF, 0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02,
+          0x85, 0x02, 0xA2, 0x01, 0x9A, 0xEA, 0xEA, 0x20, 0x0E, 0x00};
+}
+
+TEST_CASE("Whoever looks at RAM or writes it leaves the byte on the bus, from which an opcode may be fetched") {
+  constexpr std::uint8_t kJam = 0x12, kRolA = 0x2A;
+  Machine looked_at(fetches_what_the_bus_holds(kJam)), written(fetches_what_the_bus_holds(kRolA));
+  for (Machine* machine : {&looked_at, &written}) {
+    machine->console.step();
+    REQUIRE(machine->console.state().cpu.PC == 0x000E);
+  }
+  written.console.set_ram(0, kJam);
+  for (Machine* machine : {&looked_at, &written}) {
+    machine->console.step();
+    CHECK(machine->console.state().cpu.jammed == 1);
+    CHECK(machine->console.state().cpu.PC == 0x000F);
+  }
+}
+
 TEST_CASE("A restored machine goes on as the saved one did") {
   Machine machine(frames_of(129));
   for (int i = 0; i < 7; ++i) machine.console.step();

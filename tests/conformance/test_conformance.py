@@ -1,0 +1,229 @@
+"""The suite itself: it must find what differs, say where, show it, and never count what it did not compare."""
+
+import json
+import os
+import pathlib
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import zlib
+
+SKIPPED = 77
+FOLDER = pathlib.Path(__file__).resolve().parent
+try:
+    import exceptions
+    import images
+    import ours
+    import plan
+    import pool
+    from run import Run, parse_run
+except ModuleNotFoundError as missing:
+    print(f"skipped: the Python package {missing.name} is not installed here")
+    sys.exit(SKIPPED)
+
+GAME = "pong"
+FREEWAY = ("--games", "freeway", "--racebeam-options=--system-seed 1")  # it shows what was in memory at power-on
+
+
+class Suite(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.out = pathlib.Path(self.temporary.name)
+
+    def command(self, *words):
+        return [sys.executable, "-B", str(FOLDER), "--out", str(self.out), *words]
+
+    def suite(self, *words, binary=None):
+        environment = {**os.environ, **({"RACEBEAM_BINARY": str(binary)} if binary else {})}
+        done = subprocess.run(self.command(*words), capture_output=True, text=True, env=environment, timeout=250)
+        return done.returncode, done.stdout + done.stderr
+
+    def short(self, *words, **more):
+        return self.suite("--games", GAME, "--settings", "default", "--seeds", "1", "--frames", "60", "--seed", "3",
+                          *words, **more)
+
+    def kept(self):
+        return [json.loads(line) for line in (self.out / "results.jsonl").read_text().splitlines()]
+
+
+class Verdicts(Suite):
+    def test_a_game_that_is_the_same(self):
+        status, printed = self.short()
+        self.assertEqual(status, 0, printed)
+        self.assertIn("1 of 1 runs identical, 60 frames", printed)
+        self.assertEqual(list(self.out.glob("*.png")), [])
+        self.assertIn(f"| {GAME} | 60 | 0 | 0 | identical |", (self.out / "conformance.md").read_text())
+
+    def test_another_power_on_is_found_and_shown(self):
+        status, printed = self.short(*FREEWAY)
+        self.assertEqual(status, 1, printed)
+        self.assertRegex(printed, r"first difference in line \d+, frame \d+, act \d+ of episode 1")
+        self.assertRegex(printed, r"ram +reference [0-9a-f]{8}  racebeam [0-9a-f]{8}")
+        self.assertRegex(printed, r"ram\[[89A-F][0-9A-F]\] +reference [0-9a-f]{2}  racebeam [0-9a-f]{2}")
+        self.assertIn("0 of 1 runs identical", printed)
+        self.assertIn("1 of 1 runs are not identical", (self.out / "conformance.md").read_text())
+
+    def test_the_commands_that_it_prints_show_the_difference_again(self):
+        _, printed = self.short(*FREEWAY)
+        again = next(line for line in printed.splitlines() if "again:" in line).split("scripts/conformance ")[1]
+        rerun = subprocess.run(" ".join(map(lambda w: f"'{w}'", self.command())) + " " + again, shell=True,
+                               capture_output=True, text=True, timeout=250)
+        self.assertEqual(rerun.returncode, 1, rerun.stdout + rerun.stderr)
+        self.assertEqual(differences(printed), differences(rerun.stdout))
+        trace = next(line for line in printed.splitlines() if "racebeam: " in line and " trace " in line)
+        traced = subprocess.run(trace.split("racebeam: ")[1], shell=True, capture_output=True, text=True, timeout=250)
+        self.assertEqual(traced.returncode, 0, traced.stderr)
+        self.assertRegex(traced.stdout, r"(?m)^S \d+ [0-9a-f]+ [0-9a-f]+$")
+
+    def test_a_perturbed_rule_is_found_in_the_fields_that_it_changes(self):
+        text = (ours.SOURCE / "games/catalogue" / f"{GAME}.toml").read_text()
+        self.assertIn('lives = "0"', text)
+        rule = self.out / f"{GAME}.toml"
+        rule.write_text(text.replace('lives = "0"', 'lives = "7"'))
+        status, printed = self.short(f"--racebeam-options=--game-file {rule}")
+        self.assertEqual(status, 1, printed)
+        self.assertEqual(differences(printed), ["  lives         reference 0  racebeam 7"])
+
+    def test_pictures_that_differ_are_drawn_beside_each_other(self):
+        status, printed = self.short("--racebeam-options=--color-averaging")
+        self.assertEqual(status, 1, printed)
+        picture, = self.out.glob("*.png")
+        width, height, pixels = read_png(picture)
+        self.assertEqual((width, height), (3 * 320 + 2 * 8, 210))
+        columns = [[row[3 * x:3 * x + 3] for x in range(0, 320, 2)] for row in pixels]
+        other = [[row[3 * x:3 * x + 3] for x in range(328, 648, 2)] for row in pixels]
+        marked = [[row[3 * x:3 * x + 3] == b"\xff\0\xff" for x in range(656, 976, 2)] for row in pixels]
+        self.assertTrue(any(map(any, marked)))
+        for left, right, marks in zip(columns, other, marked):
+            for a, b, mark in zip(left, right, marks):
+                self.assertEqual(a != b, mark)
+
+    def test_a_racebeam_that_does_not_run_is_a_difference(self):
+        broken = self.out / "racebeam"
+        broken.write_text(f'#!/bin/sh\ncase $1 in trace) echo "racebeam: no" >&2; exit 1;; esac\nexec {ours.BINARY} "$@"\n')
+        broken.chmod(0o755)
+        status, printed = self.short(binary=broken)
+        self.assertEqual(status, 1, printed)
+        self.assertIn("racebeam ended with status 1: racebeam: no", printed)
+
+    def test_lines_that_are_missing_are_a_difference(self):
+        short = self.out / "racebeam"
+        short.write_text(f'#!/bin/bash\n[[ $1 == trace ]] || exec {ours.BINARY} "$@"\n{ours.BINARY} "$@" | head -n 20\n')
+        short.chmod(0o755)
+        status, printed = self.short(binary=short)
+        self.assertEqual(status, 1, printed)
+        self.assertIn("racebeam ended with fewer lines", printed)
+
+    def test_machines_without_a_rule_are_compared_too(self):
+        for game in images.WITHOUT_RULE:
+            status, printed = self.suite("--games", game, "--settings", "default", "--seeds", "1", "--frames", "200")
+            self.assertEqual(status, 0, printed)
+
+
+class Keeping(Suite):
+    def test_resuming_plays_only_what_is_missing(self):
+        self.short("--seeds", "2")
+        path = self.out / "results.jsonl"
+        path.write_text(path.read_text()[:-30])  # stopped while it wrote
+        status, printed = self.suite("--games", GAME, "--settings", "default", "--seeds", "2", "--frames", "60", "--resume")
+        self.assertEqual(status, 0, printed)
+        self.assertIn("1 runs are done already", printed)
+        self.assertIn("2 of 2 runs identical", printed)
+        self.assertEqual(len(self.kept()), 3)
+
+    def test_results_of_another_program_are_not_taken_up(self):
+        self.short()
+        status, printed = self.short("--resume", "--racebeam-options=--system-seed 1")
+        self.assertEqual(status, 2)
+        self.assertIn("can't resume", printed)
+
+    def test_an_interrupt_leaves_what_was_done(self):
+        suite = subprocess.Popen(self.command("--frames", "300", "--settings", "all", "--games", GAME, "--jobs", "1"),
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline and not ((self.out / "results.jsonl").exists() and len(self.kept()) > 2):
+            time.sleep(0.05)
+        os.killpg(suite.pid, signal.SIGINT)
+        printed, _ = suite.communicate(timeout=60)
+        self.assertEqual(suite.returncode, 130, printed)
+        self.assertIn("--resume", printed)
+        self.assertNotIn("DIFFERENT", printed)
+        self.assertNotIn("Traceback", printed)
+
+    def test_bad_options_are_refused_with_a_sentence(self):
+        for words, sentence in ((["--games", "pongg"], "there is no image of 'pongg'"),
+                                (["--run", "pong:skipp=2"], "'skipp' of the run"),
+                                (["--run", "pong:skip=x"], "'x' is not a value for skip"),
+                                (["--run", "pongg:seed=2"], "there is no image of 'pongg'"),
+                                (["--seed", "x"], "'x' is not a seed"),
+                                (["--frames", "0"], "--frames is 0")):
+            status, printed = self.suite(*words)
+            self.assertEqual(status, 2, printed)
+            self.assertIn(sentence, printed)
+
+
+class Plans(unittest.TestCase):
+    def test_every_setting_of_every_game_is_there(self):
+        for game in images.games():
+            runs, _ = plan.plan([game], "all", [1, 2], 20000, 2000)
+            default = (None, None, 1, 0, 0)
+            settings = [run.setting for run in runs if run.setting != default]
+            self.assertEqual([run.frames for run in runs if run.setting == default], [20000, 20000])
+            self.assertEqual(len(set(settings)), len(settings))
+            self.assertEqual(len(settings), 8 * len(plan.variants(game)) - 1)
+
+    def test_a_run_is_found_again_by_its_name(self):
+        runs, _ = plan.plan(images.games(), "all", [1, 2], 20000, 2000)
+        for run in runs:
+            self.assertEqual(parse_run(run.name), run)
+        self.assertEqual(len({run.name for run in runs}), len(runs))
+
+    def test_what_is_played_depends_on_the_name_alone(self):
+        one, same, other = (list(Run("pong", seed=seed, writes=1).steps()) for seed in (1, 1, 2))
+        self.assertEqual(one, same)
+        self.assertNotEqual(one, other)
+        self.assertTrue(any(step[0] == "M" for step in one))
+
+    def test_what_is_not_comparable_is_counted_and_the_rest_is_played(self):
+        run = Run("video_cube", mode=4200, limit=254, writes=1)
+        comparable, made = exceptions.comparable(run)
+        self.assertEqual((comparable.limit, comparable.writes, comparable.mode, len(made)), (0, 1, 4200, 1))
+
+
+class Pools(unittest.TestCase):
+    def test_a_piece_that_dies_or_hangs_takes_nothing_with_it(self):
+        pieces = {"fine": lambda: "done" * 1, "dies": lambda: os._exit(3), "hangs": lambda: time.sleep(60)}
+        results = dict(pool.results(lambda name: {"is": pieces[name]()}, list(pieces), 2, 1))
+        self.assertEqual(results["fine"], {"is": "done"})
+        self.assertIn("status 3", results["dies"])
+        self.assertIn("not done after 1 seconds", results["hangs"])
+
+
+def differences(printed):
+    return [line for line in printed.splitlines() if "  racebeam " in line and "reference" in line and ".png" not in line]
+
+
+def read_png(path):
+    """Width, height, rows of a PNG of 8-bit RGB whose rows have no filter."""
+    data = path.read_bytes()[8:]
+    chunks = {}
+    while data:
+        length, kind = struct.unpack(">I4s", data[:8])
+        chunks[kind] = data[8:8 + length]
+        assert zlib.crc32(kind + chunks[kind]) == struct.unpack(">I", data[8 + length:12 + length])[0]
+        data = data[12 + length:]
+    width, height = struct.unpack(">II", chunks[b"IHDR"][:8])
+    raw = zlib.decompress(chunks[b"IDAT"])
+    return width, height, [raw[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)] for y in range(height)]
+
+
+if __name__ == "__main__":
+    if GAME not in images.games():
+        print(f"skipped: there is no image of {GAME}")
+        sys.exit(SKIPPED)
+    unittest.main(verbosity=2)
