@@ -71,6 +71,52 @@ class Lines(unittest.TestCase):
         self.assertNotEqual(plain, blended)
 
 
+class Observations(unittest.TestCase):
+    def test_counters_are_truncated_frame_and_episode_frame(self):
+        lines = [line.split() for line in played("--counters", "--max-frames", "3", data=b"0 " * 5)]
+        self.assertEqual([(words[0], *map(int, words[-3:])) for words in lines],
+                         [("R", 0, 0, 0), ("A", 0, 1, 1), ("A", 0, 2, 2), ("A", 1, 3, 3), ("R", 0, 3, 0),
+                          ("A", 0, 4, 1), ("A", 0, 5, 2)])
+
+    def test_colors_stand_in_every_so_manieth_line(self):
+        every, third = ([line.split() for line in played("--colors", count)] for count in ("1", "3"))
+        for number, (words, some) in enumerate(zip(every, third)):
+            self.assertRegex(" ".join(words[-2:]), "^[0-9a-f]{8} [0-9a-f]{8}$")
+            self.assertEqual(some[-2:], ["-", "-"] if number % 3 else words[-2:])
+            self.assertEqual(some[:-2], words[:-2])
+
+    def test_a_line_s_screen_in_full_agrees_with_its_checksums(self):
+        lines = played("--colors", "1", "--screen-of", "7")
+        self.assertEqual([number for number, line in enumerate(lines) if line[0] == "S"], [8])
+        _, number, screen, rgb = lines[8].split()
+        crc = lambda text: f"{zlib.crc32(bytes.fromhex(text)):08x}"
+        self.assertEqual((number, len(screen), len(rgb)), ("7", 2 * 160 * 210, 6 * 160 * 210))
+        self.assertEqual([crc(screen), crc(rgb)], [lines[7].split()[-3], lines[7].split()[-2]])
+
+    def test_a_life_that_is_lost_ends_an_episode_if_asked_for(self):
+        lives = lambda line: int(line.split()[4])
+        plain, truncated = ([line for line in played(*words, data=b"0 " * 6000) if line[0] == "A"]
+                            for words in ((), ("--truncate-on-life-loss",)))
+        first = next(number for number, line in enumerate(plain) if lives(line) < lives(plain[0]))
+        self.assertEqual([line.split()[3] for line in plain[:first + 1]], ["0"] * (first + 1))
+        self.assertEqual([line.split()[3] for line in truncated[:first + 1]], ["0"] * first + ["1"])
+
+
+class Writes(unittest.TestCase):
+    def test_a_byte_that_is_written_is_read_back(self):
+        lines = played("--ram", data=b"1 1\nM 5 200\nM 127 3\n0 0\n")
+        self.assertEqual([line.split()[0] for line in lines], list("RAAMMAA"))
+        before, first, second = (bytes.fromhex(line.split()[-1]) for line in lines[2:5])
+        self.assertEqual(first, before[:5] + bytes([200]) + before[6:])
+        self.assertEqual(second, first[:127] + bytes([3]))
+        self.assertTrue(lines[3].startswith("M 5 200 ") and lines[4].startswith("M 127 3 "))
+
+    def test_writes_and_strengths_are_taken_from_a_trace(self):
+        lines = played("--ram", data=b"3@0.5 4@-0.25 3@1 3@0.333 3@1e-5\nM 9 7\n0\n")
+        self.assertEqual([line.split()[1] for line in lines if line[0] == "A"], ["3@0.5", "4@-0.25", "3", "3@0.333", "3@1e-05", "0"])
+        self.assertEqual(played("--ram", data="\n".join(lines).encode()), lines)
+
+
 class Sources(unittest.TestCase):
     def from_file(self, name, data):
         with tempfile.TemporaryDirectory() as folder:
@@ -106,6 +152,17 @@ class Refusals(unittest.TestCase):
         self.refused("line 1: '3.5' is not a number", 0, b"3.5\n")
         self.refused("line 1: '99999999999' is not a number", 0, b"99999999999\n")
         self.refused("line 2: the action is missing", 0, b"A 1 0 0\nA\n")
+
+    def test_a_write_that_can_t_be_made(self):
+        self.refused("line 2: RAM has the bytes 0 to 127, not 128", 0, b"1\nM 128 0\n")
+        self.refused("line 1: RAM has the bytes 0 to 127, not -1", 0, b"M -1 0\n")
+        self.refused("line 1: a byte is 0 to 255, not 256", 0, b"M 1 256\n")
+        self.refused("line 1: 'M' takes an index and a value", 0, b"M 1\n")
+
+    def test_a_strength_that_is_none(self):
+        for word in (b"3@", b"3@x", b"3@nan", b"3@inf", b"3@1001"):
+            self.refused("line 1: .* is not a strength from -1000 to 1000", 0, word)
+        self.refused("line 1: '' is not a number", 0, b"@1")
 
     def test_bytes_that_are_no_text(self):
         self.refused("line 1: '.*' is not a number", 0, bytes(range(128, 160)))
