@@ -1,9 +1,12 @@
 """Compares racebeam with ALE, frame by frame, on fresh random play. See docs/conformance.md for what is compared.
 
 Without options all games are played in the default settings, 20,000 frames with each of two seeds, and 2,000 frames in
-every other setting: less than an hour on two cores. Results are kept in build/conformance; where a run differs, its picture and its
-actions too. Status: 0 all identical, 1 something is not, 2 the command line makes no sense, 77 nothing to compare with.
+every other setting: less than an hour on two cores. Results are kept in build/conformance; where a run differs, its
+picture and its actions too. Status: 0 all identical, 1 something is not, 2 the command line makes no sense, 77 there is
+nothing to compare with, 130 stopped.
 """
+
+import reference_python  # isort: skip
 
 import argparse
 import datetime
@@ -13,22 +16,17 @@ import random
 import shlex
 import sys
 
-SKIPPED = 77
-try:
-    import ours
-    from compare import DIFFERENT, FAILED, IDENTICAL, Comparison
-    from images import games as images_of
-    from images import folder as image_folder
-    from plan import plan
-    from pool import results as pool_results
-    from progress import Progress
-    from reference import VERSION as REFERENCE_VERSION
-    from report import markdown
-    from results import Results
-    from run import parse_run
-except ModuleNotFoundError as missing:
-    print(f"skipped: there is nothing to compare with: the Python package {missing.name} is not installed here")
-    sys.exit(SKIPPED)
+import ours
+from compare import FAILED, IDENTICAL, Comparison
+from images import folder as image_folder
+from images import games as images_of
+from plan import plan
+from pool import results as pool_results
+from progress import Progress
+from reference import VERSION as REFERENCE_VERSION
+from report import markdown
+from results import Results
+from run import parse_run
 
 PATIENCE = 300  # seconds for one run
 
@@ -38,7 +36,8 @@ def parse_arguments():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
     add("--frames", type=int, default=20000, metavar="N", help="of a run in the default settings (default 20000)")
-    add("--other-frames", type=int, metavar="N", help="of a run in another setting (default 2000, or --frames if fewer)")
+    add("--other-frames", type=int, metavar="N",
+        help="of a run in another setting (default 2000, or --frames if fewer)")
     add("--seed", help="of the first series of runs; 'date' takes today's (default: drawn, and printed)")
     add("--seeds", type=int, default=2, metavar="N", help="series in the default settings (default 2)")
     add("--games", metavar="A,B", help="only these games (default: all that there are images of)")
@@ -50,7 +49,8 @@ def parse_arguments():
     add("--out", type=pathlib.Path, default=ours.SOURCE / "build/conformance", metavar="FOLDER",
         help="where results, pictures and the report go (default build/conformance)")
     add("--publish", action="store_true", help="write docs/conformance.md, too")
-    add("--racebeam-options", default="", metavar="WORDS", help="options for racebeam's side alone, e.g. '--cpu interpreter'")
+    add("--racebeam-options", default="", metavar="WORDS",
+        help="options for racebeam's side alone, as --racebeam-options='--system-seed 1'")
     return parser, parser.parse_args()
 
 
@@ -68,7 +68,7 @@ def games_with_images():
     known = [game for game in images_of() if game in ours.catalogue()]
     if not known:
         print(f"skipped: there are no cartridge images in {image_folder()}")
-        sys.exit(SKIPPED)
+        sys.exit(reference_python.SKIPPED)
     return known
 
 
@@ -118,16 +118,16 @@ def compare_all(runs, options, kept):
         progress.step(result["frames"], result["verdict"] == IDENTICAL)
 
 
-def conclude(runs, options, kept, exceptions):
+def conclude(runs, options, kept, gaps):
     """The report; the exit status."""
     done = [kept.results[run.name] for run in runs if run.name in kept.results]
     identical = sum(result["verdict"] == IDENTICAL for result in done)
-    text = markdown(done, kept.identity, shlex.join(["scripts/conformance", *command_line()]), exceptions)
+    text = markdown(done, kept.identity, shlex.join(["scripts/conformance", *command_line()]), gaps)
     (options.out / "conformance.md").write_text(text)
     if options.publish and len(done) == len(runs):
         (ours.SOURCE / "docs/conformance.md").write_text(text)
     frames = sum(result["frames"] for result in done)
-    print(f"{identical} of {len(runs)} runs identical, {frames:,} frames, {len(exceptions)} not comparable in part; "
+    print(f"{identical} of {len(runs)} runs identical, {frames:,} frames, {len(gaps)} not comparable in part; "
           f"ale-py {kept.identity['reference']}, seeds {', '.join(map(str, kept.identity['seeds']))}")
     return 0 if identical == len(runs) else 1
 
@@ -146,16 +146,16 @@ def main():
                     "options": options.racebeam_options, "seeds": [first + i for i in range(options.seeds)]}
         path = options.out / ("run.jsonl" if options.run else "results.jsonl")
         kept = Results(path, identity, options.resume)
-        runs, exceptions = chosen_runs(options, kept.identity["seeds"])
+        runs, gaps = chosen_runs(options, kept.identity["seeds"])
     except (ValueError, OSError) as error:
         parser.error(str(error))
     try:
         compare_all(runs, options, kept)
     except KeyboardInterrupt:
         print("\nstopped; scripts/conformance --resume goes on where this ended")
-        conclude(runs, options, kept, exceptions)
+        conclude(runs, options, kept, gaps)
         return 130
-    return conclude(runs, options, kept, exceptions)
+    return conclude(runs, options, kept, gaps)
 
 
 if __name__ == "__main__":

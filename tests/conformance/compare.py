@@ -27,6 +27,11 @@ def differing_fields(theirs, line):
     return [(field, a[field], b.get(field, "nothing")) for field in a if a[field] != b.get(field)]
 
 
+def differing_bytes(theirs, mine):
+    """(address, reference, racebeam) of the bytes of RAM that differ."""
+    return [(f"ram[{0x80 + i:02X}]", f"{a:02x}", f"{b:02x}") for i, (a, b) in enumerate(zip(theirs, mine)) if a != b]
+
+
 def differing_lists(game, reference):
     """(list, reference, racebeam) of what the game offers."""
     listed = ours.catalogue().get(rule_of(game), {})
@@ -72,7 +77,8 @@ class Comparison:
             return f"{where}: racebeam ended with {end or 'fewer lines'}"
         differences = differing_fields(theirs or "nothing", line)
         sight = ours.look(self.run, self.image, self.steps[:self.played], number, self.extra)
-        return "\n".join([f"first difference in {where}", table(differences), *self.evidence(reference, number, sight)])
+        evidence = self.evidence(reference, number, sight)
+        return "\n".join([f"first difference in {where}", table(differences), *evidence])
 
     def evidence(self, reference, number, sight):
         """The differing bytes of RAM, a picture, and the commands that show it again."""
@@ -80,10 +86,10 @@ class Comparison:
         self.folder.mkdir(parents=True, exist_ok=True)
         script = stem.with_name(stem.name + ".actions")
         script.write_text("\n".join(map(step_word, self.steps[:self.played])) + "\n")
-        command = ours.trace_command(self.run, self.image.path, script, [*self.extra, "--screen-of", str(number)])
+        options = [*self.extra, "--screen-of", str(number)]
+        command = ours.trace_command(self.run, self.image.path, script, options)
         if sight:
-            bytes_of_ram = [(f"ram[{0x80 + i:02X}]", f"{theirs:02x}", f"{mine:02x}")
-                            for i, (theirs, mine) in enumerate(zip(reference.ram.tobytes(), sight.ram)) if theirs != mine]
+            bytes_of_ram = differing_bytes(reference.ram.tobytes(), sight.ram)
             if bytes_of_ram:
                 yield table(bytes_of_ram[:16])
             reference.colors()

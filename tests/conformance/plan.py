@@ -4,8 +4,8 @@ import itertools
 import random
 
 import ours
-from exceptions import comparable
 from images import rule_of
+from not_comparable import comparable
 from run import Run
 
 SKIPS, STICKIES, AVERAGINGS = (1, 4), (0, 0.25), (0, 1)
@@ -38,7 +38,7 @@ def other_runs(game, seed, frames):
 
 
 def plan(games, settings, seeds, frames, other_frames):
-    """The runs, big ones first, and how often each exception was made."""
+    """The runs, big ones first, and (name of a run, gap) for all that had to be left out of one."""
     runs = [Run(game, seed=seed, frames=frames) for seed in seeds for game in games]
     for game in games:
         others = list(other_runs(game, seeds[0], other_frames))
@@ -47,5 +47,5 @@ def plan(games, settings, seeds, frames, other_frames):
         elif settings == "sample":
             runs.append(random.Random(f"sample {game} {seeds[0]}").choice(others))
     pairs = [comparable(run) for run in runs]
-    exceptions = [(run.name, rule) for run, made in pairs for rule in made]
-    return sorted((run for run, _ in pairs), key=lambda run: -run.acts), exceptions
+    gaps = [(run.name, gap) for run, gaps in pairs for gap in gaps]
+    return sorted((run for run, _ in pairs), key=lambda run: -run.acts), gaps

@@ -4,23 +4,23 @@ import collections
 import datetime
 
 from compare import IDENTICAL
-from exceptions import NOT_COMPARABLE
 from images import HOST, WITHOUT_RULE
+from not_comparable import NOT_COMPARABLE
 from run import COLORS_EVERY, WRITE, parse_run
 
 HEAD = """# Conformance
 
-Made by `scripts/conformance`; not written by hand. racebeam and the reference, ALE through ale-py, play the same random
-actions with the same settings. After every act and every reset these must be the same: the screen's palette indices, RAM, the 512
-samples of sound, reward, game over, truncated, lives, frame number and episode frame number. The pictures in RGB and in grey,
-which follow from the indices, are compared after every act with colour averaging, else in every {every}th line. At loading, modes,
-difficulties, and the legal and minimal actions are compared. Actions are drawn from all 18 and held for four acts in
-the mean; an episode that is over is followed by a reset on both sides.
+Made by `scripts/conformance`; not written by hand. racebeam and the reference, ALE through ale-py, play the same
+random actions with the same settings. After every act and every reset these must be the same: the screen's palette
+indices, RAM, the 512 samples of sound, reward, game over, truncated, lives, frame number and episode frame number. The
+pictures in RGB and in grey, which follow from the indices, are compared after every act with colour averaging, else in
+every {every}th line. At loading, modes, difficulties, and the legal and minimal actions are compared. Actions are drawn
+from all 18 and held for four acts in the mean; an episode that is over is followed by a reset on both sides.
 
-The default settings are: the game's own mode and difficulty, frame skip 1, no sticky actions, no averaging. The other settings are
-all of {{default, each other mode, each other difficulty}} x frame skip {{1, 4}} x sticky {{0, 0.25}} x colour averaging {{off, on}}.
-By chance some of these runs also write bytes of RAM (before {write:.0%} of the acts), limit an episode's frames, truncate at
-the loss of a life, or turn paddles by random strengths.
+The default settings are: the game's own mode and difficulty, frame skip 1, no sticky actions, no averaging. The other
+settings are all of {{default, each other mode, each other difficulty}} x frame skip {{1, 4}} x sticky {{0, 0.25}} x
+colour averaging {{off, on}}. By chance some of these runs also write bytes of RAM (before {write:.0%} of the acts), limit
+an episode's frames, truncate at the loss of a life, or turn paddles by random strengths.
 
     {command}
 
@@ -54,16 +54,17 @@ def totals(results):
     games = {run.game for run in runs}
     good_games = games - {parse_run(result["run"]).game for result in bad}
     frames = sum(result["frames"] for result in results)
-    return (f"{len(good_games)} of {len(games)} games are identical in all their runs; {len(results) - len(bad):,} of {len(results):,} runs, "
-            f"{frames:,} frames. Among them {count('writes'):,} runs with writes to RAM, {count('limit'):,} with a limit of "
-            f"frames, {count('lifeloss'):,} truncated at the loss of a life, {count('strengths'):,} with random strengths.")
+    return (f"{len(good_games)} of {len(games)} games are identical in all their runs; {len(results) - len(bad):,} of "
+            f"{len(results):,} runs, {frames:,} frames. Among them {count('writes'):,} runs with writes to RAM, "
+            f"{count('limit'):,} with a limit of frames, {count('lifeloss'):,} truncated at the loss of a life, "
+            f"{count('strengths'):,} with random strengths.")
 
 
-def exceptions(made):
-    counts = collections.Counter(rule for _, rule in made)
-    lines = [f"| {', '.join(rule.games)} | {rule.key} | {counts[rule]} | {rule.reason} |" for rule in NOT_COMPARABLE]
-    return "\n".join(["| game | what | left out of | why |", "|---|---|---|---|",
-                      *(line.replace(" | 0 | ", " | 0 runs | ").replace(" | 1 | ", " | 1 run | ") for line in lines)])
+def gap_table(gaps):
+    counts = collections.Counter(gap for _, gap in gaps)
+    lines = [f"| {', '.join(gap.games)} | {gap.key} | {counts[gap]} run{'s' * (counts[gap] != 1)} | {gap.reason} |"
+             for gap in NOT_COMPARABLE]
+    return "\n".join(["| game | what | left out of | why |", "|---|---|---|---|", *lines])
 
 
 def mismatches(results):
@@ -74,7 +75,7 @@ def mismatches(results):
     return "\n".join(["## Not identical", "", *lines, ""]) if bad else ""
 
 
-def markdown(results, identity, command, made):
+def markdown(results, identity, command, gaps):
     by_game = collections.defaultdict(list)
     for result in results:
         by_game[parse_run(result["run"]).game].append(result)
@@ -82,8 +83,8 @@ def markdown(results, identity, command, made):
                        version=identity["version"], reference=identity["reference"],
                        seeds=", ".join(map(str, identity["seeds"])))
     hosted = ", ".join(game for game in WITHOUT_RULE if game in by_game)
-    parts = [head, "## Verdict", "", totals(results), "", mismatches(results), "## Not comparable", "", exceptions(made), "",
-             "## Games", "", "| game | frames, default settings | other settings | frames in them | verdict |",
+    parts = [head, "## Verdict", "", totals(results), "", mismatches(results), "## Not comparable", "", gap_table(gaps),
+             "", "## Games", "", "| game | frames, default settings | other settings | frames in them | verdict |",
              "|---|---|---|---|---|", *(row(game, by_game[game]) for game in sorted(by_game))]
     if hosted:
         parts += ["", f"The reference has no rule for {hosted}: their machines are compared with the actions, rule and "
