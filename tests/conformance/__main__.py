@@ -14,6 +14,7 @@ import os
 import pathlib
 import random
 import shlex
+import signal
 import sys
 
 import ours
@@ -139,6 +140,8 @@ def command_line():
 
 def main():
     parser, options = parse_arguments()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.default_int_handler)
     try:
         check_numbers(options)
         first = base_seed(options.seed)

@@ -22,6 +22,8 @@ class Task:
     def work(self, function, outbox):
         """In the child. It has a group of its own: an interrupt is for the parent, which then ends the whole group."""
         os.setpgid(0, 0)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_DFL)
         for stream in (1, 2):
             os.dup2(self.errors.fileno(), stream)
         outbox.send(function(self.item))

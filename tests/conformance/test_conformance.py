@@ -46,7 +46,8 @@ class Suite(unittest.TestCase):
                           *words, **more)
 
     def kept(self):
-        return [json.loads(line) for line in (self.out / "results.jsonl").read_text().splitlines()]
+        """The whole lines of the results."""
+        return [json.loads(line) for line in (self.out / "results.jsonl").read_text().split("\n")[:-1]]
 
 
 class Verdicts(Suite):
@@ -134,7 +135,7 @@ class Keeping(Suite):
         self.assertEqual(status, 0, printed)
         self.assertIn("1 runs are done already", printed)
         self.assertIn("2 of 2 runs identical", printed)
-        self.assertEqual(len(self.kept()), 3)
+        self.assertEqual(len(self.kept()), 3)  # with the header
 
     def test_results_of_another_program_are_not_taken_up(self):
         self.short()
@@ -143,12 +144,18 @@ class Keeping(Suite):
         self.assertIn("can't resume", printed)
 
     def test_an_interrupt_leaves_what_was_done(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number):
+                self.interrupt(number)
+
+    def interrupt(self, number):
+        (self.out / "results.jsonl").unlink(missing_ok=True)
         suite = subprocess.Popen(self.command("--frames", "300", "--settings", "all", "--games", GAME, "--jobs", "1"),
                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline and not ((self.out / "results.jsonl").exists() and len(self.kept()) > 2):
             time.sleep(0.05)
-        os.killpg(suite.pid, signal.SIGINT)
+        os.kill(suite.pid, number)
         printed, _ = suite.communicate(timeout=60)
         self.assertEqual(suite.returncode, 130, printed)
         self.assertIn("--resume", printed)
