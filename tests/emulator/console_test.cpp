@@ -57,11 +57,12 @@ TEST_CASE("The machine is one plain value of at most 2 KiB") {
 
 // RAM[$FF] = n; the frame is closed by JSR $000E, whose return address goes into VSYNC.
 Bytes fetches_what_the_bus_holds(std::uint8_t n) {
-  return {0xA9, n,    0x85, 0xFF, 0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02,
-          0x85, 0x02, 0xA2, 0x01, 0x9A, 0xEA, 0xEA, 0x20, 0x0E, 0x00};
+  return {0xA9, n,    0x85, 0xFF, 0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85,
+          0x02, 0x85, 0x02, 0xA2, 0x01, 0x9A, 0xEA, 0xEA, 0x20, 0x0E, 0x00};
 }
 
-TEST_CASE("Whoever looks at RAM or writes it leaves the byte on the bus, from which an opcode may be fetched") {
+TEST_CASE(
+    "Whoever looks at RAM or writes it leaves the byte on the bus, from which an opcode may be fetched") {
   constexpr std::uint8_t kJam = 0x12, kRolA = 0x2A;
   Machine looked_at(fetches_what_the_bus_holds(kJam)), written(fetches_what_the_bus_holds(kRolA));
   for (Machine* machine : {&looked_at, &written}) {
