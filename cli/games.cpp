@@ -17,10 +17,14 @@ constexpr auto kFooter =
     R"(The name is what --game takes; an image is recognised by its MD5, else by the name of its file.
 * marks a game whose image is part of this program: --rom builtin:NAME plays it.
 SCORE says whether there is a rule that finds score and end in the game's memory; ACT. how many actions
-the minimal and the legal set have.
+the minimal and the legal set have. MODES are those of one player; --rules shows those of two.
+
+With --rules, RULE says whose rule it is, B whether player B gets rewards too, 2P MODES the game variations
+in which both play, and FIXED what --rules fixed does otherwise than ALE 0.12; docs/rules.md says why.
 
 Examples:
   racebeam games | grep -i pong
+  racebeam games --rules | grep -i wrap
   racebeam games --json | jq '.[] | select(.name == "pong").modes')";
 
 // 0 1 2 3 8 as 0-3 8
@@ -55,6 +59,28 @@ void print_table() {
   for (const CatalogueEntry& entry : catalogue()) print_row(entry, *find_game(entry.name));
 }
 
+std::string correction(const Game& game) {
+  if (!game.fixed) return "-";
+  const Correction& made = game.correction;
+  std::string text = made.wraps ? "The score may wrap at " + std::to_string(*made.wraps) + "." : "";
+  return text + (text.empty() || made.correction.empty() ? "" : " ") + made.correction;
+}
+
+const char* rule_name(const Game& game) {
+  if (!game.has_rule()) return "-";
+  return game.rule_source == RuleSource::kRacebeam ? "racebeam" : "ale-0.12";
+}
+
+void print_rules() {
+  std::printf("%-20s %-9s %-3s %-24s %s\n", "NAME", "RULE", "B", "2P MODES", "FIXED");
+  for (const CatalogueEntry& entry : catalogue()) {
+    const auto game = find_game(entry.name);
+    const std::string modes = game->two_player_modes.empty() ? "-" : ranges(game->two_player_modes);
+    std::printf("%-20s %-9s %-3s %-24s %s\n", game->name.c_str(), rule_name(*game),
+                game->has_second_reward() ? "yes" : "no", modes.c_str(), correction(*game).c_str());
+  }
+}
+
 std::vector<std::string> names(const std::vector<int>& actions) {
   std::vector<std::string> words;
   for (const int action : actions) words.emplace_back(action_name(action));
@@ -69,6 +95,16 @@ nlohmann::ordered_json images(const Game& game) {
   return rows;
 }
 
+nlohmann::ordered_json fixed_rule(const Game& game) {
+  if (!game.fixed) return nullptr;
+  const Correction& made = game.correction;
+  return {{"wraps", made.wraps ? nlohmann::ordered_json(*made.wraps) : nullptr},
+          {"reference", made.reference},
+          {"correction", made.correction},
+          {"evidence", made.evidence},
+          {"minimal_actions", names(game.fixed->minimal_actions)}};
+}
+
 nlohmann::ordered_json as_json(const CatalogueEntry& entry) {
   const auto game = find_game(entry.name);
   return {
@@ -77,9 +113,13 @@ nlohmann::ordered_json as_json(const CatalogueEntry& entry) {
       {"images", images(*game)},
       {"built_in", entry.built_in},
       {"has_rule", game->has_rule()},
+      {"rule", game->has_rule() ? nlohmann::ordered_json(rule_name(*game)) : nullptr},
+      {"fixed", fixed_rule(*game)},
+      {"second_reward", game->has_second_reward()},
       {"minimal_actions", names(game->minimal_actions)},
       {"legal_actions", names(game->legal_actions)},
       {"modes", game->modes},
+      {"two_player_modes", game->two_player_modes},
       {"default_mode", game->default_mode},
       {"difficulties", game->difficulties},
   };
@@ -94,11 +134,12 @@ void print_json() {
 }  // namespace
 
 void add_games(CLI::App& app) {
-  const auto json = std::make_shared<bool>(false);
+  const auto json = std::make_shared<bool>(false), rules = std::make_shared<bool>(false);
   CLI::App& command = *app.add_subcommand("games", "List the games of the catalogue");
-  command.add_flag("--json", *json, "Print a JSON array instead of a table");
+  CLI::Option* as_array = command.add_flag("--json", *json, "Print a JSON array instead of a table");
+  command.add_flag("--rules", *rules, "Print whose rules there are and what --rules fixed corrects")->excludes(as_array);
   command.footer(kFooter);
-  command.callback([json] { *json ? print_json() : print_table(); });
+  command.callback([json, rules] { *json ? print_json() : *rules ? print_rules() : print_table(); });
 }
 
 }  // namespace racebeam

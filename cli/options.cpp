@@ -4,6 +4,7 @@
 #include <chrono>
 #include <iostream>
 #include <limits>
+#include <map>
 
 #include "games/catalogue.hpp"
 #include "games/image.hpp"
@@ -44,6 +45,13 @@ CLI::Validator probability() {
   return CLI::Validator(check, "0..1");
 }
 
+CLI::Validator one_of(const std::map<std::string, Rules>& rules) {
+  const auto check = [rules](const std::string& text) {
+    return rules.contains(text) ? std::string{} : "'" + text + "' is not known; there are ale-0.12 and fixed";
+  };
+  return CLI::Validator(check, "");
+}
+
 void warn_about(const Recognition& recognition, const Image& image) {
   const Game& game = *recognition.game;
   if (recognition.how == RecognisedBy::kNothing) {
@@ -79,6 +87,13 @@ void add_machine_options(CLI::App& app, MachineOptions& options) {
       ->check(probability())
       ->capture_default_str();
   app.add_flag("--color-averaging", settings.color_averaging, "Blend each picture with the one before it");
+  const std::map<std::string, Rules> rules = {{"ale-0.12", Rules::kAle012}, {"fixed", Rules::kFixed}};
+  app.add_option_function<std::string>(
+         "--rules", [&settings, rules](const std::string& name) { settings.rules = rules.at(name); },
+         "Whose rewards, lives and end: ale-0.12, or fixed, which corrects them (racebeam games --rules)")
+      ->check(one_of(rules))
+      ->default_str("ale-0.12")
+      ->type_name("NAME");
   app.add_option("--mode", options.mode, "Game variation (racebeam games lists them)")
       ->check(whole_number(0, kMostInt));
   app.add_option("--difficulty", options.difficulty, "Difficulty switches (racebeam games lists them)")

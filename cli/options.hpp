@@ -21,8 +21,8 @@ struct MachineOptions {
   std::optional<int> mode, difficulty;  // the game's defaults if not given
 };
 
-// Adds --rom --game --game-file --seed --system-seed --frame-skip --sticky --color-averaging --mode
-// --difficulty. Set `options` to the subcommand's defaults first; it must outlive the parsing.
+// Adds --rom --game --game-file --seed --system-seed --frame-skip --sticky --color-averaging --rules
+// --mode --difficulty. Set `options` to the subcommand's defaults first; it must outlive the parsing.
 void add_machine_options(CLI::App& app, MachineOptions& options);
 
 // A whole number of at least `least`: frames, and so on.

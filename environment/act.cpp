@@ -5,17 +5,27 @@
 
 namespace racebeam {
 
+namespace {
+
+std::int32_t clamped(std::int64_t reward, const Settings& settings) {
+  return static_cast<std::int32_t>(std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max));
+}
+
+}  // namespace
+
 int Environment::Impl::act(const Presses& asked) {
-  std::int64_t reward = 0;
+  std::int64_t reward_a = 0, reward_b = 0;
   for (int n = std::max(settings.frame_skip, 1); n > 0; --n) {
     sticky.draw(random, asked, play.held);
     if (over()) continue;
     run_frame(legal.replace(play.held));
     count_frame();
-    reward += rule.reward();
+    reward_a += rule.reward();
+    reward_b += rule.reward_b();
   }
   if (settings.sound) console.sound().generate(audio);
-  return static_cast<int>(std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max));
+  play.rewards = {clamped(reward_a, settings), clamped(reward_b, settings)};
+  return play.rewards[0];
 }
 
 void Environment::Impl::run_frame(const Presses& presses) {

@@ -19,6 +19,10 @@ PaddleLimits paddle_limits(const Settings& settings, const Game& game) {
   return limits;
 }
 
+std::shared_ptr<const Game> by_rules(const std::shared_ptr<const Game>& game, Rules rules) {
+  return rules == Rules::kFixed && game->fixed ? game->fixed : game;
+}
+
 void refuse_unless(bool good, const std::string& sentence) {
   if (!good) throw std::invalid_argument(sentence);
 }
@@ -60,7 +64,7 @@ std::size_t ram_index(int index) {
 Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_ptr<const Game> game_given,
                         const Settings& settings_given)
     : image(std::move(image_given)),
-      game(std::move(game_given)),
+      game(by_rules(game_given, settings_given.rules)),
       settings(checked(settings_given, *game)),
       identity(*image, *game),
       properties(game->properties_for(image->md5)),
@@ -105,7 +109,7 @@ int Environment::act(int a, int b, float strength_a, float strength_b) {
 void Environment::reset_game() { impl_->reset(); }
 
 void Environment::set_mode(int mode) {
-  check_offered(mode, game().modes, "mode", game());
+  check_offered(mode, game().offered_modes(), "mode", game());
   impl_->play.mode = mode;
 }
 
@@ -116,6 +120,10 @@ void Environment::set_difficulty(int difficulty) {
 
 int Environment::mode() const { return impl_->play.mode; }
 int Environment::difficulty() const { return impl_->play.difficulty; }
+
+Environment::Rewards Environment::rewards() const {
+  return {impl_->play.rewards[0], impl_->play.rewards[1]};
+}
 
 bool Environment::game_over() const { return impl_->over(); }
 bool Environment::terminal() const { return impl_->rule.terminal(); }

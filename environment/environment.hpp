@@ -31,6 +31,12 @@ class Environment {
   // One agent step of `frame_skip` frames. a: 0-17, b: 18-35 (environment.md, section 1). Returns the clamped
   // sum of rewards.
   int act(int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
+  // What both players got for the last act, clamped like its answer, which is `a`. `b` is 0 in games whose
+  // rule has no second player.
+  struct Rewards {
+    int a, b;
+  };
+  Rewards rewards() const;
   void reset_game();
 
   // A mode takes effect at the next reset, a difficulty at the next frame. Throw std::invalid_argument,

@@ -18,6 +18,7 @@ struct Play {
   std::uint32_t episode_frames = 0;
   std::int32_t mode = 0;  // takes effect at the next reset
   std::int32_t difficulty = 0;
+  std::array<std::int32_t, 2> rewards{};  // of the last act: A's and B's
   std::uint32_t ram_is_stale = 0;  // RAM is answered from the next member: Environment::restore_classic()
   std::array<std::uint8_t, 128> stale_ram{};
 };

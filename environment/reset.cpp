@@ -25,6 +25,7 @@ void Environment::Impl::reset() {
   if (has_mode_program(*game, settings)) set_up_mode();
   soft_reset();
   for (const int action : game->starting_actions) run_frames(action, 1);
+  play.rewards = {};
 }
 
 void Environment::Impl::run_frames(int action, int count) {

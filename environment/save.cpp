@@ -18,7 +18,7 @@ std::string text_of(std::span<const char> field) { return {field.begin(), std::r
 
 Identity::Identity(const Image& image, const Game& its_game) {
   put(md5, image.md5);
-  put(game, its_game.name);
+  put(game, its_game.is_fixed ? its_game.name + " with fixed rules" : its_game.name);
 }
 
 std::string Identity::md5_text() const { return text_of(md5); }

@@ -6,7 +6,14 @@
 
 namespace racebeam {
 
+// Which rule finds rewards, end and lives in memory.
+enum class Rules {
+  kAle012,  // the reference's, whatever is wrong with it; our own for games that it has none for
+  kFixed,   // corrected ones, where there are any (docs/rules.md)
+};
+
 struct Settings {
+  Rules rules = Rules::kAle012;
   std::uint32_t random_seed = 0;        // seeds the sticky-action generator
   std::uint32_t system_seed = 4753849;  // seeds power-on RAM and timer
   int frame_skip = 1;                   // frames an act lasts, at least 1

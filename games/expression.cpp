@@ -140,11 +140,12 @@ class Compiler {
     for (const Function& function : kFunctions)
       if (in_.is(function.name)) return plain_call(function);
     if (in_.is("bcd")) return bcd();
+    if (in_.is("wrap")) return wrap();
     if (in_.is("sum")) return sum();
     if (in_.is("prev")) return previous();
     if (in_.is("rng")) return random();
     in_.refuse("there is no function " + described(in_.peek()) +
-               "; there are bcd, prev, if, min, max, s8, u8 and sum");
+               "; there are bcd, wrap, prev, if, min, max, s8, u8 and sum");
   }
 
   Register plain_call(const Function& function) {
@@ -179,6 +180,18 @@ class Compiler {
     }
     leave_call("bcd");
     return total;
+  }
+
+  Register wrap() {
+    enter_call();
+    const Register change = expression();
+    in_.expect(",", "between the arguments of wrap()");
+    const std::optional<std::int32_t> modulus = out_.constant_value(expression());
+    if (!modulus || *modulus < kLeastModulus)
+      in_.refuse("wrap() takes a constant of at least " + std::to_string(kLeastModulus) +
+                 " second: where the counter starts again");
+    leave_call("wrap");
+    return emit_wrapped(out_, change, *modulus);
   }
 
   Register bcd_byte() { return emit({.op = Op::kBcd, .a = ram(expression())}); }
@@ -276,6 +289,16 @@ class Compiler {
 };
 
 }  // namespace
+
+Register emit_wrapped(ProgramBuilder& out, Register change, std::int32_t modulus) {
+  const Register turn = out.constant(modulus), far = out.constant(modulus - modulus / 10);
+  const Register down = out.emit({.op = Op::kLessEqual, .a = change, .b = out.emit({.op = Op::kNegate, .a = far})});
+  const Register up = out.emit({.op = Op::kGreaterEqual, .a = change, .b = far});
+  const Register after_down = out.emit({.op = Op::kAdd, .a = change, .b = turn});
+  const Register after_up = out.emit({.op = Op::kSubtract, .a = change, .b = turn});
+  const Register not_down = out.emit({.op = Op::kSelect, .a = up, .b = after_up, .c = change});
+  return out.emit({.op = Op::kSelect, .a = down, .b = after_down, .c = not_down});
+}
 
 Register compile_expression(TokenReader& reader, Scope& scope, ProgramBuilder& builder) {
   return Compiler(reader, scope, builder).expression();

@@ -26,6 +26,13 @@ struct Scope {
   bool draws = false;                                     // rng() was met
 };
 
+constexpr std::int32_t kLeastModulus = 10;
+
+// The change of a counter that starts again at 0 when it reaches `modulus`, at least kLeastModulus: a fall by
+// nine tenths of it or more is taken for a gain across the wrap, and so is a rise for a loss. Lesser falls
+// stay falls, since games also clear their scores.
+Register emit_wrapped(ProgramBuilder& out, Register change, std::int32_t modulus);
+
 // Reads one expression and returns where its value will be. Throws SourceError.
 Register compile_expression(TokenReader& reader, Scope& scope, ProgramBuilder& builder);
 

@@ -1,6 +1,7 @@
 #include "games/game.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 namespace racebeam {
@@ -29,6 +30,12 @@ Properties Game::properties_for(const std::string& md5) const {
   Properties properties = entry_for(*this, md5);
   if (std::ranges::find(kSwappedImages, md5) != std::end(kSwappedImages)) properties.scheme = "F8 swapped";
   return properties;
+}
+
+std::vector<int> Game::offered_modes() const {
+  std::set<int> offered(modes.begin(), modes.end());
+  offered.insert(two_player_modes.begin(), two_player_modes.end());
+  return {offered.begin(), offered.end()};
 }
 
 Game game_without_rule(const std::string& name) {

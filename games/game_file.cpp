@@ -76,6 +76,37 @@ std::vector<GameImage> read_images(const TomlSource& source, const Section& sect
   return images;
 }
 
+// Actions and modes
+
+void read_default_mode(const Section& section, const toml::table& table, Game& game) {
+  if (table.contains("two_player_modes"))
+    game.two_player_modes = read_numbers(section, "two_player_modes", kLargestMode);
+  game.default_mode = section.number("default_mode").value_or(game.modes.front());
+  if (std::find(game.modes.begin(), game.modes.end(), game.default_mode) == game.modes.end())
+    section.refuse(*table.get("default_mode"), "default_mode", "must be one of the modes");
+}
+
+void read_minimal(const Section& section, const toml::table& table, Game& game) {
+  game.minimal_actions = read_actions(section, "minimal", game.legal_actions);
+  if (!std::ranges::includes(game.legal_actions, game.minimal_actions))
+    section.refuse(*table.get("minimal"), "minimal", "must be legal actions");
+}
+
+void read_facts(const TomlSource& source, const Section& section, const toml::table& table, Game& game) {
+  game.title = section.text("title").value_or("");
+  if (game.title.empty()) section.refuse_missing("title", "a game needs this");
+  game.images = read_images(source, section);
+  game.legal_actions = read_actions(section, "legal", all_actions());
+  read_minimal(section, table, game);
+  game.starting_actions = read_starting_actions(section, "start");
+  game.modes = read_numbers(section, "modes", kLargestMode);
+  read_default_mode(section, table, game);
+  game.difficulties = read_numbers(section, "difficulties", kLargestDifficulty);
+  game.paddle_max = section.number("paddle_max").value_or(-1);
+  if (table.contains("paddle_max") && game.paddle_max < 1)
+    section.refuse(*table.get("paddle_max"), "paddle_max", "must be a resistance in ohms, at least 1");
+}
+
 // Rule and mode program
 
 void read_reset(const Section& section, const toml::table& table, RuleCompiler& compiler) {
@@ -115,10 +146,17 @@ void refuse_useless_keep(const Section& section, const RuleCompiler& compiler) {
     if (!compiler.uses(*node.value_exact<std::string>())) section.refuse(node, "keep", kUseless);
 }
 
+std::optional<int> read_wraps(const Section& section, const toml::table& table) {
+  const std::optional<int> modulus = section.number("wraps");
+  if (modulus && *modulus < kLeastModulus)
+    section.refuse(*table.get("wraps"), "wraps",
+                   "must be at least " + std::to_string(kLeastModulus) + ": the number at which the score starts again");
+  return modulus;
+}
+
 // The mode program may look at variables of the rule, so that both are compiled together.
-void read_rule(const TomlSource& source, const toml::table& table, const Section* mode, Game& game) {
-  const Section section(source, table, "rule");
-  section.allow({"step", "reset", "keep", "terminal", "lives"});
+void read_rule(const Section& section, const toml::table& table, const TomlSource& source, const Section* mode,
+               Game& game) {
   if (!table.contains("step")) section.refuse_missing("step", "a rule needs this");
   const toml::table none;
   const toml::table* reset = section.table("reset");
@@ -126,6 +164,7 @@ void read_rule(const TomlSource& source, const toml::table& table, const Section
   const Section reset_section(source, *reset, "rule.reset");
 
   RuleCompiler compiler;
+  if (const std::optional<int> modulus = read_wraps(section, table)) compiler.wraps(*modulus);
   read_reset(reset_section, *reset, compiler);
   read_keep(section, compiler);
   section.compile("step", [&](std::string_view text) { compiler.step(text); });
@@ -137,31 +176,58 @@ void read_rule(const TomlSource& source, const toml::table& table, const Section
   game.rule = compiler.finish();
 }
 
-void read_default_mode(const Section& section, const toml::table& table, Game& game) {
-  game.default_mode = section.number("default_mode").value_or(game.modes.front());
-  if (std::find(game.modes.begin(), game.modes.end(), game.default_mode) == game.modes.end())
-    section.refuse(*table.get("default_mode"), "default_mode", "must be one of the modes");
+// Corrections
+
+// The rule as [fixed] makes it: its keys in place of those of [rule].
+toml::table corrected(const toml::table& rule, const toml::table& fixed) {
+  toml::table merged = rule;
+  for (const auto& [key, node] : fixed) merged.insert_or_assign(key, node);
+  for (const char* key : {"reference", "correction", "evidence", "minimal", "source"}) merged.erase(key);
+  return merged;
 }
 
-void read_minimal(const Section& section, const toml::table& table, Game& game) {
-  game.minimal_actions = read_actions(section, "minimal", game.legal_actions);
-  if (!std::ranges::includes(game.legal_actions, game.minimal_actions))
-    section.refuse(*table.get("minimal"), "minimal", "must be legal actions");
+Correction read_correction(const Section& section, const toml::table& table) {
+  Correction correction{.wraps = section.number("wraps"),
+                        .reference = section.text("reference").value_or(""),
+                        .correction = section.text("correction").value_or(""),
+                        .evidence = section.text("evidence").value_or("")};
+  const bool wraps_only = table.size() == 1 && correction.wraps;
+  for (const char* key : {"reference", "correction", "evidence"})
+    if (!wraps_only && section.text(key).value_or("").empty())
+      section.refuse_missing(key, "a correction that is more than 'wraps' needs this");
+  return correction;
 }
 
-void read_facts(const TomlSource& source, const Section& section, const toml::table& table, Game& game) {
-  game.title = section.text("title").value_or("");
-  if (game.title.empty()) section.refuse_missing("title", "a game needs this");
-  game.images = read_images(source, section);
-  game.legal_actions = read_actions(section, "legal", all_actions());
-  read_minimal(section, table, game);
-  game.starting_actions = read_starting_actions(section, "start");
-  game.modes = read_numbers(section, "modes", kLargestMode);
-  read_default_mode(section, table, game);
-  game.difficulties = read_numbers(section, "difficulties", kLargestDifficulty);
-  game.paddle_max = section.number("paddle_max").value_or(-1);
-  if (table.contains("paddle_max") && game.paddle_max < 1)
-    section.refuse(*table.get("paddle_max"), "paddle_max", "must be a resistance in ohms, at least 1");
+void read_fixed(const TomlSource& source, const toml::table& rule, const toml::table& table, const Section* mode,
+                Game& game) {
+  const Section section(source, table, "fixed");
+  section.allow({"wraps", "step", "reset", "keep", "terminal", "lives", "minimal", "reference", "correction",
+                 "evidence"});
+  Game fixed = game;
+  const toml::table merged = corrected(rule, table);
+  read_rule(Section(source, merged, "fixed"), merged, source, mode, fixed);
+  if (table.contains("minimal")) read_minimal(section, table, fixed);
+  game.correction = read_correction(section, table);
+  fixed.correction = game.correction;
+  fixed.is_fixed = true;
+  game.fixed = std::make_shared<const Game>(std::move(fixed));
+}
+
+// [rule], [fixed] and [mode]
+void read_rules(const TomlSource& source, const Section& section, Game& game) {
+  const toml::table* const rule = section.table("rule");
+  const toml::table* const fixed = section.table("fixed");
+  const toml::table* const mode = section.table("mode");
+  std::optional<Section> setup;
+  if (mode) setup.emplace(source, *mode, "mode").allow({"setup"});
+  if (!rule && mode) section.refuse(*mode, "mode", "a mode program needs a [rule] beside it");
+  if (!rule && fixed) section.refuse(*fixed, "fixed", "a correction needs a [rule] beside it");
+  if (!rule) return;
+  const Section rule_section(source, *rule, "rule");
+  rule_section.allow({"step", "reset", "keep", "terminal", "lives", "wraps", "source"});
+  game.rule_source = static_cast<RuleSource>(rule_section.choice("source", {"ale-0.12", "racebeam"}).value_or(0));
+  read_rule(rule_section, *rule, source, setup ? &*setup : nullptr, game);
+  if (fixed) read_fixed(source, *rule, *fixed, setup ? &*setup : nullptr, game);
 }
 
 }  // namespace
@@ -170,18 +236,12 @@ Game parse_game(std::string_view text, const std::string& name, const std::strin
   const TomlSource source{text, file};
   const toml::table table = parse_toml(source);
   const Section section(source, table, "");
-  section.allow({"title", "legal", "minimal", "start", "modes", "default_mode", "difficulties", "paddle_max",
-                 "image", "rule", "mode"});
+  section.allow({"title", "legal", "minimal", "start", "modes", "two_player_modes", "default_mode",
+                 "difficulties", "paddle_max", "image", "rule", "fixed", "mode"});
   Game game;
   game.name = name;
   read_facts(source, section, table, game);
-
-  std::optional<Section> mode;
-  if (const toml::table* found = section.table("mode")) mode.emplace(source, *found, "mode").allow({"setup"});
-  if (const toml::table* rule = section.table("rule"))
-    read_rule(source, *rule, mode ? &*mode : nullptr, game);
-  else if (mode)
-    section.refuse(*table.get("mode"), "mode", "a mode program needs a [rule] beside it");
+  read_rules(source, section, game);
   return game;
 }
 

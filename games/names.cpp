@@ -10,8 +10,8 @@
 namespace racebeam {
 namespace {
 
-constexpr std::array<std::string_view, 18> kReserved = {
-    "ram", "mem", "bcd",  "prev",  "if",   "min",    "max", "s8",         "u8",
+constexpr std::array<std::string_view, 19> kReserved = {
+    "ram", "mem", "bcd", "wrap", "prev",  "if",   "min",    "max", "s8",         "u8",
     "sum", "rng", "mode", "while", "else", "select", "act", "soft_reset", "fail"};
 
 bool is_name(std::string_view text) {

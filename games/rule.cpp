@@ -25,6 +25,11 @@ void Rule::step(const Memory& memory) {
 
 int Rule::reward() const { return tally_.values[kRewardSlot]; }
 
+int Rule::reward_b() const {
+  if (!program_ || !program_->reward_b) return 0;
+  return tally_.values[static_cast<std::size_t>(*program_->reward_b)];
+}
+
 bool Rule::terminal() const {
   return program_ && evaluate(program_->terminal, tally_.values.data(), {}) != 0;
 }

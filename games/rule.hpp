@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct RuleProgram {
   std::vector<Variable> variables;  // variable n is Tally::values[n]
   Program step;
   Program terminal, lives;  // what is answered; they look at variables only
+  std::optional<int> reward_b;  // the variable that is player B's reward, if the rule knows one
 };
 
 class Rule {
@@ -43,7 +45,8 @@ class Rule {
   void step(const Memory& memory);  // after a frame
 
   // A game without a rule answers 0, false and 0.
-  int reward() const;  // of the last frame
+  int reward() const;    // player A's, of the last frame
+  int reward_b() const;  // player B's; 0 if the rule has no second player
   bool terminal() const;
   int lives() const;
   int initial_lives() const;  // what lives() answers right after a reset: what "loss of life" compares with

@@ -30,7 +30,8 @@ void RuleCompiler::step(std::string_view source) {
   if (!assigns("terminal"))
     reader.refuse("nothing assigns 'terminal'; write terminal = 0 if the game never ends");
   if (!assigns("reward") && !assigns("score")) reader.refuse("nothing assigns 'score' or 'reward'");
-  if (!assigns("reward")) imply_reward();
+  if (!assigns("reward")) imply_reward("reward", "score");
+  if (!assigns("reward_b") && assigns("score_b")) imply_reward("reward_b", "score_b");
 }
 
 // All names that the step assigns may be read anywhere in it: before their assignment they have the value of
@@ -50,10 +51,11 @@ void RuleCompiler::assignment(TokenReader& reader) {
   step_scope_.values[name] = value;
 }
 
-void RuleCompiler::imply_reward() {
-  const Register before = step_.variable(names_.slot("score"));
-  step_scope_.values["reward"] =
-      step_.emit({.op = Op::kSubtract, .a = step_scope_.values["score"], .b = before});
+void RuleCompiler::imply_reward(const char* reward, const char* score) {
+  const Register before = step_.variable(names_.slot(score));
+  const Register change = step_.emit({.op = Op::kSubtract, .a = step_scope_.values[score], .b = before});
+  names_.declare(reward);
+  step_scope_.values[reward] = modulus_ ? emit_wrapped(step_, change, *modulus_) : change;
 }
 
 Program RuleCompiler::answer(std::string_view source) {
@@ -73,6 +75,7 @@ ModeProgram RuleCompiler::mode_program(std::string_view source) {
 }
 
 RuleProgram RuleCompiler::finish() {
+  if (assigns("reward_b")) rule_.reward_b = names_.slot("reward_b");
   rule_.variables = names_.variables();
   for (const auto& [name, value] : step_scope_.values)
     if (const std::optional<int> slot = names_.slot_if_used(name)) step_.output(*slot, value);

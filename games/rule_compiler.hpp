@@ -1,9 +1,10 @@
-// Compiles the texts of a game file's rule and mode program. Call in this order: reset_to and keep, step,
-// terminal, lives, mode_program, finish. Throws SourceError, with the line of the text, and
+// Compiles the texts of a game file's rule and mode program. Call in this order: wraps, reset_to and keep,
+// step, terminal, lives, mode_program, finish. Throws SourceError, with the line of the text, and
 // std::invalid_argument.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -16,6 +17,9 @@ namespace racebeam {
 
 class RuleCompiler {
  public:
+  // Scores start again at 0 when they reach `modulus`: rewards that a score implies take note of it.
+  void wraps(std::int32_t modulus) { modulus_ = modulus; }
+
   void reset_to(std::string_view variable, std::int32_t initial) { names_.reset_to(variable, initial); }
   void keep(std::string_view variable) { names_.keep(variable); }
 
@@ -33,13 +37,14 @@ class RuleCompiler {
  private:
   void declare_assigned(TokenReader reader);
   void assignment(TokenReader& reader);
-  void imply_reward();
+  void imply_reward(const char* reward, const char* score);
   Program answer(std::string_view source);
 
   Names names_;
   Scope step_scope_{Purpose::kStep, names_};
   ProgramBuilder step_;
   RuleProgram rule_;
+  std::optional<std::int32_t> modulus_;
 };
 
 }  // namespace racebeam
