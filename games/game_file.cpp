@@ -123,10 +123,10 @@ void read_keep(const Section& section, RuleCompiler& compiler) {
     section.guard(node, "keep", [&] { compiler.keep(node.value_exact<std::string>().value_or("")); });
 }
 
-void read_answers(const Section& section, const toml::table& table, RuleCompiler& compiler) {
+void read_answers(const Section& section, RuleCompiler& compiler) {
   const char* usual_lives = compiler.assigns("lives") ? "if(terminal, 0, lives)" : "if(terminal, 0, 1)";
-  if (!table.contains("terminal")) compiler.terminal("terminal");
-  if (!table.contains("lives")) compiler.lives(usual_lives);
+  if (!section.node("terminal")) compiler.terminal("terminal");
+  if (!section.node("lives")) compiler.lives(usual_lives);
   section.compile("terminal", [&](std::string_view source) { compiler.terminal(source); });
   section.compile("lives", [&](std::string_view source) { compiler.lives(source); });
 }
@@ -146,29 +146,28 @@ void refuse_useless_keep(const Section& section, const RuleCompiler& compiler) {
     if (!compiler.uses(*node.value_exact<std::string>())) section.refuse(node, "keep", kUseless);
 }
 
-std::optional<int> read_wraps(const Section& section, const toml::table& table) {
+std::optional<int> read_wraps(const Section& section) {
   const std::optional<int> modulus = section.number("wraps");
   if (modulus && *modulus < kLeastModulus)
-    section.refuse(*table.get("wraps"), "wraps",
+    section.refuse(*section.node("wraps"), "wraps",
                    "must be at least " + std::to_string(kLeastModulus) + ": the number at which the score starts again");
   return modulus;
 }
 
 // The mode program may look at variables of the rule, so that both are compiled together.
-void read_rule(const Section& section, const toml::table& table, const TomlSource& source, const Section* mode,
-               Game& game) {
-  if (!table.contains("step")) section.refuse_missing("step", "a rule needs this");
+void read_rule(const Section& section, const TomlSource& source, const Section* mode, Game& game) {
+  if (!section.node("step")) section.refuse_missing("step", "a rule needs this");
   const toml::table none;
   const toml::table* reset = section.table("reset");
   if (!reset) reset = &none;
   const Section reset_section(source, *reset, "rule.reset");
 
   RuleCompiler compiler;
-  if (const std::optional<int> modulus = read_wraps(section, table)) compiler.wraps(*modulus);
+  if (const std::optional<int> modulus = read_wraps(section)) compiler.wraps(*modulus);
   read_reset(reset_section, *reset, compiler);
   read_keep(section, compiler);
   section.compile("step", [&](std::string_view text) { compiler.step(text); });
-  read_answers(section, table, compiler);
+  read_answers(section, compiler);
   if (mode)
     mode->compile("setup", [&](std::string_view text) { game.mode_program = compiler.mode_program(text); });
   refuse_useless_reset(reset_section, *reset, compiler);
@@ -177,14 +176,6 @@ void read_rule(const Section& section, const toml::table& table, const TomlSourc
 }
 
 // Corrections
-
-// The rule as [fixed] makes it: its keys in place of those of [rule].
-toml::table corrected(const toml::table& rule, const toml::table& fixed) {
-  toml::table merged = rule;
-  for (const auto& [key, node] : fixed) merged.insert_or_assign(key, node);
-  for (const char* key : {"reference", "correction", "evidence", "minimal", "source"}) merged.erase(key);
-  return merged;
-}
 
 Correction read_correction(const Section& section, const toml::table& table) {
   Correction correction{.wraps = section.number("wraps"),
@@ -200,12 +191,11 @@ Correction read_correction(const Section& section, const toml::table& table) {
 
 void read_fixed(const TomlSource& source, const toml::table& rule, const toml::table& table, const Section* mode,
                 Game& game) {
-  const Section section(source, table, "fixed");
+  const Section section(source, table, "fixed"), merged(source, table, "fixed", &rule);
   section.allow({"wraps", "step", "reset", "keep", "terminal", "lives", "minimal", "reference", "correction",
                  "evidence"});
   Game fixed = game;
-  const toml::table merged = corrected(rule, table);
-  read_rule(Section(source, merged, "fixed"), merged, source, mode, fixed);
+  read_rule(merged, source, mode, fixed);
   if (table.contains("minimal")) read_minimal(section, table, fixed);
   game.correction = read_correction(section, table);
   fixed.correction = game.correction;
@@ -226,7 +216,7 @@ void read_rules(const TomlSource& source, const Section& section, Game& game) {
   const Section rule_section(source, *rule, "rule");
   rule_section.allow({"step", "reset", "keep", "terminal", "lives", "wraps", "source"});
   game.rule_source = static_cast<RuleSource>(rule_section.choice("source", {"ale-0.12", "racebeam"}).value_or(0));
-  read_rule(rule_section, *rule, source, setup ? &*setup : nullptr, game);
+  read_rule(rule_section, source, setup ? &*setup : nullptr, game);
   if (fixed) read_fixed(source, *rule, *fixed, setup ? &*setup : nullptr, game);
 }
 

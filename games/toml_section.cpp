@@ -29,8 +29,14 @@ toml::table parse_toml(const TomlSource& source) {
   }
 }
 
-Section::Section(const TomlSource& source, const toml::table& table, std::string path)
-    : source_(source), table_(table), path_(std::move(path)) {}
+Section::Section(const TomlSource& source, const toml::table& table, std::string path,
+                 const toml::table* base)
+    : source_(source), table_(table), path_(std::move(path)), base_(base) {}
+
+const toml::node* Section::node(std::string_view key) const {
+  const toml::node* const own = table_.get(key);
+  return own || !base_ ? own : base_->get(key);
+}
 
 void Section::allow(std::initializer_list<std::string_view> keys) const {
   for (const auto& [key, node] : table_)
@@ -53,10 +59,10 @@ void Section::refuse_missing(std::string_view key, const std::string& sentence) 
 
 template <class T>
 std::optional<T> Section::value(std::string_view key, const char* wanted) const {
-  const toml::node* node = table_.get(key);
-  if (!node) return std::nullopt;
-  if (!node->is<T>()) refuse(*node, key, std::string("must be ") + wanted);
-  return node->value_exact<T>();
+  const toml::node* const found = node(key);
+  if (!found) return std::nullopt;
+  if (!found->is<T>()) refuse(*found, key, std::string("must be ") + wanted);
+  return found->value_exact<T>();
 }
 
 std::optional<std::string> Section::text(std::string_view key) const {
@@ -69,20 +75,20 @@ std::optional<int> Section::number(std::string_view key) const {
   const std::optional<std::int64_t> number = value<std::int64_t>(key, "a whole number");
   if (!number) return std::nullopt;
   if (*number < std::numeric_limits<int>::min() || *number > std::numeric_limits<int>::max())
-    refuse(*table_.get(key), key, "must fit into 32 bits");
+    refuse(*node(key), key, "must fit into 32 bits");
   return static_cast<int>(*number);
 }
 
 const toml::array* Section::list(std::string_view key) const {
-  const toml::node* node = table_.get(key);
-  if (node && !node->is_array()) refuse(*node, key, "must be a list in [ ]");
-  return node ? node->as_array() : nullptr;
+  const toml::node* const found = node(key);
+  if (found && !found->is_array()) refuse(*found, key, "must be a list in [ ]");
+  return found ? found->as_array() : nullptr;
 }
 
 const toml::table* Section::table(std::string_view key) const {
-  const toml::node* node = table_.get(key);
-  if (node && !node->is_table()) refuse(*node, key, "must be a table");
-  return node ? node->as_table() : nullptr;
+  const toml::node* const found = node(key);
+  if (found && !found->is_table()) refuse(*found, key, "must be a table");
+  return found ? found->as_table() : nullptr;
 }
 
 std::optional<int> Section::choice(std::string_view key, const std::vector<std::string>& words) const {
@@ -90,7 +96,7 @@ std::optional<int> Section::choice(std::string_view key, const std::vector<std::
   if (!word) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *word);
   if (found == words.end())
-    refuse(*table_.get(key), key, quoted(*word) + " is not known; there are " + joined(words));
+    refuse(*node(key), key, quoted(*word) + " is not known; there are " + joined(words));
   return static_cast<int>(found - words.begin());
 }
 
@@ -107,11 +113,11 @@ void Section::guard(const toml::node& at, std::string_view key, const std::funct
 void Section::compile(std::string_view key, const std::function<void(std::string_view)>& compiler) const {
   const std::optional<std::string> code = text(key);
   if (!code) return;
-  const toml::node& node = *table_.get(key);
+  const toml::node& at = *node(key);
   try {
-    guard(node, key, [&] { compiler(*code); });
+    guard(at, key, [&] { compiler(*code); });
   } catch (const SourceError& error) {
-    source_.refuse(first_line(node) + error.line - 1, field(key), error.what());
+    source_.refuse(first_line(at) + error.line - 1, field(key), error.what());
   }
 }
 

@@ -26,10 +26,13 @@ toml::table parse_toml(const TomlSource& source);
 
 class Section {
  public:
-  // `path` is "" for the whole file.
-  Section(const TomlSource& source, const toml::table& table, std::string path);
+  // `path` is "" for the whole file. What `table` hasn't got is looked for in `base`, if there is one.
+  Section(const TomlSource& source, const toml::table& table, std::string path,
+          const toml::table* base = nullptr);
 
   void allow(std::initializer_list<std::string_view> keys) const;  // refuses all others
+
+  const toml::node* node(std::string_view key) const;  // null if the key is absent
 
   // Nothing if the key is absent; refused if it is something else.
   std::optional<std::string> text(std::string_view key) const;
@@ -59,6 +62,7 @@ class Section {
   const TomlSource& source_;
   const toml::table& table_;
   std::string path_;
+  const toml::table* base_;
 };
 
 }  // namespace racebeam

@@ -186,3 +186,48 @@ TEST_CASE("a game file that cannot be read is refused") {
   CHECK_THROWS_WITH(load_game_file(broken), Contains(broken + ":2: modes:"));
   CHECK(load_game_file(scratch.write("fine.toml", "title = 'T'\n"))->name == "fine");
 }
+
+TEST_CASE("[fixed] replaces keys of [rule] and keeps the others") {
+  const Game game = game_with("minimal = ['FIRE']\n[rule]\nsource = 'racebeam'\nlives = '7'\n" + kStep +
+                              "[fixed]\nwraps = 256\nminimal = ['NOOP', 'FIRE']\nreference = 'r'\n"
+                              "correction = 'c'\nevidence = 'e'\n");
+  REQUIRE(game.fixed);
+  CHECK(game.rule_source == RuleSource::kRacebeam);
+  CHECK(game.correction.wraps == 256);
+  CHECK(game.correction.correction == "c");
+  CHECK(game.minimal_actions == std::vector<int>{1});
+  CHECK(game.fixed->minimal_actions == std::vector<int>{0, 1});
+  CHECK(Rule(*game.fixed).lives() == 7);
+  FakeMemory memory;
+  Rule before(game), after(*game.fixed);
+  for (const int score : {255, 1}) {
+    memory[0x80] = static_cast<std::uint8_t>(score);
+    before.step(memory.memory());
+    after.step(memory.memory());
+  }
+  CHECK(before.reward() == -254);
+  CHECK(after.reward() == 2);
+  CHECK_FALSE(game_with("[rule]\n" + kStep).fixed);
+}
+
+TEST_CASE("modes for two players are offered beside the others") {
+  const Game game = game_with("modes = [5, 2]\ntwo_player_modes = [1, '5-6']\n");
+  CHECK(game.modes == std::vector<int>{5, 2});
+  CHECK(game.two_player_modes == std::vector<int>{1, 5, 6});
+  CHECK(game.offered_modes() == std::vector<int>{1, 2, 5, 6});
+}
+
+TEST_CASE("mistakes in corrections, sources and wraps are named with their line") {
+  const std::string rule = "[rule]\n" + kStep;  // lines 2 to 6
+  CHECK_THAT(error_in(rule + "[fixed]\nlives = '1'\n"),
+             Equals("my.toml:7: fixed.reference: a correction that is more than 'wraps' needs this"));
+  CHECK_THAT(error_in(rule + "[fixed]\nwraps = 9\n"), Contains("my.toml:8: fixed.wraps: must be at least 10"));
+  CHECK_THAT(error_in(rule + "[fixed]\nmodes = [1]\n"), Contains("my.toml:8: fixed.modes: there is no such key"));
+  CHECK_THAT(error_in(rule + "[fixed]\nstep = \"score = x\\nterminal = 0\"\n"),
+             Contains("my.toml:8: fixed.step: nothing assigns 'x'"));
+  CHECK_THAT(error_in("[fixed]\nwraps = 100\n"), Contains("my.toml:2: fixed: a correction needs a [rule]"));
+  CHECK_THAT(error_in("[rule]\nsource = 'xitari'\n" + kStep),
+             Contains("my.toml:3: rule.source: 'xitari' is not known; there are ale-0.12 and racebeam"));
+  CHECK_THAT(error_in("[rule]\nstep = 'reward = wrap(1, ram[0x80])'\n"),
+             Contains("my.toml:3: rule.step: wrap() takes a constant of at least 10"));
+}

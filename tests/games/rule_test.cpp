@@ -147,3 +147,54 @@ TEST_CASE("Seaquest's rule reads score, lives and the end from their places") {
   CHECK(rule.terminal());
   CHECK(rule.lives() == 0);
 }
+
+TEST_CASE("wrap() turns a fall by most of the modulus into a gain, and nothing else") {
+  const Game game = game_with_step("reward = wrap(ram[0x80] * 100 - 10000, 1000)\nterminal = 0");
+  FakeMemory memory;
+  Rule rule(game);
+  const auto reward = [&](int hundreds) {
+    memory[0x80] = static_cast<std::uint8_t>(hundreds);
+    rule.step(memory.memory());
+    return rule.reward();
+  };
+  CHECK(reward(90) == 0);     // -1000
+  CHECK(reward(91) == 100);   // -900
+  CHECK(reward(92) == -800);  // a score that was cleared
+  CHECK(reward(108) == 800);
+  CHECK(reward(109) == -100);  // a loss below 0
+}
+
+TEST_CASE("a score that wraps is told by a number, for both players") {
+  const Game game = game_with_step("score = bcd(0x80)\nscore_b = bcd(0x81)\nterminal = 0", "wraps = 100");
+  FakeMemory memory;
+  Rule rule(game);
+  memory[0x80] = memory[0x81] = 0x98;
+  rule.step(memory.memory());
+  memory[0x80] = 0x01;
+  memory[0x81] = 0x00;
+  rule.step(memory.memory());
+  CHECK(rule.reward() == 3);
+  CHECK(rule.reward_b() == 2);
+}
+
+TEST_CASE("player B's reward is the change of score_b or what the rule says, and 0 if it says nothing") {
+  FakeMemory memory;
+  memory[0x80] = 7;
+  const Game zero_sum = game_with_step("score = ram[0x80]\nscore_b = -score\nterminal = 0");
+  const Game own = game_with_step("reward = ram[0x80]\nreward_b = 2 * reward\nterminal = 0");
+  const Game none = game_with_step("reward = ram[0x80]\nterminal = 0");
+  const auto reward_b = [&](const Game& game) {
+    Rule rule(game);
+    rule.step(memory.memory());
+    const Tally copy = rule.tally();
+    Rule other(game);
+    other.restore(copy);
+    CHECK(other.reward_b() == rule.reward_b());
+    return rule.reward_b();
+  };
+  CHECK(reward_b(zero_sum) == -7);
+  CHECK(reward_b(own) == 14);
+  CHECK(reward_b(none) == 0);
+  CHECK(zero_sum.has_second_reward());
+  CHECK_FALSE(none.has_second_reward());
+}

@@ -1,0 +1,258 @@
+// Whose rules: Settings::rules, the second player's rewards, and our own rules on the real images.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+
+#include <random>
+#include <vector>
+
+#include "environment/environment.hpp"
+#include "games/catalogue.hpp"
+#include "tests/environment/steered.hpp"
+#include "tests/support/roms.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr auto kTwoPlayers = R"(
+title = "Two"
+modes = [0]
+two_player_modes = [2]
+[rule]
+step = '''
+score = ram[0x90]
+score_b = ram[0x93]
+terminal = ram[0x91] != 0
+'''
+[fixed]
+wraps = 256
+)";
+
+Settings with(Rules rules) {
+  Settings settings = test::plain();
+  settings.rules = rules;
+  return settings;
+}
+
+Environment two_players(const Settings& settings) {
+  return {test::counter_image(), test::game(kTwoPlayers, "two"), settings};
+}
+
+Environment running(const std::shared_ptr<const Image>& image, const char* game, int mode) {
+  Environment environment(image, find_game(game), with(Rules::kAle012));
+  environment.set_mode(mode);
+  environment.reset_game();
+  return environment;
+}
+
+#define RACEBEAM_NEEDS_GAME(image, name)                        \
+  const auto image = test::find_rom_of(*find_game(name));       \
+  if (!image) {                                                 \
+    WARN("SKIPPED: no image of " << (name));                    \
+    return;                                                     \
+  }
+
+}  // namespace
+
+TEST_CASE("both players' rewards are summed over a skip and clipped alike") {
+  Settings settings = test::plain();
+  settings.frame_skip = 2;
+  settings.reward_min = -5;
+  settings.reward_max = 5;
+  Environment environment = two_players(settings);
+  environment.set_ram(0x10, 3);
+  environment.set_ram(0x13, 9);
+  CHECK(environment.act(0) == 3);
+  CHECK(environment.rewards().a == 3);
+  CHECK(environment.rewards().b == 5);
+  const auto saved = environment.save();
+  environment.act(0);
+  CHECK(environment.rewards().b == 0);
+  environment.restore(*saved);
+  CHECK(environment.rewards().b == 5);
+  environment.reset_game();
+  CHECK(environment.rewards().b == 0);
+}
+
+TEST_CASE("the rules asked for are in force, ale-0.12 if none are") {
+  for (const Rules rules : {Rules::kAle012, Rules::kFixed}) {
+    Environment environment = two_players(with(rules));
+    environment.set_ram(0x10, 255);
+    environment.act(0);
+    environment.set_ram(0x10, 4);
+    CHECK(environment.act(0) == (rules == Rules::kFixed ? 5 : -251));
+  }
+  CHECK(Settings{}.rules == Rules::kAle012);
+}
+
+TEST_CASE("a state of other rules is refused") {
+  Environment reference = two_players(with(Rules::kAle012)), mended = two_players(with(Rules::kFixed));
+  CHECK_THROWS_WITH(mended.restore(*reference.save()),
+                    "the state is of the game two; the one that runs is two with fixed rules");
+}
+
+TEST_CASE("modes for two players can be set, and a refusal names them too") {
+  Environment environment = two_players(test::plain());
+  environment.set_mode(2);
+  CHECK_THROWS_WITH(environment.set_mode(1), "two has no mode 1; it offers 0, 2");
+}
+
+TEST_CASE("Klax counts across the wrap of a score in the cartridge's memory") {
+  const auto reference = find_game("klax");
+  REQUIRE(reference->fixed);
+  std::array<std::uint8_t, 128> ram{};
+  std::array<std::uint8_t, 3> digits{};
+  const auto peek = [](const void* machine, std::uint16_t address) -> std::uint8_t {
+    const auto& bytes = *static_cast<const std::array<std::uint8_t, 3>*>(machine);
+    const int at = (address & 0x1FFF) - 0x10B4;
+    return at >= 0 && at < 3 ? bytes[static_cast<std::size_t>(at)] : std::uint8_t{0};
+  };
+  Rule before(*reference), after(*reference->fixed);
+  for (const std::array<std::uint8_t, 3> shown : {std::array<std::uint8_t, 3>{0, 0, 0x50}, {0x99, 0x99, 0x99}, {4, 0, 0}}) {
+    digits = shown;
+    before.step({ram.data(), peek, &digits});
+    after.step({ram.data(), peek, &digits});
+  }
+  CHECK(before.reward() == 4 - 999999);
+  CHECK(after.reward() == 5);
+}
+
+struct OurGame {
+  const char* name;
+  int address;               // of the mode in RAM
+  int (*shown)(int mode);    // what is there
+};
+
+TEST_CASE("every mode of our own rules is set up, in any order, and its game runs") {
+  const OurGame kGames[] = {{"combat", 0x80, [](int mode) { return mode - 1; }},
+                            {"joust", 0xF8, [](int mode) { return mode; }},
+                            {"maze_craze", 0xBD, [](int mode) { return mode; }},
+                            {"warlords", 0xD9, [](int mode) { return mode - 1; }}};
+  for (const OurGame& one : kGames) {
+    INFO(one.name);
+    RACEBEAM_NEEDS_GAME(image, one.name);
+    Environment environment(image, find_game(one.name), test::plain());
+    std::vector<int> modes = environment.game().offered_modes();
+    std::shuffle(modes.begin(), modes.end(), std::mt19937{7});
+    modes.resize(std::min<std::size_t>(modes.size(), 40));
+    for (const int mode : modes) {
+      INFO(mode);
+      environment.set_mode(mode);
+      environment.reset_game();
+      CHECK(test::at(environment, one.address) == one.shown(mode));
+      CHECK_FALSE(environment.game_over());
+      CHECK(environment.lives() > 0);
+      for (int i = 0; i < 60; ++i) CHECK(environment.act(0) == 0);
+      CHECK_FALSE(environment.game_over());
+    }
+  }
+}
+
+struct Total {
+  int a = 0, b = 0, frames = 0;
+  bool over = false;
+};
+
+// Random play of both, each action held for `hold` frames.
+Total play(Environment& environment, const std::vector<int>& actions, int hold, int frames) {
+  std::mt19937 random(5);
+  Total total;
+  int a = 0, b = 18;
+  for (; total.frames < frames && !total.over; ++total.frames) {
+    if (total.frames % hold == 0) {
+      a = actions[random() % actions.size()];
+      b = actions[random() % actions.size()] + 18;
+    }
+    environment.act(a, b);
+    total.a += environment.rewards().a;
+    total.b += environment.rewards().b;
+    total.over = environment.game_over();
+  }
+  return total;
+}
+
+const std::vector<int> kTank = {1, 2, 3, 4, 10, 11, 12}, kFlap = {0, 1, 1, 1, 3, 4, 11, 12};
+
+TEST_CASE("Combat ends when its time is up, with the points of both on the screen") {
+  RACEBEAM_NEEDS_GAME(image, "combat");
+  Environment environment = running(image, "combat", 14);
+  const Total total = play(environment, kTank, 15, 9000);
+  CHECK(total.over);
+  CHECK((total.frames > 8000 && total.frames < 8300));
+  const auto decimal = [&](int address) { return test::at(environment, address) / 16 * 10 + test::at(environment, address) % 16; };
+  CHECK(decimal(0xA1) + decimal(0xA2) > 0);
+  CHECK(total.a == decimal(0xA1) - decimal(0xA2));
+  CHECK(total.b == -total.a);
+}
+
+TEST_CASE("Joust gives each player the own points and ends when both are out") {
+  RACEBEAM_NEEDS_GAME(image, "joust");
+  for (const int mode : {0, 1}) {
+    Environment environment = running(image, "joust", mode);
+    CHECK(environment.lives() == 5);
+    const Total total = play(environment, kFlap, 6, 30000);
+    CHECK(total.over);
+    CHECK(environment.lives() == 0);
+    CHECK(total.a > 0);
+    CHECK((total.b > 0) == (mode == 1));
+  }
+}
+
+TEST_CASE("Warlords counts rounds won, and five of them are the match") {
+  RACEBEAM_NEEDS_GAME(image, "warlords");
+  Environment environment = running(image, "warlords", 5);
+  const Total total = play(environment, {0, 1, 3, 4, 11, 12}, 6, 120000);
+  CHECK(total.over);
+  CHECK(std::max(total.a, total.b) == 5);
+  CHECK(std::min(total.a, total.b) < 5);
+}
+
+TEST_CASE("who leaves the maze wins: the other loses") {
+  RACEBEAM_NEEDS_GAME(image, "maze_craze");
+  for (const int winner : {0xCE, 0xCF}) {
+    Environment environment = running(image, "maze_craze", 0);
+    environment.set_ram(winner - 0x80, 0x9C);  // in the exit's column
+    environment.set_ram(0xBC - 0x80, 0x40);    // as after a race
+    const int reward = environment.act(0);
+    CHECK(environment.terminal());
+    CHECK(reward == (winner == 0xCE ? 1 : -1));
+    CHECK(environment.rewards().b == -reward);
+  }
+}
+
+// Whether the screen tells what B does: RIGHT from the start, or LEFT.
+bool b_plays(Environment& environment) {
+  const auto start = environment.save(true);
+  std::vector<std::vector<std::uint8_t>> right;
+  for (int i = 0; i < 60; ++i) {
+    environment.act(0, 21);
+    right.emplace_back(environment.screen().begin(), environment.screen().end());
+  }
+  environment.restore(*start);
+  bool seen = false;
+  for (const auto& screen : right) {
+    environment.act(0, 22);
+    seen = seen || !std::ranges::equal(screen, environment.screen());
+  }
+  environment.restore(*start);
+  return seen;
+}
+
+TEST_CASE("in modes for two player B plays, and gets what A loses where that is the rule") {
+  for (const char* name : {"pong", "boxing", "tennis", "ice_hockey", "surround"}) {
+    RACEBEAM_NEEDS_GAME(image, name);
+    const auto game = find_game(name);
+    Environment alone = running(image, name, 0);
+    CHECK_FALSE(b_plays(alone));
+    for (const int mode : game->two_player_modes) {
+      INFO(name << " mode " << mode);
+      Environment environment = running(image, name, mode);
+      CHECK(b_plays(environment));
+      const Total total = play(environment, kTank, 10, 1200);
+      CHECK(total.b == -total.a);
+    }
+  }
+}
+
+}  // namespace racebeam
