@@ -22,7 +22,7 @@ class Games(unittest.TestCase):
         self.games = {game["name"]: game for game in json.loads(answer("games", "--json"))}
 
     def test_all_games_of_the_reference_are_there_with_their_rules(self):
-        theirs = [game for game in self.games.values() if game["has_rule"] and not game["built_in"]]
+        theirs = [game for game in self.games.values() if game["rule"] == "ale-0.12" and not game["built_in"]]
         self.assertEqual(len(theirs), 104)
         for game in theirs:
             md5s = [image["md5"] for image in game["images"] if image["recognised"]]
@@ -40,6 +40,18 @@ class Games(unittest.TestCase):
     def test_the_games_that_are_built_in_are_marked(self):
         self.assertTrue(self.games["beamfall"]["built_in"])
         self.assertFalse(self.games["pong"]["built_in"])
+
+    def test_rules_tell_whose_they_are_and_what_is_corrected(self):
+        ours = [name for name, game in self.games.items() if game["rule"] == "racebeam" and not game["built_in"]]
+        self.assertEqual(ours, ["combat", "joust", "maze_craze", "warlords"])
+        self.assertEqual(self.games["seaquest"]["fixed"]["wraps"], 1000000)
+        self.assertIsNone(self.games["freeway"]["fixed"])
+        self.assertIn("RIGHT", self.games["casino"]["fixed"]["minimal_actions"])
+        self.assertEqual(self.games["tennis"]["two_player_modes"], [1, 3])
+        rows = answer("games", "--rules").splitlines()
+        self.assertEqual([row.split()[0] for row in rows[1:]], list(self.games))
+        self.assertRegex(next(row for row in rows if row.startswith("seaquest ")), r"ale-0.12 +no +- +The score may wrap at 1000000")
+        self.assertRegex(next(row for row in rows if row.startswith("warlords ")), r"racebeam +yes +1-3 5-8 10-13")
 
     def test_the_table_has_a_row_for_each(self):
         rows = answer("games").splitlines()

@@ -57,6 +57,13 @@ class Lines(unittest.TestCase):
     def test_the_defaults_are_those_of_the_recordings(self):
         self.assertEqual(played(), played("--seed", "123", "--sticky", "0", "--frame-skip", "1", "--max-frames", "0"))
 
+    def test_rules_are_those_of_ale_unless_others_are_asked_for(self):
+        self.assertEqual(played(), played("--rules", "ale-0.12"))
+        self.assertEqual(played(), played("--rules", "fixed"))  # nothing is wrong with our own game
+        status, _, errors = trace("--rules", "ale-0.11")
+        self.assertEqual(status, 2)
+        self.assertIn("--rules: 'ale-0.11' is not known; there are ale-0.12 and fixed", errors[0])
+
     def test_a_frame_skip_of_two_is_every_second_frame(self):
         every = [line.split()[-2:] for line in played(data=b"3 3 4 4 1 1 10 10 " * 10) if line[0] == "A"]
         skipped = [line.split()[-2:] for line in played("--frame-skip", "2", data=b"3 4 1 10 " * 10) if line[0] == "A"]

@@ -239,6 +239,19 @@ bool b_plays(Environment& environment, int right = 21, int left = 22) {
   return seen;
 }
 
+TEST_CASE("corrected lives begin with what a loss of life is measured against") {
+  Settings settings = with(Rules::kFixed);
+  settings.truncate_on_life_loss = true;
+  for (const char* name : {"adventure", "bank_heist", "donkey_kong", "entombed", "frogger", "kaboom", "qbert"}) {
+    RACEBEAM_NEEDS_GAME(image, name);
+    INFO(name);
+    Environment environment(image, find_game(name), settings);
+    CHECK_FALSE(environment.game_over());
+    for (int i = 0; i < 30; ++i) environment.act(0);
+    CHECK_FALSE(environment.game_over());
+  }
+}
+
 TEST_CASE("in modes for two player B plays, and gets what A loses where that is the rule") {
   for (const char* name : {"pong", "boxing", "tennis", "ice_hockey", "surround"}) {
     RACEBEAM_NEEDS_GAME(image, name);

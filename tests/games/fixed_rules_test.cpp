@@ -259,7 +259,7 @@ TEST_CASE("corrected lives count the present one, and are 0 at the end only") {
       {"kaboom", {{0xA1, 2}}, 1, 2},     {"kaboom", {{0xA1, 0}}, 0, 0},       {"entombed", {{0xC7, 2}}, 1, 2},
       {"entombed", {{0xC7, 0}}, 0, 0},   {"bank_heist", {{0xD5, 0}}, 0, 1},   {"bank_heist", {{0xD5, 4}}, 4, 5},
       {"bank_heist", {{0xCE, 1}}, 0, 0}, {"donkey_kong", {{0xA3, 0}}, 0, 1},  {"frogger", {{0xD0, 0}}, 0, 1},
-      {"frogger", {{0xD0, 0xFF}}, 0, 0}, {"qbert", {{0x88, 3}}, 4, 5},        {"qbert", {{0x88, 0xFE}}, 0, 0},
+      {"frogger", {{0xD0, 0xFF}}, 0, 0}, {"qbert", {{0x88, 0}}, 4, 4},        {"qbert", {{0x88, 0xFE}}, 0, 0},
       {"adventure", {{0xE0, 2}}, 1, 0},  {"adventure", {{0xE0, 0}}, 1, 1},
   };
   for (const Lives& row : kLives) {
@@ -271,6 +271,16 @@ TEST_CASE("corrected lives count the present one, and are 0 at the end only") {
     CHECK(before.rule.lives() == row.reference);
     CHECK(after.rule.lives() == row.mended);
   }
+}
+
+TEST_CASE("Q*bert's extra lives show, once the game has begun") {
+  Frames reference(find_game("qbert")), mended(fixed("qbert"));
+  for (const int value : {0, 2, 3, 2, 1}) {
+    reference({{0x88, value}});
+    mended({{0x88, value}});
+    CHECK(mended.rule.lives() == (value == 0 ? 4 : value + 2));
+  }
+  CHECK(reference.rule.lives() == 2);
 }
 
 TEST_CASE("corrected minimal actions turn the paddle, or leave it alone") {
