@@ -7,6 +7,7 @@
 #include <string>
 
 #include "environment/environment.hpp"
+#include "games/catalogue.hpp"
 
 namespace racebeam {
 
@@ -28,12 +29,6 @@ void add_machine_options(CLI::App& app, MachineOptions& options);
 // A whole number of at least `least`: frames, and so on.
 CLI::Option* add_count(CLI::App& app, const std::string& name, int& value, int least,
                        const std::string& help);
-
-// An image and its game; both are const, so that any number of machines share them.
-struct Cartridge {
-  std::shared_ptr<const Image> image;
-  std::shared_ptr<const Game> game;
-};
 
 // Loads the image, recognises the game and makes sure that a machine runs with them; then doubts about the
 // game go to standard error.

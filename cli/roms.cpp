@@ -1,19 +1,17 @@
 #include "cli/roms.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "games/catalogue.hpp"
+#include "games/image.hpp"
 
 namespace racebeam {
 namespace {
@@ -39,29 +37,6 @@ struct Finding {
   std::string md5;      // "" if unusable
   std::string note;
 };
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-bool looks_like_image(const fs::path& path) {
-  const std::string ending = lower(path.extension().string());
-  if (ending == ".gz") return looks_like_image(path.stem());
-  return ending == ".bin" || ending == ".a26" || ending == ".rom";
-}
-
-std::vector<fs::path> files_of(const std::string& folder) {
-  std::error_code error;
-  std::vector<fs::path> files;
-  for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
-    if (entry->is_regular_file() && looks_like_image(entry->path())) files.push_back(entry->path());
-  }
-  if (error) throw std::invalid_argument("can't list the folder '" + folder + "': " + error.message());
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 // The game that lists this MD5, though it is not recognised by it; "" if there is none.
 std::string other_dump_of(const std::string& md5) {
@@ -132,7 +107,7 @@ void print_json(const std::vector<Finding>& findings, const std::vector<std::str
 
 void run(const std::string& folder, bool json) {
   std::vector<Finding> findings;
-  for (const fs::path& path : files_of(folder)) findings.push_back(examine(path));
+  for (const fs::path path : image_files(folder)) findings.push_back(examine(path));
   const auto missing = games_without(findings);
   json ? print_json(findings, missing) : print_text(findings, missing);
 }

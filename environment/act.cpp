@@ -13,15 +13,23 @@ std::int32_t clamped(std::int64_t reward, const Settings& settings) {
 
 }  // namespace
 
-int Environment::Impl::act(const Presses& asked) {
+int Environment::Impl::frames_of_act() {
+  const int least = std::max(settings.frame_skip, 1);
+  if (settings.frame_skip_max <= least) return least;
+  const auto choices = static_cast<std::uint32_t>(settings.frame_skip_max - least + 1);
+  return least + static_cast<int>(std::uint64_t{random()} * choices >> 32);
+}
+
+int Environment::Impl::act(const Presses& asked, int frames) {
   std::int64_t reward_a = 0, reward_b = 0;
-  for (int n = std::max(settings.frame_skip, 1); n > 0; --n) {
+  for (int n = frames; n > 0; --n) {
     sticky.draw(random, asked, play.held);
     if (over()) continue;
     run_frame(legal.replace(play.held));
     count_frame();
     reward_a += rule.reward();
     reward_b += rule.reward_b();
+    if (each_frame) each_frame();
   }
   if (settings.sound) console.sound().generate(audio);
   play.rewards = {clamped(reward_a, settings), clamped(reward_b, settings)};

@@ -106,6 +106,15 @@ int Environment::act(int a, int b, float strength_a, float strength_b) {
   return impl_->act(asked);
 }
 
+int Environment::act_for(int frames, int a) {
+  Presses asked;
+  asked.a.action = a;
+  impl_->legal.check(asked);
+  return impl_->act(asked, frames);
+}
+
+void Environment::watch(std::function<void()> each_frame) { impl_->each_frame = std::move(each_frame); }
+
 void Environment::reset_game() { impl_->reset(); }
 
 void Environment::set_mode(int mode) {
@@ -134,6 +143,11 @@ int Environment::episode_frame_number() const { return static_cast<int>(impl_->p
 
 int Environment::height() const { return impl_->console.height(); }
 std::span<const std::uint8_t> Environment::screen() const { return impl_->screen(); }
+std::span<const std::uint8_t> Environment::previous_screen() const {
+  return impl_->console.previous_picture();
+}
+Format Environment::format() const { return impl_->console.format(); }
+const Sound& Environment::sound() const { return impl_->console.sound(); }
 std::span<const std::uint8_t, kAudioSize> Environment::audio() const { return impl_->audio; }
 
 std::span<const std::uint8_t, kRamSize> Environment::ram() const {

@@ -4,16 +4,20 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "emulator/properties.hpp"
 #include "environment/settings.hpp"
 #include "games/game.hpp"
 #include "games/image.hpp"
 
 namespace racebeam {
+
+struct Sound;
 
 constexpr int kScreenWidth = 160;
 constexpr int kRamSize = 128;
@@ -39,6 +43,12 @@ class Environment {
   Rewards rewards() const;
   void reset_game();
 
+  // The same for a number of frames that is not the settings': no-ops at the start of an episode.
+  int act_for(int frames, int a);
+
+  // Called after each frame of an act, not for those of a reset; nothing: no longer. For recordings.
+  void watch(std::function<void()> each_frame);
+
   // A mode takes effect at the next reset, a difficulty at the next frame. Throw std::invalid_argument,
   // naming what is offered.
   void set_mode(int mode);
@@ -55,8 +65,11 @@ class Environment {
 
   int height() const;                            // rows of the screen
   std::span<const std::uint8_t> screen() const;  // height x 160 palette indices, row-major
+  std::span<const std::uint8_t> previous_screen() const;  // of the frame before; never averaged
+  Format format() const;                                  // never Format::kAuto
   std::span<const std::uint8_t, kRamSize> ram() const;
   std::span<const std::uint8_t, kAudioSize> audio() const;  // of the last act; zeros without Settings::sound
+  const Sound& sound() const;                               // the two channels that make it
   void set_ram(int index, std::uint8_t value);              // index 0-127, else std::out_of_range
   void screen_rgb(std::vector<std::uint8_t>& rgb) const;    // height x 160 x 3
   void screen_grey(std::vector<std::uint8_t>& grey) const;  // height x 160

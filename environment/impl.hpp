@@ -38,6 +38,7 @@ struct Environment::Impl {
   const int lives_at_start;
   Play play;
   std::array<std::uint8_t, kAudioSize> audio{};
+  std::function<void()> each_frame;  // empty: nobody watches
 
   // With colour averaging, the screen is made when it is first asked for.
   const Blend* const blend;  // null: no averaging
@@ -45,7 +46,9 @@ struct Environment::Impl {
   bool blend_is_due = true;
 
   // act.cpp
-  int act(const Presses& asked);
+  int act(const Presses& asked) { return act(asked, frames_of_act()); }
+  int act(const Presses& asked, int frames);
+  int frames_of_act();
   void run_frame(const Presses& presses);  // and the rule after it
   void step_console();                     // without the rule
   void count_frame();

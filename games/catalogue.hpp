@@ -56,4 +56,10 @@ struct Recognition {
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name = std::nullopt,
                       const std::optional<std::string>& game_file = std::nullopt);
 
+// An image and its game; both are const, so that any number of machines share them.
+struct Cartridge {
+  std::shared_ptr<const Image> image;
+  std::shared_ptr<const Game> game;
+};
+
 }  // namespace racebeam

@@ -46,6 +46,12 @@ std::shared_ptr<const Image> built_in(std::string_view name) {
          "there is no such built-in image; there are: " + (known.empty() ? "none" : known));
 }
 
+bool looks_like_image(const std::filesystem::path& path) {
+  const std::string ending = lower(path.extension().string());
+  if (ending == ".gz") return looks_like_image(path.stem());
+  return ending == ".bin" || ending == ".a26" || ending == ".rom";
+}
+
 struct Closer {
   void operator()(gzFile file) const { gzclose(file); }
 };
@@ -66,6 +72,25 @@ std::vector<std::uint8_t> read_file(const std::string& path) {
 }
 
 }  // namespace
+
+std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const std::string& stem) {
+  if (bytes.empty()) refuse(stem, "it is empty");
+  if (bytes.size() > kMaxImageSize)
+    refuse(stem, "larger than an image can be, " + std::to_string(kMaxImageSize) + " bytes");
+  return image_of(std::move(bytes), stem);
+}
+
+std::vector<std::string> image_files(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  std::vector<std::string> files;
+  for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
+    if (entry->is_regular_file() && looks_like_image(entry->path())) files.push_back(entry->path().string());
+  }
+  if (error) throw std::invalid_argument("can't list the folder '" + folder + "': " + error.message());
+  std::sort(files.begin(), files.end());
+  return files;
+}
 
 std::shared_ptr<const Image> load_image(const std::string& where) {
   if (where.starts_with(kBuiltIn)) return built_in(std::string_view(where).substr(kBuiltIn.size()));

@@ -24,6 +24,14 @@ struct Image {
 // `where`: a path (gzip is inflated), or builtin:NAME. Throws std::invalid_argument with a sentence.
 std::shared_ptr<const Image> load_image(const std::string& where);
 
+// Bytes that came another way. `stem` is what to call them. Throws std::invalid_argument when there are none or
+// too many.
+std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const std::string& stem);
+
+// The files of a folder that look like images: .bin, .a26 or .rom, also with .gz after it; sorted. Throws
+// std::invalid_argument when the folder can't be listed.
+std::vector<std::string> image_files(const std::string& folder);
+
 // The images that are part of the program.
 struct BuiltInImage {
   std::string_view name;

@@ -3,9 +3,11 @@
 
 #include <functional>
 #include <string>
+#include <variant>
 
 #include "environment/environment.hpp"
 #include "protocol/classic.hpp"
+#include "protocol/line_session.hpp"
 
 namespace racebeam {
 
@@ -13,6 +15,8 @@ struct ClassicService {
   std::function<Environment()> power_on;  // a machine of its own for each session; called from any thread
   ClassicOptions options;
 };
+
+using Service = std::variant<ClassicService, LineService>;
 
 // For the log: a session can be played again when its seed is known.
 inline std::string describe(const Environment& machine) {

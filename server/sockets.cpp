@@ -1,5 +1,7 @@
 #include "server/sockets.hpp"
 
+#include <poll.h>
+
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -47,6 +49,33 @@ net::awaitable<void> converse(Socket& socket, ClassicSession& session) {
   }
 }
 
+// Waiting for it may take for ever: a client that only closed its sending end still listens.
+bool has_gone(Socket& socket) {
+  pollfd state{socket.native_handle(), 0, 0};
+  return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLHUP | POLLERR)) != 0;
+}
+
+// Between two slices of a long request, the loop's other sessions have their turn.
+net::awaitable<void> converse(Socket& socket, LineSession& session) {
+  error_code error;
+  for (;;) {
+    const bool more = session.run();
+    if (const auto text = session.output(); !text.empty()) {
+      co_await net::async_write(socket, net::buffer(text), net::redirect_error(use_awaitable, error));
+      if (error) throw std::runtime_error("the client stopped reading");
+      session.sent(text.size());
+    }
+    if (session.finished()) break;
+    if (more) {
+      if (has_gone(socket)) throw std::runtime_error("the client left in the middle of a request");
+      co_await net::post(socket.get_executor(), use_awaitable);
+    } else {
+      const auto space = net::buffer(session.space().data(), session.space().size());
+      session.received(co_await socket.async_read_some(space, net::redirect_error(use_awaitable, error)));
+    }
+  }
+}
+
 // Closing with input unread would make the system throw away what the client has not read yet.
 net::awaitable<void> close_gently(std::shared_ptr<Client> client) {
   error_code error;
@@ -62,12 +91,23 @@ net::awaitable<void> close_gently(std::shared_ptr<Client> client) {
   }
 }
 
-net::awaitable<void> play(std::shared_ptr<Client> client, const ClassicService& service) {
+net::awaitable<void> play(Client& client, const ClassicService& service) {
+  Environment machine = service.power_on();
+  log(client.name + ": " + describe(machine));
+  ClassicSession session(machine, service.options);
+  co_await converse(client.socket, session);
+}
+
+net::awaitable<void> play(Client& client, const LineService& service) {
+  LineSession session(service);
+  log(client.name + ": came");
+  co_await converse(client.socket, session);
+  log(client.name + ": " + session.summary());
+}
+
+net::awaitable<void> play(std::shared_ptr<Client> client, const Service& service) {
   try {
-    Environment machine = service.power_on();
-    log(client->name + ": " + describe(machine));
-    ClassicSession session(machine, service.options);
-    co_await converse(client->socket, session);
+    co_await std::visit([&client](const auto& kind) { return play(*client, kind); }, service);
   } catch (const std::exception& error) {
     log(client->name + ": " + error.what());
   }
@@ -85,7 +125,7 @@ net::awaitable<void> pause() {
   co_await timer.async_wait(use_awaitable);
 }
 
-net::awaitable<void> welcome(Listener& listener, Loops& loops, const ClassicService& service) {
+net::awaitable<void> welcome(Listener& listener, Loops& loops, const Service& service) {
   for (int number = 1;; ++number) {
     Loop& loop = loops.idlest();
     error_code error;
@@ -105,7 +145,7 @@ net::awaitable<void> welcome(Listener& listener, Loops& loops, const ClassicServ
 
 }  // namespace
 
-int serve_sockets(const std::vector<std::string>& addresses, const ClassicService& service) {
+int serve_sockets(const std::vector<std::string>& addresses, const Service& service) {
   std::signal(SIGPIPE, SIG_IGN);
   Loops loops(std::thread::hardware_concurrency());
   net::io_context& first = loops.first().context;

@@ -11,6 +11,6 @@ namespace racebeam {
 // Serves all who come until SIGTERM or SIGINT; returns the exit status of the process. Every session has a
 // machine of its own and shares nothing with the others: one that is slow, or makes no sense, only harms
 // itself.
-int serve_sockets(const std::vector<std::string>& addresses, const ClassicService& service);
+int serve_sockets(const std::vector<std::string>& addresses, const Service& service);
 
 }  // namespace racebeam

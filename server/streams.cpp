@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <memory>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -42,10 +43,62 @@ bool converse(Stream& in, Stream& out, ClassicSession& session) {
   return true;
 }
 
-int serve(Stream in, Stream out, Environment& machine, const ClassicOptions& options) {
-  ClassicSession session(machine, options);
+bool converse(Stream& in, Stream& out, LineSession& session) {
+  boost::system::error_code error;
+  while (!session.finished()) {
+    const bool more = session.run();
+    const auto text = session.output();
+    net::write(out, net::buffer(text), error);
+    if (error) return false;
+    session.sent(text.size());
+    if (more || session.finished()) continue;
+    const auto space = session.space();
+    session.received(in.read_some(net::buffer(space.data(), space.size()), error));
+  }
+  return true;
+}
+
+// A session that waits for its streams. Made before they are opened: who starts the server hears at once when
+// the machine can't be had.
+class Waiting {
+ public:
+  virtual ~Waiting() = default;
+  virtual int serve(Stream in, Stream out) = 0;  // the exit status
+  virtual std::string description() const = 0;
+};
+
+class WaitingLine final : public Waiting {
+ public:
+  explicit WaitingLine(const LineService& service) : session_(service) {}
+
+  int serve(Stream in, Stream out) override {
+    if (converse(in, out, session_)) return 0;
+    log("the client stopped reading");
+    return kClientGone;
+  }
+
+  std::string description() const override { return "the line protocol"; }
+
+ private:
+  LineSession session_;
+};
+
+class WaitingClassic final : public Waiting {
+ public:
+  explicit WaitingClassic(const ClassicService& service)
+      : machine_(service.power_on()), session_(machine_, service.options) {}
+
+  int serve(Stream in, Stream out) override;
+  std::string description() const override { return describe(machine_); }
+
+ private:
+  Environment machine_;
+  ClassicSession session_;
+};
+
+int WaitingClassic::serve(Stream in, Stream out) {
   try {
-    if (converse(in, out, session)) return 0;
+    if (converse(in, out, session_)) return 0;
     log("the client stopped reading");
     return kClientGone;
   } catch (const ClassicError& error) {
@@ -70,39 +123,43 @@ void make_if_missing(const std::string& path) {
   if (!S_ISFIFO(found.st_mode)) throw std::runtime_error(path + " exists, but is not a named pipe");
 }
 
+std::unique_ptr<Waiting> await_client(const Service& service) {
+  if (const auto* line = std::get_if<LineService>(&service)) return std::make_unique<WaitingLine>(*line);
+  return std::make_unique<WaitingClassic>(std::get<ClassicService>(service));
+}
+
 // Each open waits for the client's; a client that opens them in the other order waits for ever.
-int serve_opened(const std::string& prefix, int output_flags, const ClassicService& service,
-                 Environment& machine) {
+int serve_opened(const std::string& prefix, int output_flags, Waiting& session) {
   net::io_context context;
-  log(describe(machine) + ", for a client that opens " + prefix + "_out for reading, then " + prefix +
+  log(session.description() + ", for a client that opens " + prefix + "_out for reading, then " + prefix +
       "_in for writing");
   Stream out(context, open_or_throw(prefix + "_out", O_WRONLY | output_flags));
   Stream in(context, open_or_throw(prefix + "_in", O_RDONLY));
-  return serve(std::move(in), std::move(out), machine, service.options);
+  return session.serve(std::move(in), std::move(out));
 }
 
 }  // namespace
 
-int serve_standard_streams(const ClassicService& service) {
+int serve_standard_streams(const Service& service) {
   handle_signals();
-  Environment machine = service.power_on();
-  log(describe(machine) + ", on standard input and output");
+  const auto session = await_client(service);
+  log(session->description() + ", on standard input and output");
   net::io_context context;
-  return serve(Stream(context, STDIN_FILENO), Stream(context, STDOUT_FILENO), machine, service.options);
+  return session->serve(Stream(context, STDIN_FILENO), Stream(context, STDOUT_FILENO));
 }
 
-int serve_pipes(const std::string& prefix, const ClassicService& service) {
+int serve_pipes(const std::string& prefix, const Service& service) {
   handle_signals();
-  Environment machine = service.power_on();
+  const auto session = await_client(service);
   make_if_missing(prefix + "_out");
   make_if_missing(prefix + "_in");
-  return serve_opened(prefix, 0, service, machine);
+  return serve_opened(prefix, 0, *session);
 }
 
 int serve_classic_pipes(const ClassicService& service) {
   handle_signals();
-  Environment machine = service.power_on();
-  return serve_opened("ale_fifo", O_CREAT | O_TRUNC, service, machine);
+  WaitingClassic session(service);
+  return serve_opened("ale_fifo", O_CREAT | O_TRUNC, session);
 }
 
 }  // namespace racebeam

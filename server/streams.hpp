@@ -10,11 +10,11 @@ namespace racebeam {
 
 // All return the exit status of the process; SIGTERM and SIGINT end the session and the process with status
 // 0.
-int serve_standard_streams(const ClassicService& service);
+int serve_standard_streams(const Service& service);
 
 // The server writes to PREFIX_out and reads from PREFIX_in. Both are made if they are missing, and left
 // behind.
-int serve_pipes(const std::string& prefix, const ClassicService& service);
+int serve_pipes(const std::string& prefix, const Service& service);
 
 // The same with ale_fifo_out and ale_fifo_in, which the client makes: when ale_fifo_out is missing the
 // classic server writes a plain file of that name, and when ale_fifo_in is missing it ends.

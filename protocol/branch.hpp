@@ -1,0 +1,40 @@
+// `branch`: from one state, several lists of actions; what planners do all day.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "protocol/player.hpp"
+#include "protocol/work.hpp"
+
+namespace racebeam {
+
+class BranchWork final : public Work {
+ public:
+  struct Rewards {  // of each act, runs of equal ones together
+    std::int64_t reward;
+    int times;
+  };
+
+  // To be filled before the work starts.
+  Place root;
+  std::vector<ActionQueue> branches;
+  std::string keep;  // the ends are saved as this name with 0, 1, 2 ... behind it; empty: they are not
+
+  void begin(Session& session);
+  bool go_on(Session& session, int& frames) override;
+  void give_up(Session& session) override;
+
+ private:
+  void enter(Session& session);
+  void leave(Session& session);
+  void add(std::int64_t reward);
+
+  Place undisturbed_;  // where the session is, generator included
+  std::size_t current_ = 0;
+  bool inside_ = false;  // the machine stands in branches[current_]
+  std::vector<Rewards> rewards_;
+  int acts_ = 0, frames_ = 0;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,93 @@
+#include "protocol/command.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "protocol/session.hpp"
+
+namespace racebeam {
+namespace {
+
+// name, arguments, summary, least and most arguments, what it needs, handler
+constexpr std::array kCommands = {
+    Command{"hello", "", "who the server is, and what it allows", 0, 0, Needs::kNothing, run_hello},
+    Command{"help", "[COMMAND|settings|presets|fields]", "explain", 0, 1, Needs::kNothing, run_help},
+    Command{"games", "[all|GAME]", "games whose image is here; all that there are rules for; one of them", 0, 1,
+            Needs::kNothing, run_games},
+    Command{"load", "GAME|MD5|inline [image=BASE64] [as=GAME] [KEY=VALUE...]",
+            "power on with an image and begin an episode", 1, kAnyNumber, Needs::kNothing, run_load},
+    Command{"settings", "", "the settings in effect", 0, 0, Needs::kGame, run_settings},
+    Command{"set", "[mode=N] [difficulty=N]", "change them: the mode at the next reset, the difficulty at once",
+            1, 2, Needs::kGame, run_set},
+    Command{"modes", "", "the game's modes", 0, 0, Needs::kGame, run_modes},
+    Command{"difficulties", "", "the game's difficulties", 0, 0, Needs::kGame, run_difficulties},
+    Command{"actions", "", "the actions that act accepts, and the game's legal and minimal ones", 0, 0,
+            Needs::kGame, run_actions},
+    Command{"observe", "[FIELD[:ENCODING]...|none]", "choose what replies carry", 0, kAnyNumber,
+            Needs::kNothing, run_observe},
+    Command{"look", "[FIELD[:ENCODING]...]", "what the machine shows; without fields, those chosen", 0,
+            kAnyNumber, Needs::kGame, run_look},
+    Command{"act", "A[@STRENGTH][/B[@STRENGTH]][*TIMES]...", "play actions until the episode ends", 1,
+            kAnyNumber, Needs::kGame, run_act},
+    Command{"reset", "", "begin an episode", 0, 0, Needs::kGame, run_reset},
+    Command{"peek", "INDEX [COUNT]", "bytes of RAM, 0 to 127", 1, 2, Needs::kGame, run_peek},
+    Command{"poke", "INDEX HEX", "write bytes of RAM", 2, 2, Needs::kGame, run_poke},
+    Command{"save", "NAME [random=1]", "keep the state, with the generator of what is random if wished", 1, 2,
+            Needs::kGame, run_save},
+    Command{"restore", "NAME", "return to a state", 1, 1, Needs::kGame, run_restore},
+    Command{"drop", "NAME...|all", "forget states", 1, kAnyNumber, Needs::kGame, run_drop},
+    Command{"states", "", "the names of the states", 0, 0, Needs::kGame, run_states},
+    Command{"export", "NAME", "a state as base64, for later or for another process", 1, 1, Needs::kGame,
+            run_export},
+    Command{"import", "NAME BASE64", "keep a state that was exported", 2, 2, Needs::kGame, run_import},
+    Command{"branch", "NAME [keep=PREFIX] ACTION[,ACTION...]...",
+            "from a state, play lists of actions; the session stays where it is", 2, kAnyNumber, Needs::kGame,
+            run_branch},
+    Command{"open", "N [autoreset=next-step|same-step|disabled]",
+            "N machines with the game and settings that are loaded, seeds counting up", 1, 2, Needs::kGame,
+            run_open},
+    Command{"step", "ACTION...", "an action for each machine, or one for all", 1, kAnyNumber, Needs::kMachines,
+            run_step},
+    Command{"restart", "[MASK]", "reset machines: those with 1 in a mask such as 0110; without, all", 0, 1,
+            Needs::kMachines, run_restart},
+    Command{"close", "", "give the machines back", 0, 0, Needs::kMachines, run_close},
+    Command{"record", "png|gif|y4m|wav NAME | stop", "write frames or sound below the server's folder", 1, 2,
+            Needs::kGame, run_record},
+    Command{"stats", "", "what this session has done", 0, 0, Needs::kNothing, run_stats},
+    Command{"quit", "", "end the session", 0, 0, Needs::kNothing, run_quit},
+};
+
+std::string count_text(const Command& command) {
+  if (command.most == command.least) return std::to_string(command.least);
+  const std::string least = std::to_string(command.least);
+  if (command.most == kAnyNumber) return "at least " + least;
+  return least + " to " + std::to_string(command.most);
+}
+
+}  // namespace
+
+std::span<const Command> commands() { return kCommands; }
+
+const Command& find_command(std::string_view name) {
+  const auto found = std::ranges::find(kCommands, name, &Command::name);
+  if (found != kCommands.end()) return *found;
+  std::string names;
+  for (const Command& command : kCommands) (names += ' ') += command.name;
+  throw Refusal(Code::kUnknownCommand, "there is no command " + quote(name) + "; there are" + names);
+}
+
+void check(const Command& command, const Session& session, std::size_t arguments) {
+  const std::string name(command.name);
+  if (arguments < command.least || arguments > command.most) {
+    throw Refusal(Code::kBadArguments, name + " takes " + count_text(command) + " arguments, not " +
+                                           std::to_string(arguments) + ": " + name + " " +
+                                           std::string(command.arguments));
+  }
+  if (command.needs != Needs::kNothing && !session.player)
+    throw Refusal(Code::kNoGame, name + " needs a game; load one first");
+  if (command.needs == Needs::kMachines && session.machines.empty())
+    throw Refusal(Code::kNoMachines, name + " needs machines; open some first");
+}
+
+}  // namespace racebeam

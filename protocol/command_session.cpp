@@ -1,0 +1,103 @@
+// hello, help, stats, quit
+#include <utility>
+
+#include "protocol/command.hpp"
+#include "protocol/play_settings.hpp"
+#include "protocol/recording.hpp"
+#include "protocol/session.hpp"
+
+namespace racebeam {
+namespace {
+
+template <typename Rows>
+void append_names(std::string& out, const Rows& rows, char between) {
+  bool first = true;
+  for (const auto& row : rows) {
+    if (!std::exchange(first, false)) out += between;
+    out += row.name;
+  }
+}
+
+void help_on_settings(std::string& out) {
+  out += "ok settings of load, as KEY=VALUE:";
+  for (const SettingRow& row : setting_rows()) {
+    (((((out += ' ') += row.name) += " (") += row.accepted) += ": ") += row.summary;
+    out += ");";
+  }
+  out.pop_back();
+}
+
+void help_on_presets(std::string& out) {
+  out += "ok presets of load, as preset=NAME:";
+  for (const PresetRow& row : preset_rows()) {
+    (((((out += ' ') += row.name) += " (") += row.source) += ") sets ") += row.words;
+    out += ';';
+  }
+  out.pop_back();
+}
+
+void help_on_fields(std::string& out) {
+  out += "ok fields of observe and look:";
+  for (const FieldRow& row : field_rows()) {
+    ((((out += ' ') += row.name) += " (") += row.summary) += ");";
+  }
+  out += " ends (terminated and truncated). Encodings of bytes, behind a colon: ";
+  append_names(out, encodings(), ' ');
+}
+
+}  // namespace
+
+void run_hello(Session& session, Words) {
+  const LineLimits& limits = session.service.limits;
+  std::string& out = session.out;
+  ((out += "ok server=racebeam/") += session.service.version) += " protocol=1";
+  append_pair(out, "max_line", static_cast<std::int64_t>(limits.line));
+  append_pair(out, "max_machines", limits.machines);
+  append_pair(out, "max_states", limits.states);
+  append_pair(out, "max_request_frames", limits.request_frames);
+  append_pair(out, "threads", static_cast<std::int64_t>(session.service.threads));
+  append_pair(out, "recording", session.service.record_folder.empty() ? 0 : 1);
+  append_pair(out, "encodings", "");
+  append_names(out, encodings(), ',');
+  append_pair(out, "presets", "");
+  append_names(out, preset_rows(), ',');
+}
+
+void run_help(Session& session, Words arguments) {
+  std::string& out = session.out;
+  if (arguments.empty()) {
+    out += "ok commands: ";
+    append_names(out, commands(), ' ');
+    out += "; more with help COMMAND, help settings, help presets, help fields";
+    return;
+  }
+  if (arguments[0] == "settings") return help_on_settings(out);
+  if (arguments[0] == "presets") return help_on_presets(out);
+  if (arguments[0] == "fields") return help_on_fields(out);
+  const Command& command = find_command(arguments[0]);
+  (out += "ok ") += command.name;
+  if (!command.arguments.empty()) (out += ' ') += command.arguments;
+  (out += ": ") += command.summary;
+}
+
+void run_stats(Session& session, Words) {
+  const Statistics& all = session.statistics;
+  std::string& out = session.out;
+  out += "ok";
+  append_pair(out, "requests", all.requests);
+  append_pair(out, "errors", all.errors);
+  append_pair(out, "acts", all.acts);
+  append_pair(out, "frames", all.frames);
+  append_pair(out, "episodes", all.episodes);
+  append_pair(out, "bytes_in", all.bytes_in);
+  append_pair(out, "bytes_out", all.bytes_out);
+  append_pair(out, "states", static_cast<std::int64_t>(session.states.size()));
+  append_pair(out, "machines", static_cast<std::int64_t>(session.machines.size()));
+}
+
+void run_quit(Session& session, Words) {
+  session.out += "ok";
+  session.quitting = true;
+}
+
+}  // namespace racebeam

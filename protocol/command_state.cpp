@@ -1,0 +1,142 @@
+// save, restore, drop, states, export, import, branch
+#include <utility>
+
+#include "environment/snapshot.hpp"
+#include "protocol/base64.hpp"
+#include "protocol/command.hpp"
+#include "protocol/recording.hpp"
+#include "protocol/session.hpp"
+
+namespace racebeam {
+namespace {
+
+const Place& find_state(const Session& session, std::string_view name) {
+  const auto found = session.states.find(name);
+  if (found != session.states.end()) return found->second;
+  std::string sentence = "there is no state " + quote(name) + "; there are";
+  constexpr int kShown = 20;
+  int shown = 0;
+  for (const auto& [known, place] : session.states) {
+    if (++shown > kShown) break;
+    sentence += ' ' + known;
+  }
+  throw Refusal(Code::kNoState, sentence + (session.states.empty() ? " none" : shown > kShown ? " and more" : ""));
+}
+
+void check_room(const Session& session, std::size_t more) {
+  const auto most = static_cast<std::size_t>(session.service.limits.states);
+  if (session.states.size() + more <= most) return;
+  throw Refusal(Code::kLimit,
+                "there is room for " + std::to_string(most) + " states; drop some, or save under a name that is in use");
+}
+
+void keep(Session& session, std::string_view name, Place place) {
+  const auto found = session.states.find(name);
+  if (found == session.states.end()) check_room(session, 1);
+  session.states.insert_or_assign(std::string(name), std::move(place));
+}
+
+bool read_random(Words words) {
+  if (words.empty()) return false;
+  const auto [key, value] = key_value(words[0]);
+  if (key != "random") throw Refusal(Code::kBadArguments, "save takes a name and random=0 or random=1");
+  return number_within(value, "random", 0, 1) == 1;
+}
+
+// A,B,C
+ActionQueue parse_sequence(std::string_view word, const AllowedActions& allowed) {
+  ActionQueue queue;
+  while (!word.empty()) {
+    std::string_view action = word;
+    word = cut_behind(action, ',');
+    queue.actions.push_back(parse_action(action, allowed));
+  }
+  return queue;
+}
+
+}  // namespace
+
+void run_save(Session& session, Words arguments) {
+  const std::string_view name = checked_name(arguments[0], "state");
+  keep(session, name, session.player->place(read_random(arguments.subspan(1))));
+  session.out += "ok";
+  append_pair(session.out, "state", name);
+}
+
+void run_restore(Session& session, Words arguments) {
+  const Place& place = find_state(session, arguments[0]);
+  session.player->go_to(place);
+  session.player->begin_request();
+  session.out += "ok";
+  session.player->append_view(session.out);
+}
+
+void run_drop(Session& session, Words arguments) {
+  if (arguments.size() == 1 && arguments[0] == "all") {
+    session.states.clear();
+  } else {
+    for (const std::string_view name : arguments) find_state(session, name);
+    for (const std::string_view name : arguments) session.states.erase(std::string(name));
+  }
+  session.out += "ok";
+  append_pair(session.out, "count", static_cast<std::int64_t>(session.states.size()));
+}
+
+void run_states(Session& session, Words) {
+  session.out += "ok";
+  append_pair(session.out, "count", static_cast<std::int64_t>(session.states.size()));
+  append_pair(session.out, "states", "");
+  bool first = true;
+  for (const auto& [name, place] : session.states) {
+    if (!std::exchange(first, false)) session.out += ',';
+    session.out += name;
+  }
+}
+
+void run_export(Session& session, Words arguments) {
+  const auto bytes = to_bytes(*find_state(session, arguments[0]).machine);
+  session.out += "ok";
+  append_pair(session.out, "state", arguments[0]);
+  append_pair(session.out, "bytes", static_cast<std::int64_t>(bytes.size()));
+  append_pair(session.out, "data", "");
+  append_base64(session.out, bytes);
+}
+
+void run_import(Session& session, Words arguments) {
+  const std::string_view name = checked_name(arguments[0], "state");
+  const auto bytes = bytes_of_base64(arguments[1]);
+  if (!bytes) throw Refusal(Code::kBadState, "the state is not base64 (A-Z a-z 0-9 + / and = at the end)");
+  Place place;
+  try {
+    place.machine = from_bytes(*bytes, session.player->machine());
+  } catch (const std::invalid_argument& error) {
+    throw Refusal(Code::kBadState, error.what());
+  }
+  keep(session, name, std::move(place));
+  session.out += "ok";
+  append_pair(session.out, "state", name);
+}
+
+void run_branch(Session& session, Words arguments) {
+  BranchWork& branch = session.branch;
+  branch.root = find_state(session, arguments[0]);
+  branch.keep.clear();
+  branch.branches.clear();
+  Words sequences = arguments.subspan(1);
+  if (sequences[0].starts_with("keep=")) {
+    branch.keep = checked_name(key_value(sequences[0]).value, "state");
+    sequences = sequences.subspan(1);
+  }
+  if (sequences.empty()) throw Refusal(Code::kBadArguments, "branch takes at least one list of actions");
+  std::int64_t acts = 0;
+  for (const std::string_view word : sequences) {
+    branch.branches.push_back(parse_sequence(word, session.player->allowed()));
+    acts += branch.branches.back().acts();
+  }
+  session.check_frames(acts);
+  if (!branch.keep.empty()) check_room(session, branch.branches.size());
+  branch.begin(session);
+  session.start(branch);
+}
+
+}  // namespace racebeam

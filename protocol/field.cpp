@@ -1,0 +1,160 @@
+#include "protocol/field.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace racebeam {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+using Scratch = std::vector<std::uint8_t>;
+
+constexpr std::string_view kStack = "grey84";
+constexpr int kDeepest = 16;
+
+#define NUMBER(name, of_request, expression, summary)                                                         \
+  FieldRow{name, summary, of_request, []([[maybe_unused]] const Environment& e, [[maybe_unused]] const Outcome& o) { \
+             return std::int64_t{expression};                                                     \
+           },                                                                                     \
+           nullptr, Encoding::kHex}
+
+constexpr std::array kFields = {
+    NUMBER("reward", true, o.reward, "sum over the acts of the request; each act's is limited as loaded"),
+    NUMBER("reward_b", true, o.reward_b, "the same for player B"),
+    NUMBER("terminated", true, o.terminated, "1: the game is over"),
+    NUMBER("truncated", true, o.truncated, "1: the episode was cut short, by frames or by a lost life"),
+    NUMBER("lives", false, e.lives(), "lives that are left; 0 in games without"),
+    NUMBER("frame", false, e.frame_number(), "frames since the game was loaded"),
+    NUMBER("episode_frame", false, e.episode_frame_number(), "frames since the episode began"),
+    NUMBER("acts", true, o.acts, "acts that were carried out; fewer than asked for when the episode ended"),
+    NUMBER("frames", true, o.frames, "frames that the request ran"),
+    FieldRow{"ram", "128 bytes", false, nullptr, [](const Environment& e, Scratch&) -> Bytes { return e.ram(); },
+             Encoding::kHex},
+    FieldRow{"screen", "height x 160 palette indices, row by row", false, nullptr,
+             [](const Environment& e, Scratch&) { return e.screen(); }, Encoding::kRunLength},
+    FieldRow{"rgb", "height x 160 x 3: red, green, blue", false, nullptr,
+             [](const Environment& e, Scratch& scratch) -> Bytes {
+               e.screen_rgb(scratch);
+               return scratch;
+             },
+             Encoding::kZlib},
+    FieldRow{"grey", "height x 160", false, nullptr,
+             [](const Environment& e, Scratch& scratch) -> Bytes {
+               e.screen_grey(scratch);
+               return scratch;
+             },
+             Encoding::kZlib},
+    FieldRow{kStack, "84 x 84 grey, the brighter of the last two frames; grey84x4: a stack of 4, oldest first",
+             false, nullptr, nullptr, Encoding::kZlib},
+    FieldRow{"audio", "512 samples of the last act; needs sound=1", false, nullptr,
+             [](const Environment& e, Scratch&) -> Bytes { return e.audio(); }, Encoding::kHex},
+};
+
+#undef NUMBER
+
+template <typename Rows>
+std::string names_of(const Rows& rows) {
+  std::string names;
+  for (const auto& row : rows) (names += names.empty() ? "" : " ") += row.name;
+  return names;
+}
+
+int parse_depth(std::string_view& name) {
+  if (!name.starts_with(kStack)) return 0;
+  if (name == kStack) return 1;
+  const std::string_view depth = name.substr(kStack.size());
+  name = kStack;
+  if (!depth.starts_with('x')) throw Refusal(Code::kBadArguments, "a stack is written as in grey84x4");
+  return static_cast<int>(number_within(depth.substr(1), "the depth of a stack", 1, kDeepest));
+}
+
+Field parse_field(std::string_view word) {
+  std::string_view name = word;
+  const std::string_view encoding = cut_behind(name, ':');
+  const bool encoded = name.size() < word.size();
+  std::string written(name);
+  const int depth = parse_depth(name);
+  const auto row = std::ranges::find(kFields, name, &FieldRow::name);
+  if (row == kFields.end()) {
+    throw Refusal(Code::kBadArguments,
+                  "there is no field " + quote(name) + "; there are " + names_of(kFields) + " ends none");
+  }
+  if (!encoded) return {&*row, row->usual, depth, std::move(written)};
+  if (row->number) throw Refusal(Code::kBadArguments, written + " is a number, and has no encoding");
+  const auto chosen = encoding_of(encoding);
+  if (!chosen) {
+    throw Refusal(Code::kBadArguments,
+                  "there is no encoding " + quote(encoding) + "; there are " + names_of(encodings()));
+  }
+  return {&*row, *chosen, depth, std::move(written)};
+}
+
+void check(const std::vector<Field>& fields) {
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (fields[i].row == fields[j].row)
+        throw Refusal(Code::kBadArguments, std::string(fields[i].row->name) + " is asked for twice");
+    }
+  }
+}
+
+}  // namespace
+
+std::span<const FieldRow> field_rows() { return kFields; }
+
+std::vector<Field> parse_fields(Words words) {
+  std::vector<Field> fields;
+  for (const std::string_view word : words) {
+    if (word == "none" && words.size() == 1) break;
+    if (word == "ends") {
+      fields.push_back(parse_field("terminated"));
+      fields.push_back(parse_field("truncated"));
+    } else {
+      fields.push_back(parse_field(word));
+    }
+  }
+  check(fields);
+  return fields;
+}
+
+View::View(std::vector<Field> fields, int height) : fields_(std::move(fields)) {
+  for (const Field& field : fields_) {
+    encoders_.emplace_back(field.encoding);
+    if (field.depth > 0) stack_.emplace(field.depth, height);
+  }
+}
+
+void View::acted(const Environment& machine, int frames) {
+  if (stack_ && frames > 0) stack_->push(machine, frames > 1);
+}
+
+void View::began(const Environment& machine) {
+  if (!stack_) return;
+  stack_->clear();
+  stack_->push(machine, false);
+}
+
+void View::append(std::string& out, const Environment& machine, const Outcome& outcome) {
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    ((out += ' ') += fields_[i].name) += '=';
+    append_value(out, i, machine, outcome);
+  }
+}
+
+void View::append_final(std::string& out, const Environment& machine) {
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    if (fields_[i].row->of_request) continue;
+    ((out += " final_") += fields_[i].name) += '=';
+    append_value(out, i, machine, {});
+  }
+}
+
+void View::append_value(std::string& out, std::size_t field, const Environment& machine,
+                        const Outcome& outcome) {
+  const FieldRow& row = *fields_[field].row;
+  if (row.number) return append_number(out, row.number(machine, outcome));
+  const bool stacked = fields_[field].depth > 0;
+  encoders_[field].append(out, stacked ? stack_->bytes() : row.bytes(machine, scratch_));
+}
+
+}  // namespace racebeam

@@ -1,0 +1,74 @@
+// What a reply can carry: one table of fields, and the choice that a client has made.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "environment/preprocess.hpp"
+#include "protocol/encoding.hpp"
+#include "protocol/words.hpp"
+
+namespace racebeam {
+
+// Of the acts of one request.
+struct Outcome {
+  std::int64_t reward = 0, reward_b = 0;
+  int acts = 0;
+  int frames = 0;
+  bool terminated = false, truncated = false;
+};
+
+struct FieldRow {
+  std::string_view name;
+  std::string_view summary;
+  bool of_request;  // what an act led to, not what the machine shows
+  std::int64_t (*number)(const Environment&, const Outcome&);  // null for those that are bytes
+  std::span<const std::uint8_t> (*bytes)(const Environment&, std::vector<std::uint8_t>& scratch);
+  Encoding usual;  // encoding of bytes
+};
+std::span<const FieldRow> field_rows();
+
+struct Field {
+  const FieldRow* row;
+  Encoding encoding;
+  int depth;         // of a stack of small screens; 0: no stack
+  std::string name;  // with the depth
+};
+
+// Words such as lives, screen:rle, grey84x4; `ends` is two of them, `none` is none. Throws Refusal.
+std::vector<Field> parse_fields(Words words);
+
+// Writes the chosen fields of one machine, reply after reply.
+class View {
+ public:
+  View(std::vector<Field> fields, int height);
+
+  const std::vector<Field>& fields() const { return fields_; }
+
+  // Called when the machine has run, so that stacks are right.
+  void acted(const Environment& machine, int frames);
+  void began(const Environment& machine);  // a new episode, or a state of unknown past
+
+  // " name=value" for each field.
+  void append(std::string& out, const Environment& machine, const Outcome& outcome);
+
+  // " final_name=value" for each that the machine shows: how an episode ended.
+  void append_final(std::string& out, const Environment& machine);
+
+  SmallScreens* stack() { return stack_ ? &*stack_ : nullptr; }
+
+ private:
+  void append_value(std::string& out, std::size_t field, const Environment& machine,
+                    const Outcome& outcome);
+
+  std::vector<Field> fields_;
+  std::vector<Encoder> encoders_;  // one a field
+  std::optional<SmallScreens> stack_;
+  std::vector<std::uint8_t> scratch_;
+};
+
+}  // namespace racebeam

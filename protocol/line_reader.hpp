@@ -1,0 +1,41 @@
+// Input of a client of the line protocol, cut into lines. Grows with the line that is coming in, up to a limit;
+// a longer line is told once and skipped.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace racebeam {
+
+class LineReader {
+ public:
+  explicit LineReader(std::size_t longest) : longest_(longest) {}
+
+  std::span<char> space();        // where the next input goes; empty while next() still has lines
+  void added(std::size_t count);  // so much was put there
+  void end() { ended_ = true; }   // no more will come
+  bool ended() const { return ended_; }
+
+  enum class Kind { kLine, kTooLong, kHalf };
+  struct Line {
+    Kind kind;
+    std::string_view text;  // without LF, and without a CR before it; good until space() is called
+  };
+  std::optional<Line> next();
+
+ private:
+  std::size_t unread() const { return end_ - begin_; }
+  void shrink();
+
+  std::size_t longest_;
+  std::string buffer_;
+  std::size_t begin_ = 0, end_ = 0;  // of what next() has not given
+  std::size_t searched_ = 0;         // bytes from begin_ in which there is no LF
+  bool skipping_ = false;            // within a line that was too long
+  bool ended_ = false;
+};
+
+}  // namespace racebeam

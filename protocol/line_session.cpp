@@ -1,0 +1,32 @@
+#include "protocol/line_session.hpp"
+
+#include "protocol/recording.hpp"
+#include "protocol/session.hpp"
+
+namespace racebeam {
+LineSession::LineSession(const LineService& service) : session_(std::make_unique<Session>(service)) {}
+LineSession::~LineSession() = default;
+
+std::span<char> LineSession::space() { return session_->input.space(); }
+
+void LineSession::received(std::size_t count) {
+  session_->input.added(count);
+  if (count == 0) session_->input.end();
+}
+
+bool LineSession::run(int frames) { return session_->run(frames); }
+
+std::string_view LineSession::output() const { return session_->out; }
+
+void LineSession::sent(std::size_t count) { session_->out.erase(0, count); }
+
+bool LineSession::finished() const { return session_->finished(); }
+void LineSession::cancel() { session_->cancel(); }
+
+std::string LineSession::summary() const {
+  const Statistics& all = session_->statistics;
+  return std::to_string(all.requests) + " requests, " + std::to_string(all.frames) + " frames, " +
+         std::to_string(all.errors) + " errors";
+}
+
+}  // namespace racebeam

@@ -1,0 +1,69 @@
+// One session of the racebeam line protocol (PROTOCOL.md). It has never heard of files and sockets: bytes go
+// in, bytes come out, and in between run() works for as long as it is told, so that a thread can serve many.
+// Nothing here throws and nothing waits.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "protocol/images.hpp"
+
+namespace racebeam {
+
+// What one client may use. `hello` tells.
+struct LineLimits {
+  std::size_t line = 1 << 20;           // bytes of a request; an image of the largest size fits as base64
+  std::size_t output = 1 << 18;         // bytes that wait for the reader; above, no request is begun
+  int machines = 256;                   // of `open`
+  int states = 256;                     // saved at a time
+  std::int64_t request_frames = 2'000'000;  // that one request may ask for
+  std::size_t recording = 1 << 30;      // bytes of one recording
+};
+
+// Runs task(0) ... task(count - 1), on several threads if it likes, and returns when all are done. A task
+// does not throw.
+using Parallel = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
+
+// What all sessions of a server share, all of it const.
+struct LineService {
+  std::string version = "0";
+  std::shared_ptr<const Images> images;
+  LineLimits limits;
+  std::string record_folder;  // recordings go below it; empty: there are none
+  Parallel parallel;          // empty: one after the other
+  std::size_t threads = 1;    // that `parallel` has
+};
+
+class Session;
+
+class LineSession {
+ public:
+  explicit LineSession(const LineService& service);  // which outlives the session
+  ~LineSession();
+  LineSession(const LineSession&) = delete;
+  LineSession& operator=(const LineSession&) = delete;
+
+  std::span<char> space();           // where input goes; do not read while it is empty
+  void received(std::size_t count);  // so much was put there; 0: the client has closed its end
+
+  // Carries out requests until about `frames` frames have run. True: there is more to do, call it again; when
+  // output is waiting, send it first.
+  bool run(int frames = kSlice);
+  static constexpr int kSlice = 2000;
+
+  std::string_view output() const;  // to be sent; good until run() or sent()
+  void sent(std::size_t count);     // so much of it is on its way
+
+  bool finished() const;  // nothing will come any more: send the output, then close
+  void cancel();          // the client has gone: what is under way is given up
+
+  std::string summary() const;  // for the log: what was played
+ private:
+  std::unique_ptr<Session> session_;
+};
+
+}  // namespace racebeam

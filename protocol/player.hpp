@@ -1,0 +1,58 @@
+// One machine with a game, and what its client sees of it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "games/catalogue.hpp"
+#include "protocol/action.hpp"
+#include "protocol/field.hpp"
+#include "protocol/play_settings.hpp"
+
+namespace racebeam {
+
+// A place that can be returned to: the machine, and the stack of small screens if there was one.
+struct Place {
+  std::shared_ptr<const Environment::Saved> machine;
+  std::vector<std::uint8_t> stack;
+  bool with_random = false;  // the generator of what is random in play is part of it
+};
+
+class Player {
+ public:
+  // Powers on, sets mode and difficulty, and begins an episode. Throws std::invalid_argument.
+  Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields);
+
+  Environment& machine() { return machine_; }
+  const Environment& machine() const { return machine_; }
+  AllowedActions allowed() const { return {machine_.game().name, allowed_}; }
+
+  void begin_request();            // sums begin at 0
+  void act(const Action& action);  // once, whatever its `times`
+  void reset();                    // and no-ops, as the settings have it
+  const Outcome& outcome() const { return outcome_; }
+  void set_outcome(const Outcome& outcome) { outcome_ = outcome; }
+
+  Place place(bool with_random) const;
+  void go_to(const Place& place);  // throws std::invalid_argument
+
+  void observe(std::vector<Field> fields);
+  View& view() { return view_; }
+  void append_view(std::string& out) { view_.append(out, machine_, outcome_); }
+
+ private:
+  int draw_noops();
+  void look_at_ends();
+
+  Environment machine_;
+  std::uint32_t allowed_ = 0;  // bit n: action n
+  int noop_max_;
+  std::mt19937 noop_random_;  // of its own, as in the reference; no part of a state
+  Outcome outcome_;
+  mutable View view_;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,49 @@
+// How the line protocol says no: `error CODE sentence`. PROTOCOL.md lists the codes; a test compares.
+#pragma once
+
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace racebeam {
+
+enum class Code {
+  kBadLine,
+  kLineTooLong,
+  kHalfLine,
+  kUnknownCommand,
+  kBadArguments,
+  kBadValue,
+  kBadAction,
+  kUnknownGame,
+  kBadImage,
+  kNoGame,
+  kNoMachines,
+  kNoState,
+  kBadState,
+  kRecording,
+  kLimit,
+  kInternal,
+};
+
+struct CodeRow {
+  Code code;
+  std::string_view name;
+  std::string_view meaning;
+};
+
+std::span<const CodeRow> codes();  // in the order of Code
+std::string_view name_of(Code code);
+
+// Ends a request; the session goes on.
+class Refusal : public std::runtime_error {
+ public:
+  Refusal(Code code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
+  Code code() const { return code_; }
+
+ private:
+  Code code_;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,142 @@
+#include "protocol/session.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "protocol/command.hpp"
+#include "protocol/recording.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr int kFramesOfARequest = 1;  // what any request costs at least, so that a slice ends
+
+const LineLimits& limits(const LineService& service) { return service.limits; }
+
+std::size_t first_unprintable(std::string_view line) {
+  const auto bad = std::ranges::find_if(line, [](char c) { return c < ' ' || c > '~'; });
+  return static_cast<std::size_t>(bad - line.begin());
+}
+
+void check_bytes(std::string_view line) {
+  const std::size_t bad = first_unprintable(line);
+  if (bad == line.size()) return;
+  const auto byte = static_cast<unsigned char>(line[bad]);
+  throw Refusal(Code::kBadLine, "byte " + std::to_string(bad + 1) + " of the line has the value " +
+                                    std::to_string(byte) + "; a request is printable ASCII, 32 to 126");
+}
+
+}  // namespace
+
+Session::Session(const LineService& with)
+    : service(with), input(limits(with).line), fields(parse_fields(std::array<std::string_view, 3>{
+                                                   "reward", "ends", "lives"})) {}
+
+Session::~Session() = default;
+
+void Session::check_frames(std::int64_t acts) const {
+  const Settings& machine = settings.machine;
+  const std::int64_t frames = acts * std::max(machine.frame_skip, machine.frame_skip_max);
+  const std::int64_t most = limits(service).request_frames;
+  if (frames <= most) return;
+  throw Refusal(Code::kLimit, "the request asks for " + std::to_string(frames) + " frames; it may ask for " +
+                                  std::to_string(most));
+}
+
+void Session::count(const Outcome& outcome) {
+  statistics.acts += outcome.acts;
+  statistics.frames += outcome.frames;
+  statistics.episodes += outcome.frames > 0 && (outcome.terminated || outcome.truncated);
+}
+
+void Session::watch() {
+  if (!recording) return player->machine().watch({});
+  player->machine().watch([this] { recording->add(player->machine()); });
+}
+
+bool Session::run(int frames) {
+  frames_left_ = frames;
+  while (!done_ && frames_left_ > 0 && !must_send()) {
+    if (!go_on()) return false;
+  }
+  return !done_;
+}
+
+// A reader that is slow holds up its own requests only.
+bool Session::must_send() const { return work_ == nullptr && out.size() >= limits(service).output; }
+
+// One step; false when there is nothing to do before something comes in.
+bool Session::go_on() {
+  if (work_ == nullptr) {
+    const auto line = input.next();
+    if (!line) {
+      done_ = input.ended();
+      return false;
+    }
+    take(*line);
+  }
+  if (work_ != nullptr) {
+    guarded([this] {
+      if (work_->go_on(*this, frames_left_)) work_ = nullptr;
+    });
+  }
+  if (work_ == nullptr) finish_reply();
+  return true;
+}
+
+template <typename Step>
+void Session::guarded(Step step) {
+  const auto refuse = [this](Code code, std::string_view sentence) {
+    if (Work* const work = std::exchange(work_, nullptr)) work->give_up(*this);
+    out.resize(reply_);
+    (((out += "error ") += name_of(code)) += ' ') += sentence;
+    ++statistics.errors;
+  };
+  try {
+    step();
+  } catch (const Refusal& refusal) {
+    refuse(refusal.code(), refusal.what());
+  } catch (const std::invalid_argument& error) {
+    refuse(Code::kBadValue, error.what());
+  } catch (const std::exception& error) {
+    refuse(Code::kInternal, error.what());
+  }
+}
+
+void Session::take(const LineReader::Line& line) {
+  ++statistics.requests;
+  statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
+  reply_ = out.size();
+  frames_left_ -= kFramesOfARequest;
+  guarded([&] {
+    if (line.kind == LineReader::Kind::kLine) return execute(line.text);
+    if (line.kind == LineReader::Kind::kHalf)
+      throw Refusal(Code::kHalfLine, "the input ended within a line; it was not carried out");
+    throw Refusal(Code::kLineTooLong, "the line has more than " + std::to_string(limits(service).line) +
+                                          " bytes; it was skipped");
+  });
+}
+
+void Session::execute(std::string_view line) {
+  check_bytes(line);
+  split(line, words_);
+  if (words_.empty()) throw Refusal(Code::kBadLine, "the line is empty; help lists the commands");
+  const Command& command = find_command(words_[0]);
+  const Words arguments = Words(words_).subspan(1);
+  check(command, *this, arguments.size());
+  command.run(*this, arguments);
+}
+
+void Session::finish_reply() {
+  out += '\n';
+  statistics.bytes_out += static_cast<std::int64_t>(out.size() - reply_);
+  done_ = quitting;
+}
+
+void Session::cancel() {
+  work_ = nullptr;
+  done_ = true;
+}
+
+}  // namespace racebeam

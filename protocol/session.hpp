@@ -1,0 +1,77 @@
+// The inside of a LineSession: what the commands work on.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/branch.hpp"
+#include "protocol/line_reader.hpp"
+#include "protocol/line_session.hpp"
+#include "protocol/machines.hpp"
+#include "protocol/player.hpp"
+#include "protocol/work.hpp"
+
+namespace racebeam {
+
+struct Command;
+class Recording;
+
+struct Statistics {
+  std::int64_t requests = 0, errors = 0, acts = 0, frames = 0, episodes = 0, bytes_in = 0, bytes_out = 0;
+};
+
+class Session {
+ public:
+  explicit Session(const LineService& with);
+  ~Session();
+
+  const LineService& service;
+  LineReader input;
+  std::string out;
+  bool quitting = false;
+  Statistics statistics;
+
+  // The game that was loaded; `player` is null without one.
+  Cartridge cartridge;
+  PlaySettings settings;
+  std::vector<Field> fields;  // chosen by `observe`; stay when another game is loaded
+  std::unique_ptr<Player> player;
+  std::map<std::string, Place, std::less<>> states;
+  std::unique_ptr<Recording> recording;  // null: none is running
+
+  std::vector<Action> actions;  // of a request; kept for their memory
+  ActWork act;
+  BranchWork branch;
+  MachinesWork machines;
+
+  void check_frames(std::int64_t acts) const;  // throws Refusal when a request asks for too many
+  void start(Work& work) { work_ = &work; }  // what a handler can't do at once
+  void count(const Outcome& outcome);        // into the statistics
+  void watch();                              // the machine, for the recording if there is one
+
+  bool run(int frames);
+  bool finished() const { return done_; }
+  void cancel();
+
+ private:
+  bool must_send() const;
+  bool go_on();
+  void take(const LineReader::Line& line);
+  void execute(std::string_view line);
+  void finish_reply();
+  template <typename Step>
+  void guarded(Step step);  // an exception becomes an error reply
+
+  std::vector<std::string_view> words_;
+  std::size_t reply_ = 0;  // where in `out` the current reply begins
+  Work* work_ = nullptr;   // what is left of the current request
+  int frames_left_ = 0;    // of this slice
+  bool done_ = false;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,64 @@
+// A request of the line protocol as words, and what words mean: numbers, lists, key=value.
+#pragma once
+
+#include <charconv>
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/refusal.hpp"
+
+namespace racebeam {
+
+using Words = std::span<const std::string_view>;
+
+// Cuts at blanks; several in a row count as one. Reuses the memory of `words`.
+void split(std::string_view line, std::vector<std::string_view>& words);
+
+// The whole text as a number; nothing for anything else, "nan" and "inf" included.
+template <typename Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || rest != end || text.empty()) return std::nullopt;
+  if constexpr (std::floating_point<Number>) {
+    if (!(number - number == 0)) return std::nullopt;
+  }
+  return number;
+}
+
+// A whole number from `least` to `most`. Throws Refusal(kBadValue) that calls it `what`.
+std::int64_t number_within(std::string_view text, std::string_view what, std::int64_t least,
+                           std::int64_t most);
+
+struct KeyValue {
+  std::string_view key, value;
+};
+// Throws Refusal(kBadArguments) when there is no '='.
+KeyValue key_value(std::string_view word);
+
+// The rest of `text` behind its first `mark`, which is cut off with it; "" if there is none.
+std::string_view cut_behind(std::string_view& text, char mark);
+
+// A name for something a client keeps: 1 to 64 letters, digits, '-' and '_'. Throws Refusal(kBadValue).
+std::string_view checked_name(std::string_view text, std::string_view what);
+
+std::vector<std::uint8_t> bytes_of_hex(std::string_view digits);  // Throws Refusal(kBadValue)
+
+void append_number(std::string& out, std::int64_t number);
+void append_number(std::string& out, double number);  // the shortest text that reads back
+void append_list(std::string& out, std::span<const int> numbers);  // 0,1,2
+
+// " key=number", " key=text"
+void append_pair(std::string& out, std::string_view key, std::int64_t number);
+void append_pair(std::string& out, std::string_view key, std::string_view text);
+
+// For sentences: what the client sent, shortened if it is long.
+std::string quote(std::string_view text);
+
+}  // namespace racebeam

@@ -1,0 +1,152 @@
+#include "recording/kept.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace racebeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kBlock = 1 << 16;
+
+[[noreturn]] void fail(const std::string& what, const std::string& path) {
+  const std::string reason = std::generic_category().message(errno);
+  throw std::runtime_error("cannot " + what + " " + fs::path(path).filename().string() + ": " + reason);
+}
+
+// Hidden, and in the same folder, so that it can be renamed.
+std::string temporary_name(const std::string& path) {
+  const fs::path whole(path);
+  std::string name = ".";
+  (name += whole.filename().string()) += ".XXXXXX";
+  return (whole.parent_path() / name).string();
+}
+
+void write_all(int descriptor, std::string_view bytes, const std::string& path) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) fail("write", path);
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void sync_folder_of(const std::string& path) {
+  const int folder = ::open(fs::path(path).parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  ::fsync(folder);
+  ::close(folder);
+}
+
+void rename_anew(const std::string& temporary, const std::string& path) {
+  if (::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) != 0)
+    fail("keep", path);
+  sync_folder_of(path);
+}
+
+void refuse_existing(const std::string& path) {
+  if (!fs::exists(path)) return;
+  throw std::runtime_error(fs::path(path).filename().string() + " exists; choose another name");
+}
+
+std::string_view text_of(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace
+
+void DiskBudget::take(std::size_t bytes) {
+  if (bytes > most_ - taken_)
+    throw std::runtime_error("the recording has reached its limit of " + std::to_string(most_) + " bytes");
+  taken_ += bytes;
+}
+
+KeptFile::KeptFile(std::string path, DiskBudget& budget)
+    : path_(std::move(path)), temporary_(temporary_name(path_)), budget_(budget) {
+  refuse_existing(path_);
+  descriptor_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
+  if (descriptor_ < 0) fail("make", path_);
+  ::fchmod(descriptor_, 0644);
+}
+
+KeptFile::~KeptFile() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(temporary_.c_str());
+}
+
+void KeptFile::write(std::span<const std::uint8_t> bytes) { write(text_of(bytes)); }
+
+void KeptFile::write(std::string_view text) {
+  budget_.take(text.size());
+  waiting_ += text;
+  if (waiting_.size() >= kBlock) flush();
+}
+
+void KeptFile::flush() {
+  write_all(descriptor_, waiting_, path_);
+  waiting_.clear();
+}
+
+void KeptFile::overwrite(std::size_t place, std::span<const std::uint8_t> bytes) {
+  flush();
+  if (::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place)) !=
+      static_cast<ssize_t>(bytes.size()))
+    fail("write", path_);
+}
+
+void KeptFile::keep() {
+  flush();
+  if (::fsync(descriptor_) != 0) fail("sync", path_);
+  rename_anew(temporary_, path_);
+  ::close(descriptor_);
+  descriptor_ = -1;
+}
+
+KeptFolder::KeptFolder(std::string path, DiskBudget& budget)
+    : path_(std::move(path)), temporary_(temporary_name(path_)), budget_(budget) {
+  refuse_existing(path_);
+  if (::mkdtemp(temporary_.data()) == nullptr) fail("make", path_);
+}
+
+KeptFolder::~KeptFolder() {
+  if (temporary_.empty()) return;
+  std::error_code ignored;
+  fs::remove_all(temporary_, ignored);
+}
+
+void KeptFolder::add(const std::string& name, std::span<const std::uint8_t> bytes) {
+  budget_.take(bytes.size());
+  const std::string file = temporary_ + "/" + name;
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (descriptor < 0) fail("make", file);
+  try {
+    write_all(descriptor, text_of(bytes), file);
+  } catch (...) {
+    ::close(descriptor);
+    throw;
+  }
+  ::close(descriptor);
+}
+
+// One sync for all of its files; one a file would stall the session.
+void KeptFolder::keep() {
+  const int folder = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) fail("open", path_);
+  const bool synced = ::syncfs(folder) == 0;
+  ::close(folder);
+  if (!synced) fail("sync", path_);
+  fs::permissions(temporary_, fs::perms(0755));
+  rename_anew(temporary_, path_);
+  temporary_.clear();
+}
+
+}  // namespace racebeam

@@ -1,0 +1,51 @@
+// A recording of frames or of sound, in one of four forms.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "emulator/palette.hpp"
+#include "recording/kept.hpp"
+
+namespace racebeam {
+
+constexpr std::size_t kPictureWidth = 320;  // every pixel is doubled: those of the console are wide
+
+// What is recorded.
+struct Footage {
+  std::size_t height;      // rows of 160 pixels
+  const Palette& palette;  // what their bytes mean
+  int rate;                // frames a second: 60, or 50
+};
+
+class Media {
+ public:
+  virtual ~Media() = default;
+
+  // All throw std::runtime_error when the disk refuses or the budget is used up.
+  virtual void frame(std::span<const std::uint8_t> pixels) = 0;  // height x 160 palette indices
+  virtual void sound(std::span<const std::uint8_t> samples) = 0;
+  virtual void keep() = 0;  // the end: makes it visible under its name
+};
+
+enum class MediaKind { kPng, kGif, kY4m, kWav };
+std::optional<MediaKind> media_kind(std::string_view name);  // png gif y4m wav
+
+// What the file, or the folder of PNGs, is called: NAME/, NAME.gif, NAME.y4m, NAME.wav.
+std::string file_name(MediaKind kind, const std::string& name);
+
+// `folder` exists.
+std::unique_ptr<Media> make_media(MediaKind kind, const std::string& folder, const std::string& name,
+                                  const Footage& footage, DiskBudget& budget);
+
+std::unique_ptr<Media> make_png(const std::string& path, const Footage& footage, DiskBudget& budget);
+std::unique_ptr<Media> make_gif(const std::string& path, const Footage& footage, DiskBudget& budget);
+std::unique_ptr<Media> make_y4m(const std::string& path, const Footage& footage, DiskBudget& budget);
+std::unique_ptr<Media> make_wav(const std::string& path, const Footage& footage, DiskBudget& budget);
+
+}  // namespace racebeam
