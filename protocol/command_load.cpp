@@ -32,10 +32,14 @@ std::string_view format_name(Format format) {
 }
 
 [[noreturn]] void refuse_game(std::string_view name) {
-  std::string sentence = "no image of " + quote(name) + " is here; games lists those that are";
+  if (find_game(name)) {
+    throw Refusal(Code::kUnknownGame, "the image of " + std::string(name) +
+                                          " is not here; games lists those that are; load inline takes one");
+  }
+  std::string sentence = "there is no game " + quote(name);
   const auto similar = similar_games(name);
-  for (std::size_t i = 0; i < similar.size(); ++i) sentence += (i == 0 ? "; there are rules for " : ", ") + similar[i];
-  throw Refusal(Code::kUnknownGame, sentence);
+  for (std::size_t i = 0; i < similar.size(); ++i) sentence += (i == 0 ? "; did you mean " : " or ") + similar[i];
+  throw Refusal(Code::kUnknownGame, sentence + (similar.empty() ? "; games lists those that are here" : "?"));
 }
 
 void describe_game(Session& session, std::string_view name) {

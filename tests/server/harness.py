@@ -59,7 +59,8 @@ class Server:
         self.errors = open(os.path.join(self.own_folder.name, "stderr"), "w+b")
         pipe = subprocess.PIPE if streams else subprocess.DEVNULL
         self.process = subprocess.Popen(
-            [BINARY, *words], stdin=pipe, stdout=pipe, stderr=self.errors, cwd=self.folder, bufsize=0)
+            [BINARY, *words], stdin=pipe, stdout=pipe, stderr=self.errors, cwd=self.folder, bufsize=0,
+            env={name: value for name, value in os.environ.items() if name != "RACEBEAM_ROMS"})
 
     def __enter__(self):
         return self
@@ -192,10 +193,11 @@ def open_pipes(server, prefix):
 
 
 class Session:
-    """One server and one client of it, over any of TRANSPORTS."""
+    """One server and one client of it, over any of TRANSPORTS. Without an image: the line protocol."""
 
     def __init__(self, transport, *options, image=GAME):
-        command = ["serve", "--classic", "--rom", image, *options]
+        protocol = ["--classic", "--rom", image] if image else []
+        command = ["serve", *protocol, *options]
         where = {"stdio": ["--stdio"], "pipes": ["--pipes", "p"], "tcp": ["--listen", "tcp://127.0.0.1:0"],
                  "unix": ["--listen", "unix:s"]}[transport]
         self.transport = transport

@@ -1,11 +1,11 @@
-"""The conversations in protocol/CLASSIC.md are what the server says."""
+"""The conversations in protocol/CLASSIC.md and protocol/PROTOCOL.md are what the server says."""
 
 import os
 import re
 import shlex
 import unittest
 
-from harness import SOURCE, main, run
+from harness import SOURCE, TRANSPORTS, Session, main, run
 
 
 def conversations(path):
@@ -33,6 +33,46 @@ class Documents(unittest.TestCase):
                 expected = re.escape("".join(heard)).replace(re.escape("..."), "[0-9A-F]+")
                 self.assertRegex(output.decode(), f"\\A{expected}\\Z")
                 self.assertEqual(status, 0)
+
+    def check_lines(self, converse):
+        """Each conversation of the line protocol, over each transport; `converse` sends it and hears the replies."""
+        found = conversations("protocol/PROTOCOL.md")
+        self.assertTrue(found)
+        for command, said, heard in found:
+            options = [word for word in command[1:] if word != "--stdio"]
+            expected = re.escape("".join(heard)).replace(re.escape("..."), ".*")
+            for transport in TRANSPORTS:
+                with self.subTest(command=command, said=said, transport=transport):
+                    with Session(transport, *options, image=None) as session:
+                        received = converse(session.wire, [line.encode() for line in said])
+                        self.assertRegex(received.decode(), f"\\A{expected}\\Z")
+                        self.assertEqual(session.status(), 0)
+
+    def test_the_conversations_of_the_line_protocol_are_real(self):
+        def in_turn(wire, lines):
+            heard = b""
+            for line in lines:
+                wire.send(line)
+                heard += wire.line()
+            wire.stop_sending()
+            return heard + wire.rest()
+        self.check_lines(in_turn)
+
+    def test_they_are_when_the_input_comes_one_byte_at_a_time(self):
+        def byte_by_byte(wire, lines):
+            for line in lines:
+                for at in range(len(line)):
+                    wire.send(line[at:at + 1])
+            wire.stop_sending()
+            return wire.rest()
+        self.check_lines(byte_by_byte)
+
+    def test_they_are_when_all_is_sent_ahead_in_one_write(self):
+        def ahead(wire, lines):
+            wire.send(b"".join(lines))
+            wire.stop_sending()
+            return wire.rest()
+        self.check_lines(ahead)
 
 
 if __name__ == "__main__":

@@ -97,8 +97,15 @@ class CommandLine(Refusals):
         self.check(["serve", "--classic", "--rom", GAME], 2, "--stdio, --pipes PREFIX and --listen ADDRESS")
         self.refuse("--pipes", "p", hint="--stdio, --pipes PREFIX and --listen ADDRESS")
 
-    def test_the_protocol_has_to_be_named(self):
-        self.check(["serve", "--stdio", "--rom", GAME], 2, "--classic")
+    def test_what_the_client_says_in_the_line_protocol_is_refused(self):
+        for words in (["--seed", "1"], ["--frame-skip", "4"], ["--sticky", "0"], ["--full-screen"], ["--mode", "0"]):
+            with self.subTest(flag=words[0]):
+                self.check(["serve", "--stdio", "--rom", GAME, *words], 2, f"{words[0]}: goes with --classic")
+
+    def test_folders_have_to_be_there(self):
+        self.check(["serve", "--stdio", "--roms", "nowhere"], 1, "nowhere")
+        self.check(["serve", "--stdio", "--record-dir", "nowhere"], 1, "nowhere")
+        self.check([*SERVE, "--record-dir", "/tmp"], 2, "--record-dir")
 
     def test_an_image_has_to_be_named(self):
         self.check(["serve", "--classic", "--stdio"], 2, "--rom is required")

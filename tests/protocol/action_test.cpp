@@ -1,0 +1,59 @@
+#include "protocol/action.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "protocol/refusal.hpp"
+
+using namespace racebeam;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr AllowedActions kAll{"pong", 0x3FFFF}, kSome{"pong", 0b1011};
+
+std::string refusal(const std::string& word, const AllowedActions& actions = kAll) {
+  try {
+    parse_action(word, actions);
+  } catch (const Refusal& refused) {
+    return std::string(name_of(refused.code())) + ": " + refused.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("Actions are names or numbers") {
+  CHECK(parse_action("NOOP", kAll).a == 0);
+  CHECK(parse_action("17", kAll).a == 17);
+  CHECK(parse_action("DOWNLEFTFIRE", kAll).a == 17);
+  CHECK(parse_action("3", kAll).b == 18);
+}
+
+TEST_CASE("Player B, strengths and repetition") {
+  const Action action = parse_action("RIGHT@0.5/UPFIRE@0.25*30", kAll);
+  CHECK(action.a == 3);
+  CHECK(action.strength_a == 0.5F);
+  CHECK(action.b == 18 + 10);
+  CHECK(action.strength_b == 0.25F);
+  CHECK(action.times == 30);
+  CHECK(parse_action("RIGHT/LEFT", kAll).strength_b == 1);
+  CHECK(parse_action("RIGHT", kAll).strength_b == 0);
+}
+
+TEST_CASE("What is no action is refused with those there are") {
+  for (const std::string word : {"18", "-1", "99999999999", "", "fire", "FIRE ", "1x", "RESET", "40", "/", "1/", "/1",
+                                 "1/18"}) {
+    INFO(word);
+    CHECK_THAT(refusal(word), Contains("bad-action: ") && Contains("pong takes 0=NOOP 1=FIRE"));
+  }
+  for (const std::string word : {"1@", "1@2", "1@-1", "1@nan", "1*", "1*0", "1*x", "1*1000001"}) {
+    INFO(word);
+    CHECK_THAT(refusal(word), Contains("bad-value: "));
+  }
+}
+
+TEST_CASE("With a smaller set the others are refused, the numbers are the same") {
+  CHECK(parse_action("RIGHT", kSome).a == 3);
+  CHECK_THAT(refusal("UP", kSome), Contains("pong takes 0=NOOP 1=FIRE 3=RIGHT"));
+  CHECK_THAT(refusal("0/2", kSome), Contains("bad-action"));
+}

@@ -1,0 +1,81 @@
+// The tables of PROTOCOL.md are those of the program.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "protocol/command.hpp"
+#include "protocol/encoding.hpp"
+#include "protocol/field.hpp"
+#include "protocol/play_settings.hpp"
+#include "protocol/refusal.hpp"
+
+using namespace racebeam;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string document() {
+  std::ifstream file(RACEBEAM_SOURCE_DIR "/protocol/PROTOCOL.md");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The lines of the table that begins with `head`, without those of its head.
+std::string table(const std::string& head) {
+  const std::string text = document();
+  const std::size_t begin = text.find(head + "\n|---");
+  REQUIRE(begin != std::string::npos);
+  const std::size_t first = text.find('\n', begin + head.size() + 1) + 1;
+  return text.substr(first, text.find("\n\n", first) + 1 - first);
+}
+
+std::string in_table(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+std::string in_code(std::string_view text) {
+  std::string code = "| `";
+  (code += text) += "` |";
+  return code;
+}
+
+std::ptrdiff_t lines(const std::string& text) { return std::ranges::count(text, '\n'); }
+
+}  // namespace
+
+TEST_CASE("The document has each command, with its arguments and its summary, and no other") {
+  std::string expected;
+  for (const Command& command : commands()) {
+    (expected += "| `") += command.name;
+    if (!command.arguments.empty()) (expected += ' ') += in_table(command.arguments);
+    ((expected += "` | ") += command.summary) += " |\n";
+  }
+  CHECK(table("| command | |") == expected);
+}
+
+TEST_CASE("The document has each setting, preset, field, encoding and error code, and no other") {
+  const auto compare = [](const std::string& head, const auto& rows) {
+    const std::string found = table(head);
+    CHECK(lines(found) == std::ssize(rows));
+    for (const auto& row : rows) {
+      CHECK_THAT(found, Contains(in_code(row.name)));
+    }
+  };
+  compare("| setting | values | default | |", setting_rows());
+  compare("| preset | sets | source |", preset_rows());
+  compare("| field | | encoding |", field_rows());
+  compare("| encoding | |", encodings());
+  compare("| code | |", codes());
+  for (const PresetRow& preset : preset_rows())
+    CHECK_THAT(table("| preset | sets | source |"), Contains(in_code(preset.words)));
+}
+
+TEST_CASE("A code's place in the table is its number") {
+  for (std::size_t i = 0; i < codes().size(); ++i) CHECK(static_cast<std::size_t>(codes()[i].code) == i);
+}

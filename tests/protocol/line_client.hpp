@@ -1,0 +1,82 @@
+// A client of the line protocol without a wire.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/line_session.hpp"
+
+namespace racebeam::test {
+
+inline LineService line_service(const LineLimits& limits = {}) {
+  LineService service;
+  service.version = "test";
+  service.images = std::make_shared<const Images>();
+  service.limits = limits;
+  return service;
+}
+
+class LineClient {
+ public:
+  explicit LineClient(const LineService& with = line_service()) : service(with), session(service) {}
+
+  // Sends the text and returns all that comes back.
+  std::string say(std::string_view text) {
+    std::string answers;
+    while (!text.empty()) {
+      const std::span<char> space = session.space();
+      const std::size_t count = std::min(space.size(), text.size());
+      std::copy_n(text.begin(), count, space.begin());
+      if (count > 0) session.received(count);
+      text.remove_prefix(count);
+      answers += listen();
+    }
+    return answers;
+  }
+
+  // One request, its reply without LF.
+  std::string ask(const std::string& request) {
+    std::string answer = say(request + "\n");
+    if (!answer.empty()) answer.pop_back();
+    return answer;
+  }
+
+  std::string close() {
+    session.received(0);
+    return listen();
+  }
+
+  std::string listen() {
+    std::string answers;
+    bool more = true;
+    while (more) {
+      more = session.run();
+      answers += session.output();
+      session.sent(session.output().size());
+    }
+    return answers;
+  }
+
+  LineService service;
+  LineSession session;
+};
+
+// The value of `key` in the `group`th part of a reply.
+inline std::string value(std::string_view reply, const std::string& key, int group = 0) {
+  for (; group > 0; --group) reply.remove_prefix(reply.find(" |") + 2);
+  const std::string wanted = " " + key + "=";
+  const std::size_t at = reply.find(wanted);
+  if (at == std::string_view::npos) return "(none)";
+  reply.remove_prefix(at + wanted.size());
+  return std::string(reply.substr(0, reply.find(' ')));
+}
+
+// The code of an error; "" for ok.
+inline std::string code(const std::string& reply) {
+  if (!reply.starts_with("error ")) return "";
+  return reply.substr(6, reply.find(' ', 6) - 6);
+}
+
+}  // namespace racebeam::test

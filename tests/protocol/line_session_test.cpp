@@ -1,0 +1,247 @@
+// Lines, errors and limits of a session.
+#include <catch2/catch.hpp>
+
+#include "protocol/base64.hpp"
+#include "tests/protocol/line_client.hpp"
+
+using namespace racebeam;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using test::code;
+using test::line_service;
+using test::LineClient;
+using test::value;
+
+namespace {
+
+const std::string kLoad = "load beamfall seed=7 sticky=0";
+
+}  // namespace
+
+TEST_CASE("A request is answered by one line, and requests sent ahead in their order") {
+  LineClient client;
+  const std::string answers = client.say(kLoad + "\nobserve frame\nact NOOP\nact NOOP\nlook\n");
+  CHECK(std::ranges::count(answers, '\n') == 5);
+  CHECK_THAT(answers, Contains("\nok fields=frame\nok frame=1\nok frame=2\nok frame=2\n"));
+}
+
+TEST_CASE("Half a line is not answered until it is whole, whatever the pieces") {
+  LineClient client;
+  std::string answers;
+  for (const char letter : kLoad + "\nobserve frame\nact NOOP\n") answers += client.say({&letter, 1});
+  CHECK_THAT(answers, Contains("\nok fields=frame\nok frame=1\n"));
+}
+
+TEST_CASE("A line ends with LF; CR before it and blanks between words do no harm") {
+  LineClient client;
+  CHECK(client.say("help  act \r\n") == client.say(" help act\n"));
+}
+
+TEST_CASE("Lines that are no requests are refused, and the session goes on") {
+  LineClient client;
+  CHECK(code(client.ask("")) == "bad-line");
+  CHECK(code(client.ask("   ")) == "bad-line");
+  CHECK_THAT(client.ask(std::string("act \0", 5)), Contains("byte 5 of the line has the value 0"));
+  CHECK_THAT(client.ask("act\tUP"), Contains("byte 4 of the line has the value 9"));
+  CHECK(code(client.ask("load p\xC3\xB6ng")) == "bad-line");
+  CHECK(code(client.ask("load \xFF\xFE")) == "bad-line");
+  CHECK(code(client.ask("LOAD beamfall")) == "unknown-command");
+  CHECK(code(client.ask(kLoad)) == "");
+}
+
+TEST_CASE("A line that is too long is skipped as a whole and told once") {
+  LineLimits limits;
+  limits.line = 100;
+  LineClient client(line_service(limits));
+  CHECK(code(client.ask("help " + std::string(95, ' '))) == "");
+  CHECK(code(client.ask("help " + std::string(96, ' '))) == "line-too-long");
+  const std::string answers = client.say(std::string(100'000, 'x') + "\nhelp act\n");
+  CHECK(std::ranges::count(answers, '\n') == 2);
+  CHECK_THAT(answers, StartsWith("error line-too-long ") && Contains("\nok act"));
+}
+
+TEST_CASE("What is left without LF at the end of input is not carried out") {
+  LineClient client;
+  client.ask(kLoad);
+  client.say("act NOOP");
+  CHECK(code(client.close()) == "half-line");
+  CHECK(client.session.finished());
+}
+
+TEST_CASE("The end of input ends the session after the requests that came") {
+  LineClient client;
+  CHECK(client.close().empty());
+  CHECK(client.session.finished());
+}
+
+TEST_CASE("quit is the last request that is answered") {
+  LineClient client;
+  CHECK(client.say("quit\nhelp\n") == "ok\n");
+  CHECK(client.session.finished());
+}
+
+TEST_CASE("Commands say what they need") {
+  LineClient client;
+  CHECK(code(client.ask("act NOOP")) == "no-game");
+  CHECK(code(client.ask("step NOOP")) == "no-game");
+  client.ask(kLoad);
+  CHECK(code(client.ask("step NOOP")) == "no-machines");
+  CHECK_THAT(client.ask("act"), Contains("takes at least 1 arguments, not 0: act A["));
+  CHECK_THAT(client.ask("peek 1 2 3"), Contains("takes 1 to 2 arguments, not 3"));
+  CHECK_THAT(client.ask("reset now"), Contains("takes 0 arguments, not 1"));
+}
+
+TEST_CASE("A load that is refused leaves the game before it running") {
+  LineClient client;
+  client.ask(kLoad);
+  client.say("observe frame\nact NOOP\nsave here\n");
+  for (const std::string words :
+       {"nothing", "beamfall sticky=2", "beamfall sticky=nan", "beamfall seed=-1", "beamfall seed=4294967296",
+        "beamfall frame_skip=0", "beamfall frame_skip=4-2", "beamfall frame_skip=2-", "beamfall mode=7",
+        "beamfall color=1", "beamfall sticky", "beamfall preset=dqn", "beamfall reward_min=1 reward_max=0",
+        "beamfall rules=fixed", "inline", "inline image=!!!!", "inline image=", "inline image=AAAA",
+        "beamfall image=AAAA", "beamfall as=nothing", "../../etc/passwd", "/etc/passwd", "builtin:beamfall"}) {
+    INFO(words);
+    CHECK(code(client.ask("load " + words)) != "");
+    CHECK(client.ask("act NOOP").starts_with("ok frame="));
+  }
+  CHECK(client.ask("restore here") == "ok frame=1");
+}
+
+TEST_CASE("A preset comes before the settings that change it, wherever it stands") {
+  LineClient client;
+  const std::string reply = client.ask("load beamfall frame_skip=2-4 preset=dqn2015 seed=3 noop_max=0");
+  CHECK(value(reply, "frame_skip") == "2-4");
+  CHECK(value(reply, "sticky") == "0");
+  CHECK(value(reply, "life_loss_ends") == "1");
+  CHECK(value(reply, "preset") == "dqn2015");
+  CHECK(value(reply, "noop_max") == "0");
+  CHECK(client.ask("settings") == reply);
+}
+
+TEST_CASE("Without a seed the server picks one, and says which") {
+  LineClient client;
+  const std::string seed = value(client.ask("load beamfall"), "seed");
+  CHECK(seed != "0");
+  CHECK(value(client.ask("load beamfall seed=" + seed), "seed") == seed);
+}
+
+TEST_CASE("An image can be sent, is recognised, and plays the same") {
+  LineClient by_name, sent;
+  const auto image = load_image("builtin:beamfall");
+  std::string text;
+  append_base64(text, *image->bytes);
+  by_name.ask(kLoad);
+  CHECK(value(sent.ask("load inline sticky=0 seed=7 image=" + text), "game") == "beamfall");
+  for (LineClient* client : {&by_name, &sent}) client->ask("observe reward lives ram screen:rle");
+  CHECK(sent.ask("act FIRE*50 UP*9") == by_name.ask("act FIRE*50 UP*9"));
+}
+
+TEST_CASE("A range of frames is drawn anew for each act, by the seed") {
+  LineClient one, other;
+  std::string lengths;
+  for (LineClient* client : {&one, &other}) client->ask("load beamfall seed=5 frame_skip=2-4");
+  for (int act = 0; act < 60; ++act) {
+    const std::string reply = one.say("observe frames\nact NOOP\n");
+    CHECK(reply == other.say("observe frames\nact NOOP\n"));
+    lengths += value(reply, "frames")[0];
+  }
+  for (const char length : {'2', '3', '4'}) CHECK(std::ranges::count(lengths, length) > 8);
+  CHECK(lengths.find_first_not_of("234\n") == std::string::npos);
+}
+
+TEST_CASE("A request is done in slices, between which others have their turn") {
+  LineClient client;
+  client.ask(kLoad + " max_episode_frames=0");
+  client.ask("observe frames");
+  const std::string request = "act NOOP*5000\n";
+  std::ranges::copy(request, client.session.space().begin());
+  client.session.received(request.size());
+  int slices = 0;
+  while (client.session.run(500)) {
+    CHECK(client.session.output().empty());
+    REQUIRE(++slices < 100);
+  }
+  CHECK(slices >= 3);  // an episode without a player ends before 5000 frames
+  CHECK(client.session.output().starts_with("ok frames="));
+}
+
+TEST_CASE("A request that has been cancelled is not answered") {
+  LineClient client;
+  client.ask(kLoad);
+  const std::string request = "save a\nbranch a NOOP*100000\n";
+  std::ranges::copy(request, client.session.space().begin());
+  client.session.received(request.size());
+  CHECK(client.session.run(100));
+  client.session.cancel();
+  CHECK_FALSE(client.session.run(100));
+  CHECK(client.session.finished());
+  CHECK(client.session.output() == "ok state=a\nok branches=1");
+}
+
+TEST_CASE("Who does not read is not answered any more, and loses nothing") {
+  LineLimits limits;
+  limits.output = 1000;
+  LineClient client(line_service(limits));
+  client.ask(kLoad);
+  client.ask("observe frame ram");
+  std::string requests;
+  for (int act = 0; act < 50; ++act) requests += "act NOOP\n";
+  std::ranges::copy(requests, client.session.space().begin());
+  client.session.received(requests.size());
+  for (int turn = 0; turn < 10; ++turn) CHECK(client.session.run());
+  CHECK(client.session.output().size() < 1600);
+  const std::string answers = client.listen();
+  CHECK(std::ranges::count(answers, '\n') == 50);
+  CHECK_THAT(answers, Contains("ok frame=50 "));
+}
+
+TEST_CASE("Limits are told, and refused beyond") {
+  LineLimits limits;
+  limits.machines = 2;
+  limits.states = 2;
+  limits.request_frames = 100;
+  LineClient client(line_service(limits));
+  CHECK(value(client.ask("hello"), "max_machines") == "2");
+  client.ask(kLoad);
+  CHECK(code(client.ask("open 3")) == "bad-value");
+  CHECK(code(client.ask("act NOOP*101")) == "limit");
+  CHECK(code(client.ask("act NOOP*100")) == "");
+  client.say("save a\nsave b\n");
+  CHECK(code(client.ask("save c")) == "limit");
+  CHECK(code(client.ask("save b")) == "");
+  CHECK(code(client.ask("branch a NOOP*60 NOOP*60")) == "limit");
+  CHECK(code(client.ask("branch a keep=x NOOP")) == "limit");
+}
+
+TEST_CASE("Names of states and recordings can't leave their place") {
+  LineClient client;
+  client.ask(kLoad);
+  for (const std::string& name : {std::string("../a"), std::string("a/b"), std::string("."), std::string(65, 'a')}) {
+    CHECK(code(client.ask("save " + name)) == "bad-value");
+  }
+  CHECK_THAT(client.ask("record gif a"), Contains("--record-dir"));
+}
+
+TEST_CASE("Nothing that is said makes a session fall over") {
+  LineClient client;
+  const std::vector<std::string> words = {
+      "load",  "beamfall", "act",    "observe", "look",   "save",  "a",      "restore", "branch", "open",   "2",
+      "step",  "restart",  "export", "import",  "AAAA",   "poke",  "peek",   "0",       "127",    "FF",     "UP",
+      "FIRE*3", "1/2@0.5", "-1",     "@",       "/",      "*",     "keep=k", "a,b",     "UP,UP",  "screen:delta",
+      "grey84x4", "rgb",   "none",   "ends",    "set",    "mode=0", "=",     "sound=1", "audio",  "random=1",
+      "drop",  "all",      "close",  "01",      "record", "stop",  "help",   "stats",   "games",  "grey84x99"};
+  std::uint32_t random = 1;
+  const auto draw = [&random](std::size_t below) {
+    random = random * 1664525U + 1013904223U;
+    return (random >> 8) % below;
+  };
+  client.ask(kLoad);
+  for (int request = 0; request < 5000; ++request) {
+    std::string line;
+    for (std::size_t count = 1 + draw(4); count > 0; --count) line += words[draw(words.size())] + " ";
+    const std::string reply = client.ask(line);
+    REQUIRE((reply.starts_with("ok") || (reply.starts_with("error ") && code(reply) != "internal")));
+    REQUIRE(reply.find('\n') == std::string::npos);
+  }
+}

@@ -1,0 +1,230 @@
+// States, branches and many machines over the line protocol.
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "protocol/words.hpp"
+#include "tests/protocol/line_client.hpp"
+
+using namespace racebeam;
+using Catch::Matchers::Contains;
+using test::code;
+using test::line_service;
+using test::LineClient;
+using test::value;
+
+namespace {
+
+const std::string kEverything = "observe reward ends lives frame episode_frame ram screen:rle grey84x4 rgb audio";
+
+struct Playing : LineClient {
+  explicit Playing(const std::string& words = "", const LineService& with = line_service()) : LineClient(with) {
+    REQUIRE(code(ask("load beamfall seed=7 sound=1 " + words)) == "");
+    REQUIRE(code(ask(kEverything)) == "");
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Returning to a state gives back all that replies show, then and later") {
+  Playing client("sticky=0.25 frame_skip=2-4");
+  client.ask("act FIRE*30");
+  const std::string at_save = client.ask("look");
+  client.ask("save here random=1");
+  const std::string after = client.ask("act UP*5 FIRE*20");
+  client.say("reset\nact RIGHT*40\n");
+  CHECK(value(client.ask("restore here"), "screen") == value(at_save, "screen"));
+  CHECK(value(client.ask("look"), "grey84x4") == value(at_save, "grey84x4"));
+  CHECK(value(client.ask("look"), "audio") == value(at_save, "audio"));
+  CHECK(client.ask("act UP*5 FIRE*20") == after);
+}
+
+TEST_CASE("A state can be taken to another process") {
+  Playing one("sticky=0"), other("sticky=0");
+  one.say("act FIRE*30\nsave here\n");
+  const std::string text = value(one.ask("export here"), "data");
+  CHECK(other.ask("import there " + text) == "ok state=there");
+  other.ask("restore there");
+  CHECK(other.ask("look ram screen:hex frame") == one.ask("look ram screen:hex frame"));
+  one.ask("observe reward lives ram screen:rle");
+  other.ask("observe reward lives ram screen:rle");
+  CHECK(other.ask("act UP*9 FIRE*30") == one.ask("act UP*9 FIRE*30"));
+}
+
+TEST_CASE("A state that was cut, altered or belongs to another game is refused") {
+  Playing client("sticky=0");
+  client.ask("save here");
+  std::string text = value(client.ask("export here"), "data");
+  CHECK(code(client.ask("import x " + text.substr(0, text.size() / 8 * 4))) == "bad-state");
+  CHECK(code(client.ask("import x " + text.substr(1))) == "bad-state");
+  CHECK(code(client.ask("import x AAAA")) == "bad-state");
+  LineClient updraft;
+  updraft.ask("load updraft");
+  CHECK(code(updraft.ask("import x " + text)) == "bad-state");
+  text[400] = text[400] == 'A' ? 'B' : 'A';
+  CHECK(code(client.ask("import x " + text)) == "bad-state");
+  CHECK(code(client.ask("restore x")) == "no-state");
+}
+
+TEST_CASE("A branch answers what playing would have, and leaves the session where it is") {
+  for (const std::string settings : {"sticky=0", "sticky=0.25"}) {
+    Playing client(settings);
+    client.say("act FIRE*30\nsave root random=1\nact UP*7\n");
+    const std::string before = client.ask("look");
+    const std::string branches = client.ask("branch root FIRE*100 UP*5,FIRE*20,NOOP NOOP*5000");
+    CHECK(client.ask("look") == before);
+    const std::string later = client.ask("act FIRE*50");
+    const std::vector<std::string> played = {"act FIRE*100", "act UP*5 FIRE*20 NOOP", "act NOOP*5000"};
+    for (int branch = 0; branch < 3; ++branch) {
+      client.ask("restore root");
+      const std::string direct = client.ask(played[static_cast<std::size_t>(branch)]);
+      for (const std::string key : {"reward", "terminated", "truncated", "lives"})
+        CHECK(value(branches, key, branch + 1) == value(direct, key));
+    }
+    Playing undisturbed(settings);
+    undisturbed.say("act FIRE*30\nact UP*7\n");
+    CHECK(undisturbed.ask("act FIRE*50") == later);
+  }
+}
+
+TEST_CASE("The rewards of a branch are those of its acts") {
+  Playing client("sticky=0 frame_skip=4");
+  client.say("save root\nobserve reward\n");
+  const std::string rewards = value(client.ask("branch root FIRE*60"), "rewards", 1);
+  std::string expected;
+  for (int act = 0; act < 60; ++act) (expected += value(client.ask("act FIRE"), "reward")) += ",";
+  std::string written;
+  for (std::size_t at = 0; at < rewards.size();) {
+    const std::string run = rewards.substr(at, rewards.find(',', at) - at);
+    const std::size_t star = run.find('*');
+    for (int times = star == run.npos ? 1 : std::stoi(run.substr(star + 1)); times > 0; --times)
+      (written += run.substr(0, star)) += ",";
+    at += run.size() + 1;
+  }
+  CHECK(written == expected);
+}
+
+TEST_CASE("The ends of branches can be kept and gone on from") {
+  Playing client("sticky=0");
+  client.say("act FIRE*30\nsave root\n");
+  CHECK(value(client.ask("branch root keep=leaf UP*5 DOWN*5"), "state", 2) == "leaf1");
+  client.ask("restore leaf1");
+  const std::string kept = client.ask("look ram screen:hex frame");
+  client.say("restore root\nact DOWN*5\n");
+  CHECK(client.ask("look ram screen:hex frame") == kept);
+}
+
+TEST_CASE("Each of many machines plays as one alone with its seed") {
+  LineService service = line_service();
+  service.threads = 3;
+  service.parallel = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    std::vector<std::thread> threads;
+    for (std::size_t number = 0; number < count; ++number) threads.emplace_back(task, number);
+    for (std::thread& thread : threads) thread.join();
+  };
+  Playing many("sticky=0.25 frame_skip=3", service);
+  many.ask("open 3");
+  std::string last;
+  for (int step = 0; step < 40; ++step) last = many.ask("step FIRE UP DOWN");
+  const std::vector<std::string> actions = {"FIRE", "UP", "DOWN"};
+  for (int machine = 0; machine < 3; ++machine) {
+    LineClient one;
+    one.ask("load beamfall sound=1 sticky=0.25 frame_skip=3 seed=" + std::to_string(7 + machine));
+    one.ask(kEverything);
+    std::string alone;
+    for (int step = 0; step < 40; ++step) alone = one.ask("act " + actions[static_cast<std::size_t>(machine)]);
+    for (const std::string key : {"reward", "lives", "frame", "ram", "screen", "grey84x4", "audio"})
+      CHECK(value(last, key, machine + 1) == value(alone, key));
+  }
+}
+
+TEST_CASE("Autoreset is Gymnasium's") {
+  Playing client("sticky=0 max_episode_frames=2");
+  client.ask("observe reward ends episode_frame ram");
+  client.ask("reset");
+  const std::string fresh = value(client.ask("look"), "ram");
+  SECTION("next step") {
+    client.ask("open 1");
+    client.ask("step UP");
+    CHECK(value(client.ask("step UP"), "truncated", 1) == "1");
+    const std::string reset = client.ask("step UP");
+    CHECK(value(reset, "truncated", 1) == "0");
+    CHECK(value(reset, "episode_frame", 1) == "0");
+    CHECK(value(client.ask("step UP"), "episode_frame", 1) == "1");
+  }
+  SECTION("same step") {
+    client.ask("open 1 autoreset=same-step");
+    client.ask("step UP");
+    const std::string end = client.ask("step UP");
+    CHECK(value(end, "truncated", 1) == "1");
+    CHECK(value(end, "final_episode_frame", 1) == "2");
+    CHECK(value(end, "episode_frame", 1) == "0");
+    CHECK(value(end, "final_ram", 1) != value(end, "ram", 1));
+    CHECK(value(end, "final_reward", 1) == "(none)");
+    CHECK(value(client.ask("step UP"), "final_ram", 1) == "(none)");
+  }
+  SECTION("disabled") {
+    client.ask("open 2 autoreset=disabled");
+    client.say("step UP\nstep UP\n");
+    CHECK(value(client.ask("step UP"), "episode_frame", 2) == "2");
+    const std::string restarted = client.ask("restart 01");
+    CHECK(value(restarted, "episode_frame", 1) == "2");
+    CHECK(value(restarted, "truncated", 1) == "1");
+    CHECK(value(restarted, "episode_frame", 2) == "0");
+    CHECK(value(restarted, "truncated", 2) == "0");
+    CHECK(code(client.ask("restart 011")) == "bad-arguments");
+    CHECK(code(client.ask("restart 02")) == "bad-value");
+  }
+}
+
+TEST_CASE("Many machines are opened and stepped in slices") {
+  Playing client("sticky=0");
+  client.ask("observe frame");
+  const std::string requests = "open 40\nstep NOOP\n";
+  std::ranges::copy(requests, client.session.space().begin());
+  client.session.received(requests.size());
+  CHECK(client.session.run(500));
+  CHECK(client.session.output().empty());
+  CHECK(std::ranges::count(client.listen(), '|') == 80);
+}
+
+TEST_CASE("What is written into RAM is read there") {
+  Playing client("sticky=0");
+  CHECK(client.ask("poke 126 AB0F") == "ok index=126 bytes=AB0F");
+  CHECK(client.ask("peek 126 2") == "ok index=126 bytes=AB0F");
+  CHECK(client.ask("look ram").ends_with("AB0F"));
+  for (const std::string request : {"poke 127 AB0F", "poke 128 00", "poke 0 A", "poke 0 XY", "peek 128", "peek -1",
+                                    "peek 0 129", "peek 0 0"})
+    CHECK(code(client.ask(request)) == "bad-value");
+}
+
+TEST_CASE("Fields that can't be given are refused") {
+  LineClient client;
+  client.ask("load beamfall");
+  for (const std::string request : {"observe audio", "look audio", "look screen:delta", "look grey84x4",
+                                    "observe lives lives", "observe ends terminated", "observe screen:",
+                                    "observe lives:hex", "observe score", "observe screen:png", "observe screenx4",
+                                    "observe grey84y4", "observe lives none"})
+    CHECK(code(client.ask(request)) == "bad-arguments");
+  CHECK(code(client.ask("observe grey84x17")) == "bad-value");
+  CHECK(client.ask("observe") == "ok fields=reward,terminated,truncated,lives");
+  CHECK(client.ask("observe none") == "ok fields=");
+  CHECK(client.ask("act NOOP") == "ok");
+}
+
+TEST_CASE("An episode that begins with no-ops begins differently, by the seed") {
+  std::string frames;
+  LineClient client;
+  client.ask("load beamfall seed=9 sticky=0 noop_max=30");
+  client.ask("observe episode_frame");
+  for (int episode = 0; episode < 20; ++episode) frames += value(client.ask("reset"), "episode_frame") + " ";
+  LineClient other;
+  other.ask("load beamfall seed=9 sticky=0 noop_max=30");
+  other.ask("observe episode_frame");
+  std::string again;
+  for (int episode = 0; episode < 20; ++episode) again += value(other.ask("reset"), "episode_frame") + " ";
+  CHECK(frames == again);
+  std::vector<std::string_view> words;
+  split(frames, words);
+  std::ranges::sort(words);
+  CHECK(std::ranges::unique(words).size() < 12);  // more than eight different lengths
+}
