@@ -1,0 +1,171 @@
+"""The clients play over the line protocol, and read every encoding back."""
+
+import os
+import subprocess
+import sys
+import unittest
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path[:0] = [os.path.join(SOURCE, "tests", "server"), os.path.join(SOURCE, "clients", "python")]
+
+import racebeam  # noqa: E402
+from harness import BINARY, GAME, PATIENCE, Server, main  # noqa: E402
+
+ENCODINGS = ("hex", "rle", "delta", "base64", "zlib")
+CONTENTS = {"ram": 128, "screen": 33600, "rgb": 100800, "grey": 33600, "grey84x3": 3 * 84 * 84, "audio": 512}
+
+
+def over_each_transport(test):
+    """Runs `test(self, session)` with a client of one server over standard streams, TCP and a Unix socket."""
+    def run(self):
+        with self.subTest(transport="stdio"), racebeam.Session.start(BINARY) as session:
+            test(self, session)
+        with Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:s") as server:
+            server.wait_for("listening on unix:s")
+            with self.subTest(transport="tcp"), racebeam.Session.tcp("127.0.0.1", server.port()) as session:
+                test(self, session)
+            with self.subTest(transport="unix"), racebeam.Session.unix(server.path("s")) as session:
+                test(self, session)
+    return run
+
+
+class PythonClient(unittest.TestCase):
+    @over_each_transport
+    def test_every_encoding_says_the_same(self, session):
+        session.load("beamfall", seed=3, frame_skip=4, sound=1)
+        session.save("start", random=1)
+        seen = []
+        for encoding in ENCODINGS:
+            session.observe("reward", "lives", *(f"{content}:{encoding}" for content in CONTENTS))
+            session.restore("start")
+            seen.append([session.act(action) for action in ("FIRE", "UP*3", "RIGHT", "FIRE*30", "NOOP")])
+        for content, size in CONTENTS.items():
+            self.assertEqual({len(shown[content]) for shown in seen[0]}, {size})
+        for others in seen[1:]:
+            self.assertEqual(others, seen[0])
+        self.assertNotEqual(seen[0][0]["screen"], seen[0][3]["screen"])
+
+    @over_each_transport
+    def test_each_command_has_a_method(self, session):
+        hello = session.hello()
+        self.assertTrue(hello["server"].startswith("racebeam/"))
+        self.assertIn("act A", session.help("act"))
+        self.assertIn("beamfall", session.games())
+        self.assertEqual(session.load("beamfall", seed=3, sticky=0, preset="paper2013")["frame_skip"], 5)
+        self.assertEqual(session.settings()["seed"], 3)
+        self.assertEqual(session.set(difficulty=1)["difficulty"], 1)
+        self.assertEqual((session.modes(), session.difficulties()), ([0], [0, 1]))
+        self.assertEqual(session.actions()[17], "DOWNLEFTFIRE")
+        self.assertEqual(session.observe("reward", "ends", "frame"), ["reward", "terminated", "truncated", "frame"])
+        self.assertEqual(session.act("UP", "FIRE*2")["frame"], 15)
+        session.poke(5, b"\x12\x34")
+        self.assertEqual(session.peek(5, 2), b"\x12\x34")
+        self.assertEqual(len(session.look("screen", "lives")["screen"]), 33600)
+        session.save("a")
+        kept = session.export_state("a")
+        session.import_state("b", kept)
+        self.assertEqual(session.states(), ["a", "b"])
+        session.drop("a")
+        self.assertEqual(session.restore("b")["frame"], 15)
+        branches = session.branch("b", ["FIRE*4", "UP"], [0], keep="leaf")
+        self.assertEqual([len(branch["rewards"]) for branch in branches], [5, 1])
+        self.assertEqual(branches[1]["state"], "leaf1")
+        self.assertEqual(len(session.open(3)), 3)
+        self.assertEqual([shown["frame"] for shown in session.step("UP", "FIRE", "NOOP")], [5, 5, 5])
+        session.restart("010")
+        session.close()
+        self.assertEqual(session.reset()["reward"], 0)
+        self.assertGreater(session.stats()["requests"], 20)
+        session.quit()
+
+    @over_each_transport
+    def test_a_refusal_has_a_code_and_leaves_the_session(self, session):
+        with self.assertRaises(racebeam.Refused) as caught:
+            session.load("nothing")
+        self.assertEqual(caught.exception.code, "unknown-game")
+        session.load("beamfall")
+
+    @over_each_transport
+    def test_deltas_of_many_machines_are_told_apart(self, session):
+        session.load("beamfall", seed=3, max_episode_frames=6)
+        session.observe("ram:delta", "screen:delta", "ends")
+        session.open(3, autoreset="same-step")
+        plain = [session.step("UP", "DOWN", "FIRE") for _ in range(14)]
+        session.observe("ram:hex", "screen:rle", "ends")
+        session.open(3, autoreset="same-step")
+        self.assertEqual([session.step("UP", "DOWN", "FIRE") for _ in range(14)], plain)
+        self.assertEqual(len(plain[5][0]["final_ram"]), 128)
+
+    def test_an_image_can_be_sent(self):
+        with open(os.path.join(SOURCE, "games", "homebrew", "updraft.bin"), "rb") as image:
+            data = image.read()
+        with racebeam.Session.start(BINARY) as session:
+            self.assertEqual(session.load("inline", image=data)["game"], "updraft")
+
+    def test_requests_can_be_sent_ahead(self):
+        with racebeam.Session.start(BINARY) as session:
+            session.load("beamfall")
+            session.observe("frame")
+            for _ in range(100):
+                session.send("act", "NOOP")
+            self.assertEqual([session.receive()[0]["frame"] for _ in range(100)], [str(n) for n in range(1, 101)])
+
+
+class Recordings(unittest.TestCase):
+    def test_a_file_is_there_when_it_is_whole_and_not_before(self):
+        with Server("serve", "--stdio", "--record-dir", ".", streams=True) as server:
+            session = racebeam.Session(server.process.stdout, server.process.stdin, lambda: None)
+
+            def visible():
+                return sorted(name for name in os.listdir(server.folder) if name[0] != "." and name != "stderr")
+            session.load("beamfall", seed=1)
+            for kind, name, head in (("gif", "a.gif", b"GIF89a"), ("wav", "b.wav", b"RIFF"), ("y4m", "c.y4m", b"YUV4MPEG2")):
+                before = visible()
+                session.record(kind, name[0])
+                session.act("FIRE*10")
+                self.assertEqual(visible(), before)
+                self.assertEqual(session.stop_recording()["frames"], 10)
+                self.assertEqual(visible(), before + [name])
+                with open(server.path(name), "rb") as file:
+                    self.assertTrue(file.read().startswith(head))
+            session.record("png", "d")
+            session.act("FIRE*10")
+            session.save("root")
+            session.branch("root", ["UP*50"])
+            session.act("FIRE")
+            session.stop_recording()
+            self.assertEqual(sorted(os.listdir(server.path("d"))), [f"{n:06}.png" for n in range(11)])
+            with self.assertRaises(racebeam.Refused):
+                session.record("gif", "a")
+            session.record("gif", "last")
+            session.act("FIRE*10")
+            server.process.stdin.close()  # the session's end keeps what there is
+            server.wait()
+            self.assertIn("last.gif", visible())
+            self.assertEqual([name for name in os.listdir(server.folder) if name[0] == "."], [])
+
+    def test_recording_changes_nothing_that_is_played(self):
+        with Server("serve", "--stdio", "--record-dir", ".", streams=True) as server:
+            session = racebeam.Session(server.process.stdout, server.process.stdin, lambda: None)
+            session.load("beamfall", seed=1, sound=1)
+            session.observe("reward", "screen", "audio", "ram")
+            plain = [session.act("FIRE*7") for _ in range(10)]
+            session.load("beamfall", seed=1, sound=1)
+            session.record("wav", "a")
+            self.assertEqual([session.act("FIRE*7") for _ in range(10)], plain)
+
+
+class Examples(unittest.TestCase):
+    def check(self, path, *words, says):
+        done = subprocess.run([os.path.join(SOURCE, "clients", path), *words], capture_output=True, timeout=PATIENCE * 5)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout.decode(), says)
+
+    def test_they_play(self):
+        self.check("python/random_agent.py", BINARY, GAME, says=r"^score \d+ in \d+ frames$")
+        self.check("python/best_branch.py", BINARY, says=r"^score \d+ after \d+ frames, \d+ frames run$")
+        self.check("shell/play-lines", BINARY, says=r"^Score \d+ in \d+ frames\.$")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,85 @@
+"""grey84 and its stacks are what OpenCV and the reference's vector environment make, byte for byte."""
+
+import os
+import sys
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path[:0] = [os.path.join(SOURCE, "tests", "server"), os.path.join(SOURCE, "clients", "python")]
+SKIPPED = 77
+PYTHON = os.path.join(SOURCE, ".venv", "bin", "python")
+
+try:
+    import cv2
+    import numpy as np
+    from ale_py import roms
+    from ale_py.vector_env import AtariVectorEnv
+except ImportError as missing:
+    if os.path.exists(PYTHON) and "RACEBEAM_REFERENCE" not in os.environ:
+        os.environ["RACEBEAM_REFERENCE"] = PYTHON
+        os.execv(PYTHON, [PYTHON, "-B", *sys.argv])
+    print(f"SKIPPED: {missing.name} is not in .venv (scripts/reference)")
+    sys.exit(SKIPPED)
+
+import unittest  # noqa: E402
+
+import racebeam  # noqa: E402
+from harness import BINARY, main  # noqa: E402
+
+ROMS = str(roms.get_rom_path("pong").parent)
+STEPS = 300
+
+
+def plane(data, *shape):
+    return np.frombuffer(data, np.uint8).reshape(shape)
+
+
+class OpenCv(unittest.TestCase):
+    def test_small_screens_are_those_of_INTER_AREA(self):
+        for game, height in (("beamfall", 210), ("pong", 210), ("air_raid", 250), ("gravitar", 210)):
+            with self.subTest(game=game), racebeam.Session.start(BINARY, "--roms", ROMS) as session:
+                self.assertEqual(session.load(game, seed=5)["height"], height)
+                session.observe("grey", "grey84")
+                for step in range(STEPS):
+                    shown = session.act(step // 7 % 18)
+                    expected = cv2.resize(plane(shown["grey"], height, 160), (84, 84), interpolation=cv2.INTER_AREA)
+                    self.assertEqual(shown["grey84"], expected.tobytes(), f"step {step}")
+
+
+class VectorEnvironment(unittest.TestCase):
+    """Until the end of an episode: there the reference shows a picture that mixes frames of two acts."""
+
+    def compare(self, game, seed, **options):
+        reference = AtariVectorEnv(game, num_envs=1, use_fire_reset=False, reward_clipping=False, **options)
+        shown, info = reference.reset(seed=seed)
+        with racebeam.Session.start(BINARY, "--roms", ROMS) as session:
+            session.load(game, seed=seed, frame_skip=options["frameskip"], noop_max=options["noop_max"], action_set="minimal",
+                         sticky=options["repeat_action_probability"])
+            session.observe("reward", "ends", "lives", "episode_frame", "grey84x4")
+            ours = session.look()
+            actions = list(session.actions())
+            rewards = 0
+            for step in range(STEPS):
+                self.assertEqual(plane(ours["grey84x4"], 4, 84, 84).tobytes(), shown[0].tobytes(), f"step {step}")
+                self.assertEqual((ours["lives"], ours["episode_frame"]),
+                                 (info["lives"][0], info["episode_frame_number"][0]), f"step {step}")
+                choice = (step * 7 + step // 11) % len(actions)
+                shown, reward, terminated, truncated, info = reference.step(np.array([choice]))
+                ours = session.act(actions[choice])
+                self.assertEqual(ours["reward"], reward[0])
+                self.assertEqual((ours["terminated"], ours["truncated"]), (terminated[0], truncated[0]))
+                rewards += abs(ours["reward"])
+                if terminated[0] or truncated[0]:
+                    break
+            return rewards
+
+    def test_stacks_pooling_noops_and_stickiness_are_the_same(self):
+        rewards = 0
+        for game in ("pong", "ms_pacman", "breakout"):
+            for seed, skip, sticky, noops in ((1, 4, 0.25, 30), (2, 4, 0.0, 30), (3, 1, 0.25, 5), (4, 3, 0.0, 0)):
+                with self.subTest(game=game, seed=seed, frame_skip=skip):
+                    rewards += self.compare(game, seed, frameskip=skip, repeat_action_probability=sticky, noop_max=noops)
+        self.assertGreater(rewards, 0)
+
+
+if __name__ == "__main__":
+    main()
