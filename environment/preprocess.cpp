@@ -10,53 +10,61 @@ namespace racebeam {
 
 AreaResize::AreaResize(int width, int height, int to_width, int to_height)
     : width_(static_cast<std::size_t>(width)),
-      to_width_(static_cast<std::size_t>(to_width)),
-      columns_(taps(width, to_width)),
-      rows_(taps(height, to_height)),
-      reduced_(to_width_),
-      sum_(to_width_) {}
+      columns_(width, to_width),
+      rows_(height, to_height),
+      reduced_(static_cast<std::size_t>(to_width)),
+      sum_(reduced_.size()) {}
 
-// One axis, in the order in which the contributions are summed. A sliver under a thousandth counts as none.
-std::vector<AreaResize::Tap> AreaResize::taps(int cells, int targets) {
+// A sliver under a thousandth of a cell counts as none. Weights of zero fill up to the same number of taps
+// for all targets; they change no sum.
+AreaResize::Axis::Axis(int cells, int targets)
+    : taps(std::min(static_cast<std::size_t>(cells / targets) + 2, static_cast<std::size_t>(cells))),
+      weights(static_cast<std::size_t>(targets) * taps) {
   constexpr double kSliver = 1e-3;
   const double scale = static_cast<double>(cells) / targets;
-  std::vector<Tap> all;
-  for (int to = 0; to < targets; ++to) {
-    const double first = to * scale, last = first + scale;
-    const double covered = std::min(scale, cells - first);
-    const int whole_end = std::min(static_cast<int>(std::floor(last)), cells - 1);
-    const int whole_begin = std::min(static_cast<int>(std::ceil(first)), whole_end);
-    const auto add = [&](int from, double weight) {
-      all.push_back({from, to, static_cast<float>(weight / covered)});
+  const std::size_t last_first = static_cast<std::size_t>(cells) - taps;
+  for (int target = 0; target < targets; ++target) {
+    const double begin = target * scale, end = begin + scale;
+    const double covered = std::min(scale, cells - begin);
+    const int whole_end = std::min(static_cast<int>(std::floor(end)), cells - 1);
+    const int whole_begin = std::min(static_cast<int>(std::ceil(begin)), whole_end);
+    const bool sliver_before = whole_begin - begin > kSliver;
+    first.push_back(std::min(static_cast<std::size_t>(whole_begin - sliver_before), last_first));
+    const auto add = [&](int cell, double weight) {
+      weights[first.size() * taps - taps + static_cast<std::size_t>(cell) - first.back()] =
+          static_cast<float>(weight / covered);
     };
-    if (whole_begin - first > kSliver) add(whole_begin - 1, whole_begin - first);
-    for (int from = whole_begin; from < whole_end; ++from) add(from, 1);
-    if (last - whole_end > kSliver) add(whole_end, std::min({last - whole_end, 1.0, covered}));
+    if (sliver_before) add(whole_begin - 1, whole_begin - begin);
+    for (int cell = whole_begin; cell < whole_end; ++cell) add(cell, 1);
+    if (end - whole_end > kSliver) add(whole_end, std::min({end - whole_end, 1.0, covered}));
   }
-  return all;
 }
 
 void AreaResize::reduce(const std::uint8_t* row) {
-  std::ranges::fill(reduced_, 0.0F);
-  for (const Tap& tap : columns_) {
-    reduced_[static_cast<std::size_t>(tap.to)] += static_cast<float>(row[tap.from]) * tap.weight;
+  const float* weight = columns_.weights.data();
+  for (std::size_t x = 0; x < reduced_.size(); ++x) {
+    const std::uint8_t* const cells = row + columns_.first[x];
+    float sum = 0;
+    for (std::size_t tap = 0; tap < columns_.taps; ++tap) sum += static_cast<float>(cells[tap]) * *weight++;
+    reduced_[x] = sum;
   }
 }
 
 void AreaResize::operator()(std::span<const std::uint8_t> in, std::span<std::uint8_t> out) {
   const std::uint8_t* reduced_row = nullptr;  // what reduced_ was made from; rows that repeat are common
-  for (std::size_t tap = 0; tap < rows_.size();) {
-    const int to = rows_[tap].to;
+  for (std::size_t y = 0; y < rows_.first.size(); ++y) {
     std::ranges::fill(sum_, 0.0F);
-    for (; tap < rows_.size() && rows_[tap].to == to; ++tap) {
-      const std::uint8_t* row = in.data() + static_cast<std::size_t>(rows_[tap].from) * width_;
+    for (std::size_t tap = 0; tap < rows_.taps; ++tap) {
+      const float weight = rows_.weights[y * rows_.taps + tap];
+      if (weight == 0) continue;
+      const std::uint8_t* row = in.data() + (rows_.first[y] + tap) * width_;
       if (reduced_row == nullptr || std::memcmp(row, reduced_row, width_) != 0) reduce(row);
       reduced_row = row;
-      for (std::size_t x = 0; x < to_width_; ++x) sum_[x] += rows_[tap].weight * reduced_[x];
+      for (std::size_t x = 0; x < sum_.size(); ++x) sum_[x] += weight * reduced_[x];
     }
-    std::uint8_t* row = out.data() + static_cast<std::size_t>(to) * to_width_;
+    std::uint8_t* row = out.data() + y * sum_.size();
     // Half to even, as the processor rounds.
-    for (std::size_t x = 0; x < to_width_; ++x) row[x] = static_cast<std::uint8_t>(std::lrintf(sum_[x]));
+    for (std::size_t x = 0; x < sum_.size(); ++x) row[x] = static_cast<std::uint8_t>(std::lrintf(sum_[x]));
   }
 }
 

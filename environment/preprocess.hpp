@@ -23,15 +23,18 @@ class AreaResize {
   void operator()(std::span<const std::uint8_t> in, std::span<std::uint8_t> out);
 
  private:
-  struct Tap {  // what one source cell gives to one target cell
-    int from, to;
-    float weight;
+  // One axis: target t is the sum of `taps` source cells from first[t] on, with weights[t * taps] and so on.
+  struct Axis {
+    Axis(int cells, int targets);
+
+    std::size_t taps;
+    std::vector<std::size_t> first;
+    std::vector<float> weights;
   };
-  static std::vector<Tap> taps(int cells, int targets);
   void reduce(const std::uint8_t* row);  // into reduced_
 
-  std::size_t width_, to_width_;
-  std::vector<Tap> columns_, rows_;
+  std::size_t width_;
+  Axis columns_, rows_;
   std::vector<float> reduced_, sum_;
 };
 

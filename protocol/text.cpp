@@ -36,11 +36,31 @@ const std::uint8_t* find_other(const std::uint8_t* from, const std::uint8_t* end
   return from;
 }
 
-void append_run(std::string& out, std::uint8_t color, std::size_t length) {
-  const Pair high = kHexPairs[color], low = kHexPairs[length];
-  const char group[4] = {high[0], high[1], low[0], low[1]};
-  out.append(group, sizeof group);
-}
+// Groups on their way to the text; many at a time, since growing a string costs more than a run does.
+class Runs {
+ public:
+  explicit Runs(std::string& out) : out_(out) {}
+  ~Runs() { flush(); }
+  Runs(const Runs&) = delete;
+  Runs& operator=(const Runs&) = delete;
+
+  void add(std::uint8_t color, std::size_t length) {
+    if (used_ == text_.size()) flush();
+    std::memcpy(&text_[used_], kHexPairs[color].data(), 2);
+    std::memcpy(&text_[used_ + 2], kHexPairs[length].data(), 2);
+    used_ += 4;
+  }
+
+ private:
+  void flush() {
+    out_.append(text_.data(), used_);
+    used_ = 0;
+  }
+
+  std::string& out_;
+  std::array<char, 1024> text_;
+  std::size_t used_ = 0;
+};
 
 bool is_blank(char letter) { return letter == ' ' || (letter >= '\t' && letter <= '\r'); }
 bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
@@ -81,11 +101,12 @@ void append_hex(std::string& out, std::span<const std::uint8_t> bytes) {
 void append_run_length(std::string& out, std::span<const std::uint8_t> pixels) {
   const std::uint8_t* at = pixels.data();
   const std::uint8_t* const end = at + pixels.size();
+  Runs runs(out);
   while (at != end) {
     const std::uint8_t color = *at;
     const std::uint8_t* const next = find_other(at + 1, end, color);
-    for (; next - at > kLongestRun; at += kLongestRun) append_run(out, color, kLongestRun);
-    append_run(out, color, static_cast<std::size_t>(next - at));
+    for (; next - at > kLongestRun; at += kLongestRun) runs.add(color, kLongestRun);
+    runs.add(color, static_cast<std::size_t>(next - at));
     at = next;
   }
 }
