@@ -15,8 +15,10 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter = R"(Without --classic it speaks the racebeam line protocol (protocol/PROTOCOL.md): a line of text asks, a line of
-text answers, and every client loads the game that it wants. By hand: racebeam serve --stdio, then type help.
+constexpr auto kFooter =
+    R"(Without --classic it speaks the racebeam line protocol (protocol/PROTOCOL.md): a line of text asks, a
+line of text answers, and every client loads the game that it wants. By hand: racebeam serve --stdio, then
+type help.
 
 --classic is the text protocol of ALE 0.4 to 0.6 (protocol/CLASSIC.md): the server says 160-210; the client
 answers with four flags, 1,1,0,1 for screen, RAM and reward; from then on it sends actions, 3,18, and gets a
@@ -24,7 +26,7 @@ line for each. The game and its settings are those of the command line, the same
 
 Examples:
   racebeam serve --stdio
-      one session on standard input and output; try printf 'load beamfall\nact FIRE\n' | racebeam serve --stdio
+      one session on standard input and output; try printf 'load beamfall\nact FIRE\n' | racebeam serve ...
   racebeam serve --listen tcp://127.0.0.1:0 --listen unix:racebeam.sock --roms ~/atari
       until it is told to stop (SIGTERM), a session for everyone who connects
   racebeam serve --classic --stdio --rom tetris.bin --seed 1
@@ -43,9 +45,9 @@ makes no sense; 2 the command line makes no sense; 255 a classic client asked fo
 exist.)";
 
 // What the client of a line protocol says itself, when it loads a game.
-constexpr const char* kClassicOnly[] = {"--seed",       "--system-seed", "--frame-skip",         "--sticky",
-                                        "--mode",       "--difficulty",  "--max-episode-frames", "--max-frames",
-                                        "--full-screen", "--color-averaging"};
+constexpr const char* kClassicOnly[] = {
+    "--seed",       "--system-seed",        "--frame-skip", "--sticky",      "--mode",
+    "--difficulty", "--max-episode-frames", "--max-frames", "--full-screen", "--color-averaging"};
 constexpr const char* kLineOnly[] = {"--record-dir"};  // --roms may come from the environment
 
 struct ServeOptions {

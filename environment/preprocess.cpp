@@ -85,6 +85,8 @@ void SmallScreens::push(const Environment& environment, bool pooled) {
   resize_(grey_, std::span(bytes_).last(kSmallSize));
 }
 
-void SmallScreens::set_bytes(std::span<const std::uint8_t> bytes) { std::ranges::copy(bytes, bytes_.begin()); }
+void SmallScreens::set_bytes(std::span<const std::uint8_t> bytes) {
+  std::ranges::copy(bytes, bytes_.begin());
+}
 
 }  // namespace racebeam

@@ -17,9 +17,11 @@ bool is_allowed(int action, std::uint32_t allowed) {
 [[noreturn]] void refuse(std::string_view word, const AllowedActions& actions) {
   std::string list;
   for (int action = 0; action < kActions; ++action) {
-    if (is_allowed(action, actions.allowed)) ((list += ' ') += std::to_string(action) + '=') += action_name(action);
+    if (is_allowed(action, actions.allowed))
+      ((list += ' ') += std::to_string(action) + '=') += action_name(action);
   }
-  throw Refusal(Code::kBadAction, quote(word) + " is no action; " + std::string(actions.game) + " takes" + list);
+  throw Refusal(Code::kBadAction,
+                quote(word) + " is no action; " + std::string(actions.game) + " takes" + list);
 }
 
 int number_of(std::string_view word, const AllowedActions& actions) {

@@ -38,7 +38,8 @@ std::string_view format_name(Format format) {
   }
   std::string sentence = "there is no game " + quote(name);
   const auto similar = similar_games(name);
-  for (std::size_t i = 0; i < similar.size(); ++i) sentence += (i == 0 ? "; did you mean " : " or ") + similar[i];
+  for (std::size_t i = 0; i < similar.size(); ++i)
+    sentence += (i == 0 ? "; did you mean " : " or ") + similar[i];
   throw Refusal(Code::kUnknownGame, sentence + (similar.empty() ? "; games lists those that are here" : "?"));
 }
 
@@ -163,8 +164,9 @@ void run_set(Session& session, Words arguments) {
   for (const std::string_view word : arguments) {
     const std::string_view key = key_value(word).key;
     if (key == "mode" || key == "difficulty") continue;
-    throw Refusal(Code::kBadArguments,
-                  quote(key) + " can't be set while a game runs; there are mode and difficulty; load takes the others");
+    throw Refusal(
+        Code::kBadArguments,
+        quote(key) + " can't be set while a game runs; there are mode and difficulty; load takes the others");
   }
   read_settings(arguments, changed);
   Environment& machine = session.player->machine();

@@ -18,8 +18,8 @@ Autoreset read_autoreset(Words words) {
 }
 
 [[noreturn]] void refuse_count(const Session& session, std::size_t given, const std::string& what) {
-  throw Refusal(Code::kBadArguments, "there are " + std::to_string(session.machines.size()) + " machines, but " +
-                                         std::to_string(given) + " " + what);
+  throw Refusal(Code::kBadArguments, "there are " + std::to_string(session.machines.size()) +
+                                         " machines, but " + std::to_string(given) + " " + what);
 }
 
 std::vector<std::uint8_t> read_mask(const Session& session, Words words) {
@@ -50,7 +50,8 @@ void run_step(Session& session, Words arguments) {
   actions.clear();
   for (const std::string_view word : arguments) {
     actions.push_back(parse_action(word, allowed));
-    if (actions.back().times > 1) throw Refusal(Code::kBadValue, "a step is one act; *TIMES is for act and branch");
+    if (actions.back().times > 1)
+      throw Refusal(Code::kBadValue, "a step is one act; *TIMES is for act and branch");
   }
   actions.resize(machines, actions[0]);
   session.machines.step(actions);

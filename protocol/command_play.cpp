@@ -32,7 +32,9 @@ void append_bytes_of(Session& session, int index, std::size_t count) {
       .append(session.out, session.player->machine().ram().subspan(static_cast<std::size_t>(index), count));
 }
 
-int ram_index(std::string_view text) { return static_cast<int>(number_within(text, "INDEX", 0, kRamSize - 1)); }
+int ram_index(std::string_view text) {
+  return static_cast<int>(number_within(text, "INDEX", 0, kRamSize - 1));
+}
 
 }  // namespace
 
@@ -88,7 +90,9 @@ void run_reset(Session& session, Words) {
 void run_peek(Session& session, Words arguments) {
   const int index = ram_index(arguments[0]);
   const std::size_t count =
-      arguments.size() < 2 ? 1 : static_cast<std::size_t>(number_within(arguments[1], "COUNT", 1, kRamSize - index));
+      arguments.size() < 2
+          ? 1
+          : static_cast<std::size_t>(number_within(arguments[1], "COUNT", 1, kRamSize - index));
   append_bytes_of(session, index, count);
 }
 

@@ -20,14 +20,16 @@ const Place& find_state(const Session& session, std::string_view name) {
     if (++shown > kShown) break;
     sentence += ' ' + known;
   }
-  throw Refusal(Code::kNoState, sentence + (session.states.empty() ? " none" : shown > kShown ? " and more" : ""));
+  throw Refusal(Code::kNoState, sentence + (session.states.empty() ? " none"
+                                            : shown > kShown       ? " and more"
+                                                                   : ""));
 }
 
 void check_room(const Session& session, std::size_t more) {
   const auto most = static_cast<std::size_t>(session.service.limits.states);
   if (session.states.size() + more <= most) return;
-  throw Refusal(Code::kLimit,
-                "there is room for " + std::to_string(most) + " states; drop some, or save under a name that is in use");
+  throw Refusal(Code::kLimit, "there is room for " + std::to_string(most) +
+                                  " states; drop some, or save under a name that is in use");
 }
 
 void keep(Session& session, std::string_view name, Place place) {

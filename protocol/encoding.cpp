@@ -14,8 +14,8 @@ namespace racebeam {
 namespace {
 
 constexpr std::array kEncodings = {
-    EncodingRow{Encoding::kHex, "hex"},       EncodingRow{Encoding::kRunLength, "rle"},
-    EncodingRow{Encoding::kDelta, "delta"},   EncodingRow{Encoding::kBase64, "base64"},
+    EncodingRow{Encoding::kHex, "hex"},     EncodingRow{Encoding::kRunLength, "rle"},
+    EncodingRow{Encoding::kDelta, "delta"}, EncodingRow{Encoding::kBase64, "base64"},
     EncodingRow{Encoding::kZlib, "zlib"},
 };
 
@@ -23,7 +23,8 @@ constexpr std::size_t kMostSkipped = 0xFFFF, kMostRuns = 0xFF, kMostInRun = 0xFF
 constexpr std::size_t kWorthSkipping = 16;  // a record costs as much as a run and a half
 
 // The first place from `at` on where the two differ; eight bytes are compared at a time.
-std::size_t next_difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, std::size_t at) {
+std::size_t next_difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
+                            std::size_t at) {
   std::uint64_t left, right;
   for (; at + sizeof left <= a.size(); at += sizeof left) {
     std::memcpy(&left, a.data() + at, sizeof left);

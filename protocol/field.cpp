@@ -12,11 +12,14 @@ using Scratch = std::vector<std::uint8_t>;
 constexpr std::string_view kStack = "grey84";
 constexpr int kDeepest = 16;
 
-#define NUMBER(name, of_request, expression, summary)                                                         \
-  FieldRow{name, summary, of_request, []([[maybe_unused]] const Environment& e, [[maybe_unused]] const Outcome& o) { \
-             return std::int64_t{expression};                                                     \
-           },                                                                                     \
-           nullptr, Encoding::kHex}
+#define NUMBER(name, of_request, expression, summary)                                  \
+  FieldRow {                                                                           \
+    name, summary, of_request,                                                         \
+        []([[maybe_unused]] const Environment& e, [[maybe_unused]] const Outcome& o) { \
+          return std::int64_t{expression};                                             \
+        },                                                                             \
+        nullptr, Encoding::kHex                                                        \
+  }
 
 constexpr std::array kFields = {
     NUMBER("reward", true, o.reward, "sum over the acts of the request; each act's is limited as loaded"),
@@ -28,8 +31,8 @@ constexpr std::array kFields = {
     NUMBER("episode_frame", false, e.episode_frame_number(), "frames since the episode began"),
     NUMBER("acts", true, o.acts, "acts that were carried out; fewer than asked for when the episode ended"),
     NUMBER("frames", true, o.frames, "frames that the request ran"),
-    FieldRow{"ram", "128 bytes", false, nullptr, [](const Environment& e, Scratch&) -> Bytes { return e.ram(); },
-             Encoding::kHex},
+    FieldRow{"ram", "128 bytes", false, nullptr,
+             [](const Environment& e, Scratch&) -> Bytes { return e.ram(); }, Encoding::kHex},
     FieldRow{"screen", "height x 160 palette indices, row by row", false, nullptr,
              [](const Environment& e, Scratch&) { return e.screen(); }, Encoding::kRunLength},
     FieldRow{"rgb", "height x 160 x 3: red, green, blue", false, nullptr,
@@ -44,8 +47,9 @@ constexpr std::array kFields = {
                return scratch;
              },
              Encoding::kZlib},
-    FieldRow{kStack, "84 x 84 grey, the brighter of the last two frames; grey84x4: a stack of 4, oldest first",
-             false, nullptr, nullptr, Encoding::kZlib},
+    FieldRow{kStack,
+             "84 x 84 grey, the brighter of the last two frames; grey84x4: a stack of 4, oldest first", false,
+             nullptr, nullptr, Encoding::kZlib},
     FieldRow{"audio", "512 samples of the last act; needs sound=1", false, nullptr,
              [](const Environment& e, Scratch&) -> Bytes { return e.audio(); }, Encoding::kHex},
 };

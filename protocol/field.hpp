@@ -62,8 +62,7 @@ class View {
   SmallScreens* stack() { return stack_ ? &*stack_ : nullptr; }
 
  private:
-  void append_value(std::string& out, std::size_t field, const Environment& machine,
-                    const Outcome& outcome);
+  void append_value(std::string& out, std::size_t field, const Environment& machine, const Outcome& outcome);
 
   std::vector<Field> fields_;
   std::vector<Encoder> encoders_;  // one a field

@@ -1,5 +1,5 @@
-// Input of a client of the line protocol, cut into lines. Grows with the line that is coming in, up to a limit;
-// a longer line is told once and skipped.
+// Input of a client of the line protocol, cut into lines. Grows with the line that is coming in, up to a
+// limit; a longer line is told once and skipped.
 #pragma once
 
 #include <cstddef>

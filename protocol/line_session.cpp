@@ -16,9 +16,9 @@ void LineSession::received(std::size_t count) {
 
 bool LineSession::run(int frames) { return session_->run(frames); }
 
-std::string_view LineSession::output() const { return session_->out; }
+std::string_view LineSession::output() const { return session_->whole_replies(); }
 
-void LineSession::sent(std::size_t count) { session_->out.erase(0, count); }
+void LineSession::sent(std::size_t count) { session_->sent(count); }
 
 bool LineSession::finished() const { return session_->finished(); }
 void LineSession::cancel() { session_->cancel(); }

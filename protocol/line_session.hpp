@@ -16,12 +16,12 @@ namespace racebeam {
 
 // What one client may use. `hello` tells.
 struct LineLimits {
-  std::size_t line = 1 << 20;           // bytes of a request; an image of the largest size fits as base64
-  std::size_t output = 1 << 18;         // bytes that wait for the reader; above, no request is begun
-  int machines = 256;                   // of `open`
-  int states = 256;                     // saved at a time
+  std::size_t line = 1 << 20;               // bytes of a request; an image of the largest size fits as base64
+  std::size_t output = 1 << 18;             // bytes that wait for the reader; above, no request is begun
+  int machines = 256;                       // of `open`
+  int states = 256;                         // saved at a time
   std::int64_t request_frames = 2'000'000;  // that one request may ask for
-  std::size_t recording = 1 << 30;      // bytes of one recording
+  std::size_t recording = 1 << 30;          // bytes of one recording
 };
 
 // Runs task(0) ... task(count - 1), on several threads if it likes, and returns when all are done. A task

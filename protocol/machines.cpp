@@ -47,7 +47,8 @@ void MachinesWork::restart(std::vector<std::uint8_t>& chosen) {
 
 bool MachinesWork::go_on(Session& session, int& frames) {
   const Settings& machine = session.settings.machine;
-  const int cost = job_ == Job::kStep ? std::max(machine.frame_skip, machine.frame_skip_max) : 2 * kResetFrames;
+  const int cost =
+      job_ == Job::kStep ? std::max(machine.frame_skip, machine.frame_skip_max) : 2 * kResetFrames;
   while (next_ < seats_.size()) {
     if (frames <= 0) return false;
     const std::size_t affordable = std::max(static_cast<std::size_t>(frames / cost), session.service.threads);

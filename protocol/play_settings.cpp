@@ -33,7 +33,8 @@ void set_seed(PlaySettings& settings, std::string_view value) {
 }
 
 void set_system_seed(PlaySettings& settings, std::string_view value) {
-  settings.machine.system_seed = static_cast<std::uint32_t>(number_within(value, "system_seed", 0, kMostSeed));
+  settings.machine.system_seed =
+      static_cast<std::uint32_t>(number_within(value, "system_seed", 0, kMostSeed));
 }
 
 void set_frame_skip(PlaySettings& settings, std::string_view value) {
@@ -95,10 +96,10 @@ void append_reward_limit(std::string& out, int limit, int none) {
 
 // A short way to write the two functions of a row whose value is a number.
 #define READ(expression) [](PlaySettings& s, std::string_view value) { expression; }
-#define ECHO(expression)                                                             \
+#define ECHO(expression)                                                               \
   [](std::string& out, [[maybe_unused]] const PlaySettings& s, const Environment& e) { \
-    (void)e;                                                                         \
-    append_number(out, expression);                                                  \
+    (void)e;                                                                           \
+    append_number(out, expression);                                                    \
   }
 
 constexpr std::array kSettings = {
@@ -114,26 +115,28 @@ constexpr std::array kSettings = {
     SettingRow{"sticky", "0 to 1", "probability that a frame repeats the action before it", set_sticky,
                [](std::string& out, const PlaySettings& s, const Environment&) {
                  std::array<char, 32> digits;
-                 out.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(),
-                                                         s.machine.sticky).ptr);
+                 out.append(
+                     digits.data(),
+                     std::to_chars(digits.data(), digits.data() + digits.size(), s.machine.sticky).ptr);
                }},
     SettingRow{"mode", "see `modes`", "variation of the game",
                READ(s.mode = whole(value, "mode", 0, kMostFrames)), ECHO(std::int64_t{e.mode()})},
     SettingRow{"difficulty", "see `difficulties`", "difficulty switches",
                READ(s.difficulty = whole(value, "difficulty", 0, kMostFrames)),
                ECHO(std::int64_t{e.difficulty()})},
-    SettingRow{"max_episode_frames", "0 to 2147483647", "frames after which an episode is truncated; 0: never",
+    SettingRow{"max_episode_frames", "0 to 2147483647",
+               "frames after which an episode is truncated; 0: never",
                READ(s.machine.max_episode_frames = whole(value, "max_episode_frames", 0, kMostFrames)),
                ECHO(std::int64_t{s.machine.max_episode_frames})},
     SettingRow{"life_loss_ends", "0 or 1", "a lost life truncates the episode",
                READ(s.machine.truncate_on_life_loss = flag(value, "life_loss_ends")),
                ECHO(std::int64_t{s.machine.truncate_on_life_loss})},
-    SettingRow{"noop_max", "0 to 1000", "an episode begins with 0 to noop_max - 1 frames of NOOP, drawn by seed",
+    SettingRow{"noop_max", "0 to 1000",
+               "an episode begins with 0 to noop_max - 1 frames of NOOP, drawn by seed",
                READ(s.noop_max = whole(value, "noop_max", 0, kMostNoops)), ECHO(std::int64_t{s.noop_max})},
-    SettingRow{"action_set", "full, legal or minimal", "the actions that `act` accepts", set_action_set,
-               [](std::string& out, const PlaySettings& s, const Environment&) {
-                 out += name_of(s.action_set);
-               }},
+    SettingRow{
+        "action_set", "full, legal or minimal", "the actions that `act` accepts", set_action_set,
+        [](std::string& out, const PlaySettings& s, const Environment&) { out += name_of(s.action_set); }},
     SettingRow{"reward_min", "none or a whole number", "an act's reward is raised to it",
                READ(s.machine.reward_min = reward_limit(value, "reward_min", kLeastReward)),
                [](std::string& out, const PlaySettings& s, const Environment&) {

@@ -30,8 +30,9 @@ void check_bytes(std::string_view line) {
 }  // namespace
 
 Session::Session(const LineService& with)
-    : service(with), input(limits(with).line), fields(parse_fields(std::array<std::string_view, 3>{
-                                                   "reward", "ends", "lives"})) {}
+    : service(with),
+      input(limits(with).line),
+      fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})) {}
 
 Session::~Session() = default;
 
@@ -134,7 +135,17 @@ void Session::finish_reply() {
   done_ = quitting;
 }
 
+std::string_view Session::whole_replies() const {
+  return std::string_view(out).substr(0, work_ != nullptr ? reply_ : out.size());
+}
+
+void Session::sent(std::size_t count) {
+  out.erase(0, count);
+  reply_ -= std::min(reply_, count);
+}
+
 void Session::cancel() {
+  if (work_ != nullptr) out.resize(reply_);
   work_ = nullptr;
   done_ = true;
 }

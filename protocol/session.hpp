@@ -50,11 +50,13 @@ class Session {
   MachinesWork machines;
 
   void check_frames(std::int64_t acts) const;  // throws Refusal when a request asks for too many
-  void start(Work& work) { work_ = &work; }  // what a handler can't do at once
-  void count(const Outcome& outcome);        // into the statistics
-  void watch();                              // the machine, for the recording if there is one
+  void start(Work& work) { work_ = &work; }    // what a handler can't do at once
+  void count(const Outcome& outcome);          // into the statistics
+  void watch();                                // the machine, for the recording if there is one
 
   bool run(int frames);
+  std::string_view whole_replies() const;  // not the one that is being worked on: it may yet be refused
+  void sent(std::size_t count);            // of them
   bool finished() const { return done_; }
   void cancel();
 

@@ -32,8 +32,9 @@ std::int64_t number_within(std::string_view text, std::string_view what, std::in
                            std::int64_t most) {
   const auto number = parse_number<std::int64_t>(text);
   if (number && *number >= least && *number <= most) return *number;
-  throw Refusal(Code::kBadValue, std::string(what) + " is " + quote(text) + "; it takes a whole number from " +
-                                     std::to_string(least) + " to " + std::to_string(most));
+  throw Refusal(Code::kBadValue, std::string(what) + " is " + quote(text) +
+                                     "; it takes a whole number from " + std::to_string(least) + " to " +
+                                     std::to_string(most));
 }
 
 KeyValue key_value(std::string_view word) {

@@ -51,7 +51,7 @@ std::string_view checked_name(std::string_view text, std::string_view what);
 std::vector<std::uint8_t> bytes_of_hex(std::string_view digits);  // Throws Refusal(kBadValue)
 
 void append_number(std::string& out, std::int64_t number);
-void append_number(std::string& out, double number);  // the shortest text that reads back
+void append_number(std::string& out, double number);               // the shortest text that reads back
 void append_list(std::string& out, std::span<const int> numbers);  // 0,1,2
 
 // " key=number", " key=text"

@@ -31,7 +31,7 @@ class KeptFile {
   void write(std::span<const std::uint8_t> bytes);
   void write(std::string_view text);
   void overwrite(std::size_t place, std::span<const std::uint8_t> bytes);  // what was written already
-  void keep();  // refuses to replace what is there
+  void keep();                                                             // refuses to replace what is there
 
  private:
   void flush();

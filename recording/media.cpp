@@ -24,7 +24,9 @@ std::optional<MediaKind> media_kind(std::string_view name) {
   return static_cast<MediaKind>(found - kForms.begin());
 }
 
-std::string file_name(MediaKind kind, const std::string& name) { return name + std::string(form(kind).ending); }
+std::string file_name(MediaKind kind, const std::string& name) {
+  return name + std::string(form(kind).ending);
+}
 
 std::unique_ptr<Media> make_media(MediaKind kind, const std::string& folder, const std::string& name,
                                   const Footage& footage, DiskBudget& budget) {

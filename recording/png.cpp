@@ -34,7 +34,8 @@ class Pngs final : public Media {
     Bytes header;
     put_big_endian(header, kPictureWidth);
     put_big_endian(header, static_cast<std::uint32_t>(height_));
-    header.insert(header.end(), {8, 3, 0, 0, 0});  // 8 bits, palette; the only compression, filter; no interlace
+    header.insert(header.end(),
+                  {8, 3, 0, 0, 0});  // 8 bits, palette; the only compression, filter; no interlace
     put_chunk(head_, "IHDR", header);
     Bytes colors;
     for (const Rgb& color : footage.palette) colors.insert(colors.end(), {color.r, color.g, color.b});

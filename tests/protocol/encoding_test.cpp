@@ -56,7 +56,8 @@ TEST_CASE("Base64 is that of RFC 4648") {
 }
 
 TEST_CASE("What is no base64 is not read") {
-  for (const std::string text : {"Z", "Zg", "Zg=", "Zg===", "=Zg=", "Z=g=", "Zm9v Zg==", "Zm9\n", "Zh==", "Zm9=", "===="}) {
+  for (const std::string text :
+       {"Z", "Zg", "Zg=", "Zg===", "=Zg=", "Z=g=", "Zm9v Zg==", "Zm9\n", "Zh==", "Zm9=", "===="}) {
     INFO(text);
     CHECK_FALSE(bytes_of_base64(text));
   }

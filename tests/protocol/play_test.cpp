@@ -14,10 +14,12 @@ using test::value;
 
 namespace {
 
-const std::string kEverything = "observe reward ends lives frame episode_frame ram screen:rle grey84x4 rgb audio";
+const std::string kEverything =
+    "observe reward ends lives frame episode_frame ram screen:rle grey84x4 rgb audio";
 
 struct Playing : LineClient {
-  explicit Playing(const std::string& words = "", const LineService& with = line_service()) : LineClient(with) {
+  explicit Playing(const std::string& words = "", const LineService& with = line_service())
+      : LineClient(with) {
     REQUIRE(code(ask("load beamfall seed=7 sound=1 " + words)) == "");
     REQUIRE(code(ask(kEverything)) == "");
   }
@@ -131,7 +133,8 @@ TEST_CASE("Each of many machines plays as one alone with its seed") {
     one.ask("load beamfall sound=1 sticky=0.25 frame_skip=3 seed=" + std::to_string(7 + machine));
     one.ask(kEverything);
     std::string alone;
-    for (int step = 0; step < 40; ++step) alone = one.ask("act " + actions[static_cast<std::size_t>(machine)]);
+    for (int step = 0; step < 40; ++step)
+      alone = one.ask("act " + actions[static_cast<std::size_t>(machine)]);
     for (const std::string key : {"reward", "lives", "frame", "ram", "screen", "grey84x4", "audio"})
       CHECK(value(last, key, machine + 1) == value(alone, key));
   }
@@ -192,18 +195,18 @@ TEST_CASE("What is written into RAM is read there") {
   CHECK(client.ask("poke 126 AB0F") == "ok index=126 bytes=AB0F");
   CHECK(client.ask("peek 126 2") == "ok index=126 bytes=AB0F");
   CHECK(client.ask("look ram").ends_with("AB0F"));
-  for (const std::string request : {"poke 127 AB0F", "poke 128 00", "poke 0 A", "poke 0 XY", "peek 128", "peek -1",
-                                    "peek 0 129", "peek 0 0"})
+  for (const std::string request : {"poke 127 AB0F", "poke 128 00", "poke 0 A", "poke 0 XY", "peek 128",
+                                    "peek -1", "peek 0 129", "peek 0 0"})
     CHECK(code(client.ask(request)) == "bad-value");
 }
 
 TEST_CASE("Fields that can't be given are refused") {
   LineClient client;
   client.ask("load beamfall");
-  for (const std::string request : {"observe audio", "look audio", "look screen:delta", "look grey84x4",
-                                    "observe lives lives", "observe ends terminated", "observe screen:",
-                                    "observe lives:hex", "observe score", "observe screen:png", "observe screenx4",
-                                    "observe grey84y4", "observe lives none"})
+  for (const std::string request :
+       {"observe audio", "look audio", "look screen:delta", "look grey84x4", "observe lives lives",
+        "observe ends terminated", "observe screen:", "observe lives:hex", "observe score",
+        "observe screen:png", "observe screenx4", "observe grey84y4", "observe lives none"})
     CHECK(code(client.ask(request)) == "bad-arguments");
   CHECK(code(client.ask("observe grey84x17")) == "bad-value");
   CHECK(client.ask("observe") == "ok fields=reward,terminated,truncated,lives");

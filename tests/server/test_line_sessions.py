@@ -1,0 +1,138 @@
+"""The line protocol over the wire: clients that are slow, leave, or ask for much do not disturb the others."""
+
+import os
+import resource
+import threading
+import time
+import unittest
+
+from harness import GAME, Server, Session, connect_tcp, connect_unix, main
+
+LOAD = b"load beamfall seed=1 sticky=0 max_episode_frames=0\nsave root\nobserve frame\n"
+LONG = b"branch root " + b"NOOP*400,FIRE*600 " * 800 + b"\n"  # about 800,000 frames: seconds
+
+
+def serve(*options):
+    return Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:s", *options)
+
+
+def lines(wire, count):
+    return [wire.line() for _ in range(count)]
+
+
+class Sessions(unittest.TestCase):
+    def test_each_client_has_its_own_session(self):
+        with serve() as server:
+            one, other = connect_tcp(server.port()), connect_unix(server.path("s"))
+            one.send(LOAD + b"act NOOP*5\n")
+            other.send(b"act NOOP\n" + LOAD + b"act NOOP\n")
+            self.assertEqual(lines(one, 4)[3], b"ok frame=5\n")
+            heard = lines(other, 5)
+            self.assertTrue(heard[0].startswith(b"error no-game "))
+            self.assertEqual(heard[4], b"ok frame=1\n")
+            for wire in (one, other):
+                wire.close()
+
+    def test_a_long_request_leaves_room_for_other_sessions(self):
+        with serve() as server:
+            port = server.port()
+            busy = [connect_tcp(port) for _ in range(os.cpu_count() * 2)]
+            for wire in busy:
+                wire.send(LOAD + LONG)
+                lines(wire, 3)
+            quick = connect_tcp(port)
+            quick.send(LOAD)
+            lines(quick, 3)
+            worst = 0
+            for _ in range(20):
+                start = time.monotonic()
+                quick.send(b"act NOOP\n")
+                quick.line()
+                worst = max(worst, time.monotonic() - start)
+            self.assertLess(worst, 2)
+            for wire in (quick, *busy):
+                wire.close()
+
+    def test_a_request_ends_when_its_client_has_gone(self):
+        with serve() as server:
+            wire = connect_unix(server.path("s")) if server.wait_for("listening on unix:s") else None
+            wire.send(LOAD + LONG)
+            lines(wire, 3)
+            wire.close()
+            server.wait_for("left in the middle of a request")
+
+    def test_a_client_that_only_stops_sending_still_gets_its_replies(self):
+        with serve() as server:
+            wire = connect_tcp(server.port())
+            wire.send(LOAD + b"branch root NOOP*50000\nact NOOP\n")
+            wire.stop_sending()
+            heard = wire.rest().splitlines()
+            self.assertEqual(len(heard), 5)
+            self.assertEqual(heard[4], b"ok frame=1")
+            wire.close()
+
+    def test_who_does_not_read_holds_up_nobody(self):
+        with serve() as server:
+            deaf, other = connect_tcp(server.port()), connect_tcp(server.port())
+            deaf.send(LOAD + b"observe screen:hex\n" + b"look\n" * 2000)  # 134 MB of replies
+            other.send(LOAD)
+            lines(other, 3)
+            for _ in range(50):
+                other.send(b"act NOOP\n")
+                other.line()
+            with open(f"/proc/{server.process.pid}/status") as status:
+                resident = next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
+            self.assertLess(resident, 100_000)  # KiB
+            heard = 0
+            while heard < 2004:
+                heard += deaf.read(1 << 20).count(b"\n")
+            for wire in (deaf, other):
+                wire.close()
+
+    def test_a_client_killed_in_mid_line_is_forgotten(self):
+        with serve() as server:
+            port = server.port()
+            for _ in range(50):
+                wire = connect_tcp(port)
+                wire.send(b"load beamf")
+                wire.close()
+            wire = connect_tcp(port)
+            wire.send(b"hello\n")
+            self.assertTrue(wire.line().startswith(b"ok server=racebeam/"))
+            wire.close()
+
+    def test_many_machines_of_many_sessions(self):
+        with serve() as server:
+            port, answers = server.port(), [None] * 4
+
+            def play(number):
+                wire = connect_tcp(port)
+                wire.send(LOAD + b"open 8\n" + b"step FIRE\n" * 50)
+                answers[number] = lines(wire, 54)[-1]
+                wire.close()
+            threads = [threading.Thread(target=play, args=(number,)) for number in range(4)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(answers, [b"ok machines=8" + b" | frame=50" * 8 + b"\n"] * 4)
+
+    def test_a_line_without_end_takes_no_memory(self):
+        with Session("stdio", image=None) as session:
+            for _ in range(64):
+                session.wire.send(b"x" * (1 << 20))
+            session.wire.send(b"\nhelp act\n")
+            session.wire.stop_sending()
+            heard = session.wire.rest().splitlines()
+            self.assertEqual([line.split()[:2] for line in heard], [[b"error", b"line-too-long"], [b"ok", b"act"]])
+            self.assertEqual(session.status(), 0)
+        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, 300_000)
+
+    def test_an_image_given_on_the_command_line_can_be_loaded(self):
+        with Session("stdio", "--rom", GAME, image=None) as session:
+            session.wire.send(b"games\n")
+            self.assertEqual(session.wire.line(), b"ok count=2 games=beamfall,updraft\n")
+
+
+if __name__ == "__main__":
+    main()
