@@ -29,20 +29,22 @@ struct Slot {
 // What happens to a write once the cartridge has seen it.
 enum class Delivery : bool { kTaken, kToTia };
 
-struct Scheme {
-  std::string_view name;
-  unsigned image;                // bytes of an image, at least
-  unsigned hotspot;              // Atari's family: offset in 4K of the first hot spot, number of banks, initial bank
-  std::uint8_t banks, initial;
-  unsigned ram;                  // bytes on the cartridge
-  bool random_ram;               // filled at every reset
-  bool watches_tia;              // takes part in accesses to the TIA's addresses
-
-  void (*reset)(Slot&);                                 // initial banks
-  void (*map)(Slot&);                                   // shows what the banks select
+struct Acts {
+  void (*reset)(Slot&);  // initial banks
+  void (*map)(Slot&);    // shows what the banks select
   std::uint8_t (*read)(Slot&, std::uint16_t address, std::int32_t cycle);  // of a hidden page, or seen at the TIA
   Delivery (*write)(Slot&, std::uint16_t address, std::uint8_t value);  // of any cartridge address, or seen at the TIA
-  void (*power_on)(Slot&) = nullptr;                    // what is not zero before the first reset
+  void (*power_on)(Slot&) = nullptr;  // what is not zero before the first reset
+};
+
+struct Scheme : Acts {
+  std::string_view name;
+  unsigned image;          // bytes of an image, at least
+  unsigned hotspot;        // Atari's family: offset in 4K of the first hot spot, number of banks, initial bank
+  std::uint8_t banks, initial;
+  unsigned ram;            // bytes on the cartridge
+  bool random_ram;         // filled at every reset
+  bool watches_tia;        // takes part in accesses to the TIA's addresses
 };
 
 // RAM of at most this size is part of the state; larger RAM lies in a block of its own, so that the state of the many

@@ -38,8 +38,9 @@ Properties properties_of(const Section& section) {
   made.right_difficulty_a = section.choice("right_difficulty", difficulties) == 1;
   made.hmove_blanks = section.flag("hmove_blanks").value_or(made.hmove_blanks);
   made.format = static_cast<Format>(section.choice("format", formats).value_or(0));
-  const std::vector<std::string> schemes(scheme_names().begin(), scheme_names().end());
-  if (const auto number = section.choice("scheme", schemes)) made.scheme = scheme_names()[static_cast<std::size_t>(*number)];
+  const auto names = scheme_names();
+  const auto scheme = section.choice("scheme", {names.begin(), names.end()});
+  if (scheme) made.scheme = names[static_cast<std::size_t>(*scheme)];
   made.ystart = section.number("ystart").value_or(made.ystart);
   made.height = section.number("height").value_or(made.height);
   return made;

@@ -29,32 +29,52 @@ std::uint8_t no_hidden_page(Slot&, std::uint16_t, std::int32_t) { return 0; }
 Delivery write_f4sc(Slot& slot, std::uint16_t address, std::uint8_t value) { return atari::write_ram(slot, address, value); }
 
 // clang-format off
+constexpr Delivery (*kIgnore)(Slot&, std::uint16_t, std::uint8_t) = atari::ignore_write;
+
+//                            reset                   map                  read            write
+constexpr Acts kPlain      = {atari::reset,           atari::map_plain,    no_hidden_page, kIgnore};
+constexpr Acts kAtari      = {atari::reset,           atari::map,          atari::read,    atari::write};
+constexpr Acts kF4sc       = {atari::reset,           atari::map,          atari::read,    write_f4sc};
+constexpr Acts kE0         = {parker::reset,          parker::map,         parker::read,   parker::write};
+constexpr Acts kE7         = {mnetwork::reset,        mnetwork::map,       mnetwork::read, mnetwork::write};
+constexpr Acts kFe         = {activision::reset,      activision::map,     no_hidden_page, kIgnore};
+constexpr Acts kDpc        = {dpc::reset,             dpc::map,            dpc::read,      dpc::write, dpc::power_on};
+constexpr Acts k3f         = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write};
+constexpr Acts k3e         = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e};
+constexpr Acts kUa         = {atari::reset,           ua::map,             ua::read,       ua::write};
+constexpr Acts kCv         = {commavid::reset_empty,  commavid::map,       no_hidden_page, commavid::write};
+constexpr Acts kCvFilled   = {commavid::reset_filled, commavid::map,       no_hidden_page, commavid::write};
+constexpr Acts kAr         = {starpath::reset,        starpath::map,       starpath::read, starpath::write};
+constexpr Acts kMb         = {atari::reset,           atari::map,          dynacom::read,  dynacom::write};
+constexpr Acts kMc         = {megacart::reset,        megacart::map,       megacart::read, megacart::write};
+constexpr Acts kUnmapped   = {unmapped::reset,        unmapped::map,       no_hidden_page, kIgnore};
+
 constexpr Scheme kSchemes[] = {
-    // name         image hotspot banks init   ram  random  TIA    reset                   map                  read             write
-    {"2K",           2048, 0,      1, 0,     0, false, false, atari::reset,           atari::map_plain,    no_hidden_page,  atari::ignore_write},
-    {"4K",           4096, 0,      1, 0,     0, false, false, atari::reset,           atari::map_plain,    no_hidden_page,  atari::ignore_write},
-    {"F8",           8192, 0xFF8,  2, 1,     0, false, false, atari::reset,           atari::map,          atari::read,     atari::write},
-    {"F8 swapped",   8192, 0xFF8,  2, 0,     0, false, false, atari::reset,           atari::map,          atari::read,     atari::write},
-    {"F8SC",         8192, 0xFF8,  2, 1,   128, true,  false, atari::reset,           atari::map,          atari::read,     atari::write},
-    {"F6",          16384, 0xFF6,  4, 0,     0, false, false, atari::reset,           atari::map,          atari::read,     atari::write},
-    {"F6SC",        16384, 0xFF6,  4, 0,   128, true,  false, atari::reset,           atari::map,          atari::read,     atari::write},
-    {"F4",          32768, 0xFF4,  8, 0,     0, false, false, atari::reset,           atari::map,          atari::read,     atari::write},
-    {"F4SC",        32768, 0xFF4,  8, 0,   128, true,  false, atari::reset,           atari::map,          atari::read,     write_f4sc},
-    {"FASC",        12288, 0xFF8,  3, 2,   256, true,  false, atari::reset,           atari::map,          atari::read,     atari::write},
-    {"E0",           8192, 0,      0, 0,     0, false, false, parker::reset,          parker::map,         parker::read,    parker::write},
-    {"E7",          16384, 0,      0, 0,  2048, true,  false, mnetwork::reset,        mnetwork::map,       mnetwork::read,  mnetwork::write},
-    {"FE",           8192, 0,      0, 0,     0, false, false, activision::reset,      activision::map,     no_hidden_page,  atari::ignore_write},
-    {"DPC",         10240, 0xFF8,  2, 1,     0, false, false, dpc::reset,             dpc::map,            dpc::read,       dpc::write, dpc::power_on},
-    {"3F",           2048, 0,      0, 0,     0, false, true,  tigervision::reset,     tigervision::map,    no_hidden_page,  tigervision::write},
-    {"3E",           2048, 0,      0, 0, 32768, true,  true,  tigervision::reset_3e,  tigervision::map_3e, no_hidden_page,  tigervision::write_3e},
-    {"UA",           8192, 0,      2, 0,     0, false, true,  atari::reset,           ua::map,             ua::read,        ua::write},
-    {"CV",           2048, 0,      0, 0,  1024, true,  false, commavid::reset_empty,  commavid::map,       no_hidden_page,  commavid::write},
-    {"CV 4K",        4096, 0,      0, 0,  1024, false, false, commavid::reset_filled, commavid::map,       no_hidden_page,  commavid::write},
-    {"AR",           8448, 0,      0, 0,  6144, true,  false, starpath::reset,        starpath::map,       starpath::read,  starpath::write},
-    {"MB",          65536, 0xFF0, 16, 1,     0, false, false, atari::reset,           atari::map,          dynacom::read,   dynacom::write},
-    {"MC",         131072, 0,      0, 0, 32768, true,  true,  megacart::reset,        megacart::map,       megacart::read,  megacart::write},
-    {"0840",            1, 0,      0, 0,     0, false, false, unmapped::reset,        unmapped::map,       no_hidden_page,  atari::ignore_write},
-    {"4A50",            1, 0,      0, 0,     0, false, false, unmapped::reset,        unmapped::map,       no_hidden_page,  atari::ignore_write},
+    // acts      name          image  hotspot banks init  ram  random  TIA
+    {kPlain,    "2K",           2048, 0,        1, 0,     0, false, false},
+    {kPlain,    "4K",           4096, 0,        1, 0,     0, false, false},
+    {kAtari,    "F8",           8192, 0xFF8,    2, 1,     0, false, false},
+    {kAtari,    "F8 swapped",   8192, 0xFF8,    2, 0,     0, false, false},
+    {kAtari,    "F8SC",         8192, 0xFF8,    2, 1,   128, true,  false},
+    {kAtari,    "F6",          16384, 0xFF6,    4, 0,     0, false, false},
+    {kAtari,    "F6SC",        16384, 0xFF6,    4, 0,   128, true,  false},
+    {kAtari,    "F4",          32768, 0xFF4,    8, 0,     0, false, false},
+    {kF4sc,     "F4SC",        32768, 0xFF4,    8, 0,   128, true,  false},
+    {kAtari,    "FASC",        12288, 0xFF8,    3, 2,   256, true,  false},
+    {kE0,       "E0",           8192, 0,        0, 0,     0, false, false},
+    {kE7,       "E7",          16384, 0,        0, 0,  2048, true,  false},
+    {kFe,       "FE",           8192, 0,        0, 0,     0, false, false},
+    {kDpc,      "DPC",         10240, 0xFF8,    2, 1,     0, false, false},
+    {k3f,       "3F",           2048, 0,        0, 0,     0, false, true},
+    {k3e,       "3E",           2048, 0,        0, 0, 32768, true,  true},
+    {kUa,       "UA",           8192, 0,        2, 0,     0, false, true},
+    {kCv,       "CV",           2048, 0,        0, 0,  1024, true,  false},
+    {kCvFilled, "CV 4K",        4096, 0,        0, 0,  1024, false, false},
+    {kAr,       "AR",           8448, 0,        0, 0,  6144, true,  false},
+    {kMb,       "MB",          65536, 0xFF0,   16, 1,     0, false, false},
+    {kMc,       "MC",         131072, 0,        0, 0, 32768, true,  true},
+    {kUnmapped, "0840",            1, 0,        0, 0,     0, false, false},
+    {kUnmapped, "4A50",            1, 0,        0, 0,     0, false, false},
 };
 // clang-format on
 

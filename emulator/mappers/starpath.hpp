@@ -1,6 +1,6 @@
-// Starpath's AR, the Supercharger: 6K of RAM in three banks of 2K, filled from "loads" of the image (once from tape), and a
-// BIOS of 2K that does the loading. $1000-$17FF and $1800-$1FFF show two of the four by a configuration; an
-// access to $10xx notes xx, one to $1FF8 makes it the configuration.
+// Starpath's AR, the Supercharger: 6K of RAM in three banks of 2K, filled from the "loads" of the image (once from
+// tape), and a BIOS of 2K that does the loading. $1000-$17FF and $1800-$1FFF show two of the four by a configuration:
+// an access to $10xx notes xx, one to $1FF8 makes it the configuration.
 //
 // On the chip a noted value could also be written to RAM five bus cycles later. In the reference this never happens,
 // because its processor core doesn't count those; so RAM changes by loads only (spec: cartridges.md, section 9).

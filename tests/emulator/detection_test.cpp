@@ -157,7 +157,8 @@ TEST_CASE("A scheme that is asked for goes before the detected one, if the image
     CHECK(scheme_of(mixed(131072), name).name == name);
     const unsigned least = scheme_of(mixed(131072), name).image;
     CHECK(scheme_of(mixed(least), name).name == name);
-    CHECK_THROWS_WITH(scheme_of(mixed(least - 1), name), Catch::Contains(std::string(name)) && Catch::Contains(std::to_string(least)));
+    CHECK_THROWS_WITH(scheme_of(mixed(least - 1), name),
+                      Catch::Contains(std::string(name)) && Catch::Contains(std::to_string(least)));
   }
 }
 

@@ -1,5 +1,5 @@
-// What schemes do beside showing banks: DPC's chip, AR's loads, cartridges at the TIA's addresses, what a reset does, and
-// code that runs from RAM on the cartridge or over hot spots (spec/cartridges.md, sections 5 to 10 and "How to check").
+// What schemes do beside showing banks: DPC's chip, AR's loads, cartridges at the TIA's addresses, what a reset does,
+// and code that runs from RAM on the cartridge or over hot spots (spec/cartridges.md, sections 5 to 10).
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
@@ -198,8 +198,10 @@ struct RamScheme {
 };
 
 TEST_CASE("A reset fills a cartridge's RAM, one draw a byte; CV with contents takes none") {
-  for (const RamScheme& scheme : {RamScheme{"FASC", 12288, 256}, {"E7", 16384, 2048}, {"3E", 8192, 32768}, {"CV", 2048, 1024},
-                                  {"CV 4K", 4096, 0}, {"AR", 8448, 6144}, {"MC", 131072, 32768}, {"DPC", 10240, 0}}) {
+  constexpr RamScheme kRamSchemes[] = {{"FASC", 12288, 256}, {"E7", 16384, 2048}, {"3E", 8192, 32768},
+                                       {"CV", 2048, 1024},   {"CV 4K", 4096, 0},  {"AR", 8448, 6144},
+                                       {"MC", 131072, 32768}, {"DPC", 10240, 0}};
+  for (const RamScheme& scheme : kRamSchemes) {
     INFO(scheme.name);
     SystemGenerator generator(4753849);
     Console console(std::make_shared<Rom>(filled(scheme.size, 2048)), asking_for(scheme.name), generator);

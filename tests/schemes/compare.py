@@ -1,4 +1,4 @@
-"""Compares each cartridge scheme with the reference on generated images: random accesses by a program in RAM (images.py).
+"""Compares each cartridge scheme with the reference on generated images, by random accesses (images.py).
 
     compare.py PROBE [SCHEME...] [--seed N] [--frames N]
 
@@ -150,8 +150,8 @@ def differing(a, b):
 
 
 def align(scheme, *machines):
-    """What is not to be compared. MC: its registers, which are undefined in the reference at power-on. AR: how many frames
-    the BIOS took, what it left on the screen, and the configuration."""
+    """Takes away what is not to be compared. MC: its registers, undefined in the reference at power-on. AR: how many
+    frames the BIOS took."""
     if scheme == "MC":
         pokes = list(pokes_of([(0x80 + number, STA, 0x3C + number) for number in range(4)]))
     else:
@@ -160,7 +160,7 @@ def align(scheme, *machines):
 
 
 def compare(ale_py, probe, scheme, seed, frames):
-    """Nothing, or a sentence about the first difference. Of AR, RAM only: the reference's BIOS has left its picture."""
+    """Nothing, or a sentence about the first difference. Of AR, RAM only: the reference's BIOS leaves a picture."""
     rng = random.Random(f"{scheme} {seed} accesses")
     seen = 256 if scheme == "AR" else None
     with tempfile.TemporaryDirectory() as folder:

@@ -1,7 +1,7 @@
-"""Images for compare.py: random bytes, in which a small program is planted in every 1K, so that it runs whatever is mapped.
+"""Images for compare.py: random bytes, with a small program planted in every 1K, so that it runs whatever is mapped.
 
-At a reset the program copies LOOP to RAM and goes there. From then on each frame runs the slots of the loop, each of them
-an instruction with an absolute address that the test has put there:
+At a reset the program copies a loop to RAM and goes there. From then on each frame runs the slots of the loop, each of
+them an instruction with an absolute address that the test has put there:
 
     LDA #value; instruction; STA result
 
@@ -75,7 +75,7 @@ def load(rng, number, configuration):
 
 
 def ar(rng):
-    """Load 0, which the BIOS starts, and one that the program can ask for: its first byte, at $80, is the number, and stays."""
+    """Load 0, which the BIOS starts, and one that the loop can ask for: its first byte, at $80, is the number."""
     return load(rng, 0, 0x0D & ~2) + load(rng, LOOP[0], LOOP[0])
 
 
