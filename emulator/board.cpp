@@ -20,6 +20,7 @@ constexpr std::uint64_t kSpecialRegisters = bit(VSYNC) | bit(VBLANK) | bit(WSYNC
 std::size_t ram_beside_state(const Scheme& scheme) { return scheme.ram > kRamInState ? scheme.ram : 0; }
 
 constexpr int kLineLimit = 290, kLineLimitPal = 342;
+constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::min() / 4;
 
 }  // namespace
 
@@ -29,8 +30,7 @@ Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
       slot{*rom, scheme_of(*rom, properties.scheme), state, {}, map},
       cartridge_ram(ram_beside_state(slot.scheme)),
       rom_(std::move(rom)),
-      ports_(properties),
-      plain_registers_(slot.scheme.watches_tia ? 0 : ~kSpecialRegisters) {
+      ports_(properties) {
   slot.ram = cartridge_ram.empty() ? std::span(state.cartridge.ram).first(slot.scheme.ram) : std::span(cartridge_ram);
   if (slot.scheme.power_on != nullptr) slot.scheme.power_on(slot);
   map_memory();
@@ -68,12 +68,25 @@ void Board::open_frame() {
   set_format_limits();
 }
 
-void Board::begin_step(Picture& picture) {
-  last_access_ = std::numeric_limits<std::int32_t>::min() / 4;
-  tia.begin_step(picture);
+void Board::begin_step(Picture& picture, WriteLog& scratch, bool exact) {
+  log = &scratch;
+  log->begin(state.cycle);
+  last_access_ = kNever;
+  exact_ = exact;
+  fetched_latches_ = false;
+  plain_registers_ = exact || slot.scheme.watches_tia ? 0 : ~kSpecialRegisters;
+  tia.begin_step(picture, scratch, exact);
 }
 
-void Board::end_step() { tia.end_step(last_access_); }
+void Board::end_step() { tia.catch_up(last_access_); }
+
+// An opcode that is fetched from a collision register sees what a write in the same cycle drew ahead, even one that
+// repeats what the register holds; plain writes of that kind leave no trace.
+bool Board::needs_exact_step() const {
+  if (exact_) return false;
+  const bool untouched = last_access_ == kNever && log->size() == 0;
+  return fetched_latches_ || (!untouched && tia.stopped_inside(state.cycle));
+}
 
 const std::uint8_t* Board::locate_code(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
   if (map.page_of(pc) == nullptr) return fetch_slowly(pc, latch, cycle);
@@ -86,6 +99,7 @@ const std::uint8_t* Board::locate_code(std::uint16_t pc, std::uint8_t latch, std
 
 // The opcode is read before its cycles are counted, the operand after (cpu.md, section 3).
 const std::uint8_t* Board::fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
+  fetched_latches_ |= (pc & 0x1088) == 0;
   const std::uint8_t opcode = fetched_[0] = read(pc, latch, cycle);
   latch = opcode;
   for (unsigned i = 1; i < kOpcodes[opcode].length; ++i)
@@ -154,7 +168,11 @@ void Board::write_riot(std::uint16_t address, std::uint8_t value, std::int32_t c
 // An access that draws up to its clock and changes nothing.
 void Board::touch_tia(std::int32_t cycle) {
   last_access_ = cycle;
-  if (tia.log.has_room()) tia.log.touch(cycle);
+  if (exact_) tia.catch_up(cycle);
+}
+
+void Board::make_room(std::int32_t cycle) {
+  if (log->is_short_of_room(cycle)) tia.empty_log(cycle);
 }
 
 std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
@@ -177,14 +195,13 @@ std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int
 
 // The only reads that need the picture: the log is played up to now.
 std::uint8_t Board::collision_bits(unsigned reg, std::int32_t cycle) {
-  touch_tia(cycle);
+  last_access_ = cycle;
   tia.catch_up(cycle);
   return static_cast<std::uint8_t>((state.tia.collisions >> (2 * reg) & 3) << 6);
 }
 
 std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
   const unsigned reg = address & 0x3F;
-  last_access_ = cycle;
   if (cycle >= overlong_cycle_) {
     state.frame.open = 0;
     stop = true;
@@ -196,15 +213,21 @@ std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::in
     default: break;
   }
   if (reg == WSYNC) return write_wsync(cycle, after_read);
-  if (kDrawingRegisters >> reg & 1) tia.log.append(cycle, reg, value);
-  else tia.log.touch(cycle, reg);
+  if (!(kDrawingRegisters >> reg & 1)) {
+    touch_tia(cycle);
+    return cycle;
+  }
+  last_access_ = cycle;
+  make_room(cycle);
+  log->append(cycle, reg, value);
+  if (exact_) tia.play_log();
   return cycle;
 }
 
 // The CPU stands still until the next line starts, if it was about to read.
 std::int32_t Board::write_wsync(std::int32_t cycle, bool after_read) {
-  last_access_ = cycle;
-  tia.log.touch(cycle, WSYNC);
+  touch_tia(cycle);
+  make_room(cycle);
   if (!after_read) return cycle;
   const std::int32_t into = (cycle - state.tia.origin / 3) % kLineCycles;
   return into == 0 ? cycle : cycle + kLineCycles - into;

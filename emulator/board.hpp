@@ -27,6 +27,7 @@ class Board {
   Sound sound;
   Slot slot;
   std::vector<std::uint8_t> cartridge_ram;  // what doesn't fit into the state; mostly none
+  WriteLog* log = nullptr;  // of the step that runs
   CodeWindow code;    // where the CPU fetches; nowhere after the map has changed
   bool stop = false;  // the frame has closed: the CPU ends after this instruction
 
@@ -40,14 +41,19 @@ class Board {
   // Returns the cycle after the write: WSYNC waits for the end of the line when the access before it was a read.
   std::int32_t write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
 
-  // A TIA write that only concerns the picture: the log is all it needs.
+  // A TIA write that only concerns the picture: the log is all it needs. There is none in an exact step.
   bool is_plain_write(std::uint16_t address, std::int32_t cycle) const {
     return (plain_registers_ >> (address & 0x3F) & 1) != 0 && cycle < overlong_cycle_;
   }
 
   void open_frame();  // tia.md section 2, step action 1, with the pictures exchanged already
-  void begin_step(Picture& picture);
+  // A step: begin_step(), then what the CPU does, then end_step(), which leaves the picture drawn as far as the
+  // reference has drawn it. If needs_exact_step(), what the reference draws ahead of the beam can be seen: then the
+  // same is to be done again, from the state before the step, with `exact` set.
+  void begin_step(Picture& picture, WriteLog& scratch, bool exact = false);
   void end_step();
+  bool needs_exact_step() const;
+  bool exact() const { return exact_; }
   void set_format_limits();  // after `video` or the frame's origin have changed
 
   void map_memory();  // everything that is derived from the state: after a reset or a restored state
@@ -65,6 +71,7 @@ class Board {
                                                 bool after_read);
   std::int32_t write_wsync(std::int32_t cycle, bool after_read);
   void touch_tia(std::int32_t cycle);
+  void make_room(std::int32_t cycle);
   std::uint8_t collision_bits(unsigned reg, std::int32_t cycle);
 
   const std::uint8_t* fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
@@ -72,10 +79,12 @@ class Board {
 
   std::shared_ptr<const Rom> rom_;
   Ports ports_;
-  std::uint64_t plain_registers_;  // none if the cartridge watches the TIA
+  std::uint64_t plain_registers_ = 0;
   std::int32_t overlong_cycle_ = 0;  // from this cycle on, a TIA write closes the frame
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
-  std::int32_t last_access_ = 0;     // cycle of the last TIA access, for how far the picture is drawn
+  std::int32_t last_access_ = 0;     // cycle of the last TIA access but plain writes: how far the picture is drawn
+  bool exact_ = false;               // each access is played on its own
+  bool fetched_latches_ = false;     // an opcode was read from a collision register
 };
 
 }  // namespace racebeam

@@ -38,6 +38,7 @@ struct Console::Impl {
   void set_timer();
   void reset();
   void step();
+  void run_step(Picture& picture);
   void blank(std::shared_ptr<Picture>& picture);
   Picture& canvas();
   Format detect_format();
@@ -94,9 +95,7 @@ void Console::Impl::step() {
   }
   frame.open = 1;
   Picture& picture = canvas();
-  board.begin_step(picture);
-  run(board, kInstructionsPerStep);
-  board.end_step();
+  run_step(picture);
   state().cpu.latch = state().riot.ram.back();  // RAM is looked at over the bus after each step (console.md, section 4)
   if (!frame.open) {
     frame.lines = (3 * state().cycle - state().tia.origin) / kLineClocks;
@@ -105,6 +104,20 @@ void Console::Impl::step() {
     board.tia.grey(picture, state().cycle);
     frame.greyed = 1;
   }
+}
+
+void Console::Impl::run_step(Picture& picture) {
+  thread_local WriteLog log;
+  const State at_begin = state();
+  board.begin_step(picture, log);
+  run(board, kInstructionsPerStep);
+  board.end_step();
+  if (!board.needs_exact_step()) return;
+  state() = at_begin;
+  board.map_memory();
+  board.begin_step(picture, log, true);
+  run(board, kInstructionsPerStep);
+  board.end_step();
 }
 
 // A black picture; one that a snapshot holds too is left as it is.

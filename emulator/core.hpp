@@ -143,7 +143,7 @@ struct Core {
 
   RACEBEAM_INLINE void write_device(std::uint16_t address, std::uint8_t value) {
     if ((address & 0x1080) == 0 && board.is_plain_write(address, cycle)) {
-      board.tia.log.append_change(cycle, address & 0x3F, value);
+      board.log->append_change(cycle, address & 0x3F, value);
     } else {
       cycle = board.write_device(address, value, cycle, true);
       if (board.stop) budget = 0;

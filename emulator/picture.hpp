@@ -21,7 +21,7 @@ struct LineRecord {
   std::uint8_t involved;           // what the events may make visible, see line_key.hpp
   std::uint8_t repeats;            // drawn in one piece by the registers as the line left them
   std::uint8_t comb_armed;         // what the line left
-  std::array<std::uint32_t, 18> event;  // the writes: TiaAccess::since() the line's first cycle
+  std::array<std::uint32_t, 18> event;  // the writes: TiaWrite, with cycles from the line's first on
 };
 static_assert(sizeof(LineRecord) == 128);
 

@@ -22,10 +22,11 @@ class RegisterEffects {
   RegisterEffects(TiaState& state, const FrameState& frame, const Video& video, Painter painter)
       : tia_(state), frame_(frame), video_(video), painter_(painter) {}
 
-  void play(const TiaAccess* first, const TiaAccess* last);
+  // The writes in [first, last) of a log whose cycles count from `base`.
+  void play(const std::uint32_t* first, const std::uint32_t* last, std::int32_t base);
 
  private:
-  void play(const TiaAccess& access);
+  void play(TiaWrite write, std::int32_t cycle);
 
   static constexpr std::uint8_t kNoObject = 0, kBallBit = 1U << kBall, kPlayfieldBit = 1U << kPlayfield;
 
@@ -57,7 +58,7 @@ class RegisterEffects {
   void write_color(unsigned which, std::uint8_t value, std::int32_t clock);
   void write_nusiz(unsigned which, std::uint8_t value, std::int32_t clock);
   void write_ctrlpf(std::uint8_t value, std::int32_t clock);
-  void write_playfield(unsigned which, std::uint8_t value, const TiaAccess& access);
+  void write_playfield(unsigned which, std::uint8_t value, std::int32_t cycle);
   void write_graphics(unsigned which, std::uint8_t value, std::int32_t clock);
   void write_vdel(unsigned which, std::uint8_t value, std::int32_t clock);
   void write_ball(std::uint8_t enabled, std::uint8_t old_enabled, std::uint8_t vdel, std::int32_t clock);
@@ -66,7 +67,7 @@ class RegisterEffects {
   void strobe_player(unsigned which, std::int32_t clock);
   void strobe_missile(unsigned which, std::int32_t clock);
   void strobe_ball(std::int32_t clock);
-  void strobe_hmove(const TiaAccess& access);
+  void strobe_hmove(std::int32_t cycle);
   void clear_collisions(std::int32_t clock);
   void show_cosmic_normally();
 
@@ -90,28 +91,31 @@ RACEBEAM_INLINE bool RegisterEffects<Painter>::assign(T& reg, T value, std::int3
 }
 
 template <class Painter>
-void RegisterEffects<Painter>::play(const TiaAccess* first, const TiaAccess* last) {
-  for (const TiaAccess* access = first; access != last; ++access) play(*access);
+void RegisterEffects<Painter>::play(const std::uint32_t* first, const std::uint32_t* last, std::int32_t base) {
+  for (const std::uint32_t* entry = first; entry != last; ++entry) {
+    const TiaWrite write(*entry);
+    play(write, base + write.cycle());
+  }
 }
 
 template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::play(const TiaAccess& access) {
-  const std::int32_t clock = 3 * access.cycle();
-  const std::uint8_t value = access.value();
+RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t cycle) {
+  const std::int32_t clock = 3 * cycle;
+  const std::uint8_t value = write.value();
   auto& [p0, p1] = tia_.player;
   auto& [m0, m1] = tia_.missile;
   BallState& ball = tia_.ball;
   const auto flag = [value](int bit) { return static_cast<std::uint8_t>(value >> bit & 1); };
   const auto motion = [value] { return static_cast<std::uint8_t>(value >> 4); };
-  switch (access.reg()) {
+  switch (write.reg()) {
     case VBLANK: assign(tia_.vblank, flag(1), clock + 1, kNoObject); break;
     case NUSIZ0: write_nusiz(0, value, clock + 8); break;
     case NUSIZ1: write_nusiz(1, value, clock + 8); break;
-    case COLUP0: case COLUP1: case COLUPF: case COLUBK: write_color(access.reg() - COLUP0, value, clock); break;
+    case COLUP0: case COLUP1: case COLUPF: case COLUBK: write_color(write.reg() - COLUP0, value, clock); break;
     case CTRLPF: write_ctrlpf(value, clock); break;
     case REFP0:  assign(p0.refp, flag(3), clock + 1, object(kP0, 0)); break;
     case REFP1:  assign(p1.refp, flag(3), clock + 1, object(kP0, 1)); break;
-    case PF0: case PF1: case PF2: write_playfield(access.reg() - PF0, value, access); break;
+    case PF0: case PF1: case PF2: write_playfield(write.reg() - PF0, value, cycle); break;
     case RESP0:  strobe_player(0, clock); break;
     case RESP1:  strobe_player(1, clock); break;
     case RESM0:  strobe_missile(0, clock); break;
@@ -132,7 +136,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(const TiaAccess& access) {
     case VDELBL: write_ball(ball.enabled, ball.old_enabled, flag(0), clock); break;
     case RESMP0: write_resmp(0, flag(1), clock); break;
     case RESMP1: write_resmp(1, flag(1), clock); break;
-    case HMOVE:  strobe_hmove(access); break;
+    case HMOVE:  strobe_hmove(cycle); break;
     case HMCLR:  painter_.reach(clock); p0.motion = p1.motion = m0.motion = m1.motion = ball.motion = 0; break;
     case CXCLR:  clear_collisions(clock); break;
     default:     painter_.reach(clock); break;
@@ -171,10 +175,10 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, 
 }
 
 template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, std::uint8_t value, const TiaAccess& access) {
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, std::uint8_t value, std::int32_t cycle) {
   static constexpr std::uint8_t kDelay[4] = {4, 5, 2, 3};  // until the next block of four pixels
-  const std::int32_t clock = 3 * access.cycle();
-  assign(tia_.pf[which], value, clock + kDelay[line_cycle(access.cycle()) % 4], kPlayfieldBit);
+  const std::int32_t clock = 3 * cycle;
+  assign(tia_.pf[which], value, clock + kDelay[line_cycle(cycle) % 4], kPlayfieldBit);
 }
 
 // Writing one player's graphics moves the other's into the register that VDELPx shows.
@@ -298,9 +302,9 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_ball(std::int32_t clock) {
 }
 
 template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(const TiaAccess& access) {
-  const std::int32_t clock = 3 * access.cycle();
-  const int x = line_cycle(access.cycle());
+RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(std::int32_t cycle) {
+  const std::int32_t clock = 3 * cycle;
+  const int x = line_cycle(cycle);
   painter_.draw_to(clock);
   const auto& movement = kMovement[static_cast<std::size_t>(x)];
   const auto move = [&](std::uint8_t& position, std::uint8_t motion, std::uint8_t objects) {

@@ -33,12 +33,12 @@ struct Recalling {
 
 // Does the same write on the same line always do the same? CXCLR acts on lines before, and what may be the start of
 // Cosmic Ark mode depends on when the last HMOVE was.
-bool is_repeatable(TiaAccess access) {
-  return access.reg() != CXCLR && !(access.reg() == HMM0 && access.value() >> 4 == 6);
+bool is_repeatable(TiaWrite write) {
+  return write.reg() != CXCLR && !(write.reg() == HMM0 && write.value() >> 4 == 6);
 }
 
-constexpr std::size_t kNowhere = ~std::size_t{0};
-constexpr std::int32_t kLongestDelay = 11;  // colour clocks that an access may draw ahead
+constexpr const std::uint32_t* kNowhere = nullptr;
+constexpr std::int32_t kLongestDelay = 11;  // colour clocks that a write may draw ahead
 
 }  // namespace
 
@@ -49,58 +49,44 @@ void Tia::begin_frame() {
   for (std::uint8_t& color : tia_.color) color = static_cast<std::uint8_t>((color & 0xFE) | loss);
 }
 
-void Tia::begin_step(Picture& picture) {
-  log.clear();
+void Tia::begin_step(Picture& picture, WriteLog& log, bool exact) {
   beam_.aim(picture);
   beam_.changed(0);
-  at_begin_ = tia_;
-  rewind(log.changes);
-}
-
-void Tia::rewind(const AccessList& accesses) {
-  accesses_ = &accesses;
-  played_ = 0;
+  beam_.set_exact_spans(exact);
+  log_ = &log;
+  played_ = log.next;
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
 
-void Tia::catch_up(std::int32_t cycle) {
-  play_until(accesses_->size);
-  Drawing{beam_, reached_}.draw_to(3 * cycle);
+void Tia::play_log() {
+  while (played_ != log_->next)
+    if (!play_line()) play(played_ + 1);
 }
 
-void Tia::end_step(std::int32_t last_access) {
-  catch_up(last_access);
-  // A picture that stops inside the window shows what the reference has drawn ahead of the beam: the step is played
-  // again, access by access.
-  if (tia_.cursor >= beam_.end() || log.all.size == 0) return;
-  const std::int32_t last_clock = 3 * log.all.entry[log.all.size - 1].cycle();
-  if (last_clock + kLongestDelay <= beam_.start()) return;
-  tia_ = at_begin_;
-  beam_.forget();
-  beam_.set_exact_spans(true);
-  rewind(log.all);
-  catch_up(last_access);
-  beam_.set_exact_spans(false);
+void Tia::empty_log(std::int32_t cycle) {
+  play_log();
+  log_->rewind(cycle);
+  played_ = log_->next;
 }
 
-void Tia::play_until(std::size_t end) {
-  while (played_ < end) {
-    if (!play_line(end)) play(played_ + 1);
-  }
+void Tia::touch(std::int32_t cycle) { Drawing{beam_, reached_}.draw_to(3 * cycle); }
+
+bool Tia::stopped_inside(std::int32_t cycle) const {
+  return tia_.cursor < beam_.end() && 3 * cycle + kLongestDelay > beam_.start();
 }
 
-// Access by access, or up to `next`.
-void Tia::play(std::size_t next) {
-  RegisterEffects(tia_, frame_, video_, Drawing{beam_, reached_}).play(&accesses_->entry[played_], &accesses_->entry[next]);
+// Write by write, or up to `next`.
+void Tia::play(const std::uint32_t* next) {
+  RegisterEffects(tia_, frame_, video_, Drawing{beam_, reached_}).play(played_, next, log_->base);
   played_ = next;
   if (beam_.exact_spans()) beam_.draw_to(reached_);
 }
 
-// Plays a whole line at once, if the beam is at its start and the next access is known to lie beyond its end. A line
+// Plays a whole line at once, if the beam is at its start and the next write is known to lie beyond its end. A line
 // that starts with the same visible registers and meets the same writes as when this row of the buffer was drawn last
 // is there already.
-bool Tia::play_line(std::size_t end) {
-  const std::int32_t clock = 3 * accesses_->entry[played_].cycle();
+bool Tia::play_line() {
+  const std::int32_t clock = 3 * (log_->base + TiaWrite(*played_).cycle());
   if (clock <= beam_.start() || !beam_.line_can_end() || beam_.exact_spans()) return false;
   if (!beam_.at_line_start()) {
     if (clock <= beam_.line_end()) return false;
@@ -109,34 +95,34 @@ bool Tia::play_line(std::size_t end) {
   }
   if (reached_ > tia_.cursor) return false;
   const LineRecord& known = beam_.record();
-  const std::size_t next = end_of_known_line(known, end);
-  if (next == kNowhere) return draw_new_line(end);
+  const std::uint32_t* next = end_of_known_line(known);
+  if (next == kNowhere) return draw_new_line();
   if (has_key(tia_, known.involved, known.key)) recall_line(next);
   else draw_line(next, known.count);
   return true;
 }
 
-// The first access beyond the cursor's line, if the line meets the writes of `known`.
-std::size_t Tia::end_of_known_line(const LineRecord& known, std::size_t end) const {
+// The first write beyond the cursor's line, if the line meets the writes of `known`.
+const std::uint32_t* Tia::end_of_known_line(const LineRecord& known) const {
   if (known.count == LineRecord::kInvalid) return kNowhere;
-  const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles;
+  const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles - log_->base;
+  const std::uint32_t origin = TiaWrite(first_cycle, 0, 0).packed();
   unsigned count = 0;
-  for (std::size_t i = played_; i < end; ++i) {
-    const TiaAccess access = accesses_->entry[i];
-    if (access.cycle() > first_cycle + kLineCycles) return count == known.count ? i : kNowhere;
-    if (count == known.count || known.event[count++] != access.since(first_cycle)) break;
+  for (const std::uint32_t* at = played_; at != log_->next; ++at) {
+    if (TiaWrite(*at).cycle() > first_cycle + kLineCycles) return count == known.count ? at : kNowhere;
+    if (count == known.count || known.event[count++] != *at - origin) break;
   }
   return kNowhere;
 }
 
-void Tia::recall_line(std::size_t next) {
-  RegisterEffects(tia_, frame_, video_, Recalling{beam_}).play(&accesses_->entry[played_], &accesses_->entry[next]);
+void Tia::recall_line(const std::uint32_t* next) {
+  RegisterEffects(tia_, frame_, video_, Recalling{beam_}).play(played_, next, log_->base);
   played_ = next;
   beam_.take_line(beam_.record());
 }
 
 // Draws the cursor's line, whose writes the row's record has, and remembers it.
-void Tia::draw_line(std::size_t next, std::uint8_t count) {
+void Tia::draw_line(const std::uint32_t* next, std::uint8_t count) {
   LineRecord& record = beam_.record();
   record.key = line_key(tia_, record.involved);
   const std::uint16_t collisions = tia_.collisions;
@@ -151,28 +137,29 @@ void Tia::draw_line(std::size_t next, std::uint8_t count) {
 }
 
 // The same for other writes than the record's; false if the line can't be taken as a whole.
-bool Tia::draw_new_line(std::size_t end) {
+bool Tia::draw_new_line() {
   LineRecord& record = beam_.record();
   record.count = LineRecord::kInvalid;
   std::uint8_t count = 0;
-  const std::size_t next = gather_events(end, record, count);
+  const std::uint32_t* next = gather_events(record, count);
   if (next == kNowhere) return false;
   draw_line(next, count);
   return true;
 }
 
-// The writes that the cursor's line meets. Returns the first access beyond it.
-std::size_t Tia::gather_events(std::size_t end, LineRecord& line, std::uint8_t& count) const {
-  const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles;
+// The writes that the cursor's line meets. Returns the first one beyond it.
+const std::uint32_t* Tia::gather_events(LineRecord& line, std::uint8_t& count) const {
+  const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles - log_->base;
+  const std::uint32_t origin = TiaWrite(first_cycle, 0, 0).packed();
   line.involved = 0;
-  for (std::size_t i = played_; i < end; ++i) {
-    const TiaAccess access = accesses_->entry[i];
-    const std::int32_t cycle = access.cycle() - first_cycle;
-    if (cycle > kLineCycles) return i;
-    const LineEffect effect = kLineEffects[access.reg()];
-    if (count == line.event.size() || cycle > effect.last_cycle || !is_repeatable(access)) break;
+  for (const std::uint32_t* at = played_; at != log_->next; ++at) {
+    const TiaWrite write(*at);
+    const std::int32_t cycle = write.cycle() - first_cycle;
+    if (cycle > kLineCycles) return at;
+    const LineEffect effect = kLineEffects[write.reg()];
+    if (count == line.event.size() || cycle > effect.last_cycle || !is_repeatable(write)) break;
     line.involved |= effect.involved;
-    line.event[count++] = access.since(first_cycle);
+    line.event[count++] = *at - origin;
   }
   return kNowhere;
 }

@@ -1,86 +1,43 @@
-// TIA accesses as data: the CPU appends, the TIA plays them when somebody looks (design: nothing ticks).
+// TIA writes as data: the CPU appends, the TIA plays them when somebody looks (design: nothing ticks).
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "emulator/registers.hpp"
 
 namespace racebeam {
 
-// One word, so that it is written and compared as such.
-class TiaAccess {
+// A write in one word: cycle (18 bits, from the log's base on), register (6), value (8). Later writes are larger words.
+class TiaWrite {
  public:
-  TiaAccess() = default;
-  TiaAccess(std::int32_t cycle, unsigned reg, std::uint8_t value)
-      : packed_(static_cast<std::uint64_t>(cycle) << 16 | reg << 8 | value) {}
+  static constexpr unsigned kCycleShift = 14;
 
-  std::int32_t cycle() const { return static_cast<std::int32_t>(packed_ >> 16); }
-  unsigned reg() const { return packed_ >> 8 & 0xFF; }  // $00-$2C; kTouch: draws up to its clock, changes nothing
-  std::uint8_t value() const { return static_cast<std::uint8_t>(packed_); }
+  constexpr explicit TiaWrite(std::uint32_t packed) : packed_(packed) {}
+  constexpr TiaWrite(std::int32_t cycle, unsigned reg, std::uint8_t value)
+      : packed_(static_cast<std::uint32_t>(cycle) << kCycleShift | reg << 8 | value) {}
 
-  // Cycle from `first_cycle` on, register and value: what makes two lines the same.
-  std::uint32_t since(std::int32_t first_cycle) const {
-    return static_cast<std::uint32_t>(packed_ - (static_cast<std::uint64_t>(first_cycle) << 16));
-  }
+  constexpr std::int32_t cycle() const { return static_cast<std::int32_t>(packed_ >> kCycleShift); }
+  constexpr unsigned reg() const { return packed_ >> 8 & 0x3F; }
+  constexpr std::uint8_t value() const { return static_cast<std::uint8_t>(packed_); }
+  constexpr std::uint32_t packed() const { return packed_; }
 
  private:
-  std::uint64_t packed_;
+  std::uint32_t packed_;
 };
 
-constexpr std::uint8_t kTouch = 0x3F;
+// What of its writes a step has not played yet, for one machine at a time: a scratch list that machines share.
+// Of writes that repeat what the register holds nothing is kept, nor of reads: only a picture that stops half-way
+// shows them, and its step is run again without a log (Console::Impl::run_step). Translated code appends as
+// append_change() does, and finds the members at fixed places; it may mark kUnsettled more often than needed.
+struct WriteLog {
+  // No step has more instructions than half of this; a plain store is one entry, and whoever appends more, or waits,
+  // asks is_short_of_room() first. So neither the list nor the cycle's 18 bits can overflow, whatever the program does.
+  static constexpr std::size_t kCapacity = 65536;
+  static constexpr std::int32_t kLongestSpan = 50000;  // cycles; 25000 instructions of 8 cycles still fit after it
+  static constexpr std::size_t kPadding = 32;          // entries that may be read beyond the last
 
-// Accesses in the order in which they were made.
-struct AccessList {
-  static constexpr std::size_t kCapacity = 16384;
-
-  std::size_t size = 0;
-  std::array<TiaAccess, kCapacity> entry;
-
-  void append(TiaAccess access) { entry[size++] = access; }
-};
-
-// One step's accesses, twice: those that may change the picture, and all. Most writes repeat what the register holds;
-// they matter only to how far the reference has drawn ahead when a picture stops in the middle, which is rare. A step
-// without a TIA write past the line limit has at most 343 lines of 76 cycles, and no instruction makes more than one
-// access in two cycles, so that writes always fit; has_room() is for the reads.
-class WriteLog {
- public:
-  AccessList changes;
-  AccessList all;
-
-  void clear() {
-    changes.size = all.size = 0;
-    written_.fill(kUnknown);
-  }
-
-  // A write that may change the picture, whatever was written before.
-  void append(std::int32_t cycle, unsigned reg, std::uint8_t value) {
-    const TiaAccess access(cycle, reg, value);
-    all.append(access);
-    changes.append(access);
-    written_[reg] = kUnknown;
-    written_[kDisturbed[reg]] |= kUnsettled;
-    if (reg == HMCLR) written_[HMP0] = written_[HMP1] = written_[HMM0] = written_[HMM1] = written_[HMBL] = kUnknown;
-  }
-
-  // The same, unless it repeats the last one and the register only holds what is written.
-  void append_change(std::int32_t cycle, unsigned reg, std::uint8_t value) {
-    const TiaAccess access(cycle, reg, value);
-    all.append(access);
-    const std::uint16_t before = written_[reg];
-    if (before == value) return;
-    written_[reg] = value | kNeverRepeats[reg];
-    if ((before & ~kUnsettled) != value) written_[kDisturbed[reg]] |= kUnsettled;
-    changes.append(access);
-  }
-
-  // Draws up to its clock and changes nothing.
-  void touch(std::int32_t cycle, unsigned reg = kTouch) { all.append(TiaAccess(cycle, reg, 0)); }
-
-  bool has_room() const { return all.size < AccessList::kCapacity - 8; }
-
- private:
   static constexpr std::uint16_t kUnknown = 0x100;
   static constexpr std::uint16_t kUnsettled = 0x200;  // the value is known, but writing it again does something
 
@@ -93,15 +50,54 @@ class WriteLog {
   }();
 
   // A new value in these makes a write of the other one do something again: it moves the value on (tia.md, section 7).
+  static constexpr std::uint8_t kNobody = 0x3F;
   static constexpr std::array<std::uint8_t, 64> kDisturbed = [] {
     std::array<std::uint8_t, 64> table{};
-    table.fill(kTouch);  // nobody
+    table.fill(kNobody);
     table[GRP0] = table[ENABL] = GRP1;
     table[GRP1] = GRP0;
     return table;
   }();
 
-  std::array<std::uint16_t, 64> written_{};
+  std::uint32_t* next = nullptr;              // where the next write goes
+  std::int32_t base = 0;                      // the cycle that the entries' cycles count from
+  std::array<std::uint16_t, 64> written{};    // each register's last value, with the marks above
+  std::array<std::uint32_t, kCapacity + kPadding> entry;
+
+  WriteLog() { begin(0); }
+  WriteLog(const WriteLog&) = delete;
+  WriteLog& operator=(const WriteLog&) = delete;
+
+  void begin(std::int32_t cycle) {
+    rewind(cycle);
+    written.fill(kUnknown);
+  }
+
+  // All has been played.
+  void rewind(std::int32_t cycle) {
+    next = entry.data();
+    base = cycle;
+  }
+
+  std::size_t size() const { return static_cast<std::size_t>(next - entry.data()); }
+  bool is_short_of_room(std::int32_t cycle) const { return size() > kCapacity / 2 || cycle - base > kLongestSpan; }
+
+  // A write that may change the picture, whatever was written before.
+  void append(std::int32_t cycle, unsigned reg, std::uint8_t value) {
+    *next++ = TiaWrite(cycle - base, reg, value).packed();
+    written[reg] = kUnknown;
+    written[kDisturbed[reg]] |= kUnsettled;
+    if (reg == HMCLR) written[HMP0] = written[HMP1] = written[HMM0] = written[HMM1] = written[HMBL] = kUnknown;
+  }
+
+  // The same, unless it repeats the last one and the register only holds what is written.
+  void append_change(std::int32_t cycle, unsigned reg, std::uint8_t value) {
+    const std::uint16_t before = written[reg];
+    if (before == value) return;
+    written[reg] = value | kNeverRepeats[reg];
+    if ((before & ~kUnsettled) != value) written[kDisturbed[reg]] |= kUnsettled;
+    *next++ = TiaWrite(cycle - base, reg, value).packed();
+  }
 };
 
 }  // namespace racebeam

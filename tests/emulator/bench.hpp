@@ -2,10 +2,13 @@
 // runs a few instructions at a time. Frames open and close as in Console::step().
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "emulator/board.hpp"
 #include "emulator/cpu.hpp"
@@ -30,25 +33,37 @@ struct Bench {
     reset_cpu(board);
     state.frame.open = 1;
     board.open_frame();
-    board.begin_step(picture());
   }
 
  private:
+  // Whatever uses the machine in a step goes through here, so that end_step() can have it done once more.
+  std::uint8_t act(std::function<std::uint8_t(Bench&)> action) {
+    if (step_.empty()) {
+      at_begin_ = state;
+      board.begin_step(picture(), whole_->log);
+    }
+    step_.push_back(std::move(action));
+    return step_.back()(*this);
+  }
+
   void run_at(int cycle, unsigned opcode, unsigned operand) {
     state.riot.ram[0] = static_cast<std::uint8_t>(opcode);
     state.riot.ram[1] = static_cast<std::uint8_t>(operand);
     cpu.PC = 0x80;
     state.cycle = cycle - 3;
-    run(board, 1);
+    racebeam::run(board, 1);
   }
 
   struct Whole {
     Whole(std::shared_ptr<const Rom> rom, const Properties& properties) : board(std::move(rom), properties) {}
     Board board;
     std::array<Picture, 2> pictures;
+    WriteLog log;
   };
   std::unique_ptr<Whole> whole_;  // too large for a stack
   std::size_t current_ = 0;
+  State at_begin_;  // of the step
+  std::vector<std::function<std::uint8_t(Bench&)>> step_;  // what was done in it
 
  public:
   Board& board = whole_->board;
@@ -63,21 +78,32 @@ struct Bench {
 
   void write(int line, int x, unsigned reg, unsigned value) { write_at(line * kLineCycles + x, reg, value); }
   void write_at(int cycle, unsigned reg, unsigned value) {
-    board.write_device(static_cast<std::uint16_t>(reg), static_cast<std::uint8_t>(value), cycle, true);
+    act([=](Bench& bench) {
+      bench.state.cycle = std::max(bench.state.cycle, cycle);
+      bench.board.write_device(static_cast<std::uint16_t>(reg), static_cast<std::uint8_t>(value), cycle, true);
+      return std::uint8_t{0};
+    });
   }
   std::uint8_t read_at(int cycle, unsigned address, unsigned latch = 0) {
-    return board.read_device(static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch), cycle);
+    return act([=](Bench& bench) {
+      return bench.board.read_device(static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch), cycle);
+    });
   }
   std::uint8_t read(int line, int x, unsigned address) { return read_at(line * kLineCycles + x, address); }
 
   // The same by the processor, with STA and LDA in RAM: what it does on its own way to the TIA is included.
   void store_at(int cycle, unsigned reg, unsigned value) {
-    cpu.A = static_cast<std::uint8_t>(value);
-    run_at(cycle, 0x85, reg);
+    act([=](Bench& bench) {
+      bench.cpu.A = static_cast<std::uint8_t>(value);
+      bench.run_at(cycle, 0x85, reg);
+      return bench.cpu.A;
+    });
   }
   std::uint8_t load_at(int cycle, unsigned reg) {
-    run_at(cycle, 0xA5, reg);
-    return cpu.A;
+    return act([=](Bench& bench) {
+      bench.run_at(cycle, 0xA5, reg);
+      return bench.cpu.A;
+    });
   }
 
   // The processor's view: plain memory, or a device.
@@ -86,24 +112,34 @@ struct Bench {
     return page != nullptr ? page[address & 0x3F] : read_at(cycle, address);
   }
 
-  // Ends a step, as an instruction limit would: the frame goes on in the next one.
-  void end_step() { board.end_step(); }
-  void begin_step() { board.begin_step(picture()); }
+  // Ends a step, as an instruction limit would: the frame goes on in the next one, which begins with the next access.
+  // Where Console::step() would run the processor again, all that was done is done again.
+  void end_step() {
+    if (step_.empty()) return;
+    board.end_step();
+    if (board.needs_exact_step()) {
+      state = at_begin_;
+      board.map_memory();
+      board.begin_step(picture(), whole_->log, true);
+      for (const auto& action : step_) action(*this);
+      board.end_step();
+    }
+    step_.clear();
+  }
 
   // Closes the frame at `cycle` and opens the next one in the other buffer.
   void next_frame(int cycle) {
-    board.end_step();
+    end_step();
     state.cycle = cycle;
     state.frame.lines = (3 * state.cycle - state.tia.origin) / kLineClocks;
     current_ ^= 1;
     state.frame.open = 1;
     board.open_frame();
-    begin_step();
   }
 
   // A system reset in the middle of a frame: the frame stays open (tia.md, section 2).
   void reset_in_frame() {
-    board.end_step();
+    end_step();
     state.cycle = 0;
     state.tia = TiaState{};
     state.frame = FrameState{};
@@ -113,20 +149,24 @@ struct Bench {
       buffer.forget_lines();
     }
     board.map_memory();
-    begin_step();
   }
 
   // Puts another moment's machine in place; the pictures stay.
   void restore(const State& saved) {
     state = saved;
     board.map_memory();
-    begin_step();
+  }
+
+  void run(int instructions) {
+    act([=](Bench& bench) {
+      racebeam::run(bench.board, instructions);
+      return std::uint8_t{0};
+    });
   }
 
   void run_program(int instructions) {
-    run(board, instructions);
-    board.end_step();
-    begin_step();
+    run(instructions);
+    end_step();
   }
 };
 

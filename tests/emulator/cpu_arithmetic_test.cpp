@@ -46,7 +46,7 @@ class Pairs {
     cpu.X = static_cast<std::uint8_t>(model_.X = x_);
     cpu.P = static_cast<std::uint8_t>(flags);
     model_.set_status(flags);
-    run(bench_.board, 1);
+    bench_.run(1);
     model_.step();
     const bool same = cpu.A == model_.A && cpu.X == model_.X && (cpu.P | 0x30) == model_.status() &&
                       bench_.state.riot.ram[kOperand - 0x80] == bus_.memory[kOperand];
@@ -94,7 +94,7 @@ TEST_CASE("Decimal arithmetic gives the observed values") {
     bench.cpu.PC = 0x80;
     bench.cpu.A = static_cast<std::uint8_t>(o.a);
     bench.cpu.P = static_cast<std::uint8_t>(8 | o.carry);
-    run(bench.board, 1);
+    bench.run(1);
     INFO("A " << o.a << ", operand " << o.m);
     CHECK(int{bench.cpu.A} == o.result);
     CHECK((bench.cpu.P | 0x30) == o.status);

@@ -25,7 +25,7 @@ TEST_CASE("The functional program passes all its checks, and runs every document
   std::set<int> seen;
   for (int i = 0; i < 20000 && !bench.cpu.jammed && bench.state.riot.ram[kResult] != kPassed; ++i) {
     seen.insert(rom[bench.cpu.PC & 0xFFF]);
-    run(bench.board, 1);
+    bench.run(1);
   }
   INFO("failed check (from 0): " << int{bench.state.riot.ram[kStep]});
   CHECK_FALSE(bench.cpu.jammed);
@@ -38,7 +38,7 @@ TEST_CASE("The functional program passes all its checks, and runs every document
 
 TEST_CASE("The functional program passes in one run of many instructions, too") {
   Bench bench(assembled_program());
-  run(bench.board, 20000);
+  bench.run(20000);
   CHECK(bench.state.riot.ram[kResult] == kPassed);
 }
 

@@ -21,7 +21,7 @@ Rom image(const Bytes& program) {
 
 Bench ran(const Bytes& program, int instructions) {
   Bench bench(image(program));
-  run(bench.board, instructions);
+  bench.run(instructions);
   return bench;
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("Case 4: a TIA read shows the bus where the TIA drives nothing") {
   Bench bench(image({0xB1, 0x90}));  // LDA ($90),Y
   bench.state.riot.ram[0x10] = 0x33;
   bench.state.riot.ram[0x11] = 0x25;
-  run(bench.board, 1);
+  bench.run(1);
   CHECK(int{bench.cpu.A} == 0x25);
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("Every jam opcode stops the processor until a reset") {
     Bench bench = ran({static_cast<std::uint8_t>(opcode), 0xE8}, 5);
     CHECK(bench.state.cycle == 2);
     CHECK(bench.cpu.PC == 0xF001);
-    run(bench.board, 5);
+    bench.run(5);
     CHECK(bench.state.cycle == 2);
     reset_cpu(bench.board);
     CHECK(bench.cpu.PC == 0xF000);

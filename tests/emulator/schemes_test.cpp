@@ -201,7 +201,6 @@ Rom image_3f(std::size_t size = 8192) {
 unsigned colubk(Bench& bench) {
   bench.end_step();
   const unsigned color = bench.state.tia.color[3];
-  bench.begin_step();
   return color;
 }
 
