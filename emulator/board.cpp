@@ -88,13 +88,16 @@ bool Board::needs_exact_step() const {
   return fetched_latches_ || (!untouched && tia.stopped_inside(state.cycle));
 }
 
-const std::uint8_t* Board::locate_code(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
-  if (map.page_of(pc) == nullptr) return fetch_slowly(pc, latch, cycle);
+bool Board::find_code(std::uint16_t pc) {
+  if (map.page_of(pc) == nullptr) return false;
   const CodeWindow window = map.window_around(pc);
-  const auto offset = static_cast<std::uint16_t>(pc - window.first);
-  if (offset >= window.span) return fetch_slowly(pc, latch, cycle);
+  if (static_cast<std::uint16_t>(pc - window.first) >= window.span) return false;
   code = window;
-  return window.memory + offset;
+  return true;
+}
+
+const std::uint8_t* Board::locate_code(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
+  return find_code(pc) ? code.memory + static_cast<std::uint16_t>(pc - code.first) : fetch_slowly(pc, latch, cycle);
 }
 
 // The opcode is read before its cycles are counted, the operand after (cpu.md, section 3).

@@ -11,8 +11,11 @@
 #include "emulator/sound.hpp"
 #include "emulator/state.hpp"
 #include "emulator/tia.hpp"
+#include "emulator/translator/context.hpp"
 
 namespace racebeam {
+
+namespace translator { struct Layout; }
 
 class Board {
  public:
@@ -46,6 +49,14 @@ class Board {
     return (plain_registers_ >> (address & 0x3F) & 1) != 0 && cycle < overlong_cycle_;
   }
 
+  // Moves the code window to `pc`. False where there is no plain memory, or less than an instruction needs.
+  bool find_code(std::uint16_t pc);
+
+  // For the translator: TIA writes that only go to the log, and the cycle from which on they close the frame.
+  std::uint64_t plain_registers() const { return plain_registers_; }
+  std::int32_t overlong_cycle() const { return overlong_cycle_; }
+  translator::Context translated;
+
   void open_frame();  // tia.md section 2, step action 1, with the pictures exchanged already
   // A step: begin_step(), then what the CPU does, then end_step(), which leaves the picture drawn as far as the
   // reference has drawn it. If needs_exact_step(), what the reference draws ahead of the beam can be seen: then the
@@ -59,6 +70,8 @@ class Board {
   void map_memory();  // everything that is derived from the state: after a reset or a restored state
 
  private:
+  friend translator::Layout;
+
   std::uint8_t read_cartridge(std::uint16_t address, std::int32_t cycle);
   [[gnu::noinline]] Delivery write_cartridge(std::uint16_t address, std::uint8_t value);
   std::uint8_t read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);

@@ -8,6 +8,7 @@
 
 #include "emulator/board.hpp"
 #include "emulator/cpu.hpp"
+#include "emulator/translator/translator.hpp"
 
 namespace racebeam {
 namespace {
@@ -22,13 +23,16 @@ bool is_pal(Format format) { return format == Format::kPal || format == Format::
 
 struct Console::Impl {
   Impl(std::shared_ptr<const Rom> rom, const Properties& given, PowerOn& source)
-      : properties(given), power_on(source), board(std::move(rom), given), format(given.format) {}
+      : properties(given), power_on(source), board(std::move(rom), given), format(given.format) {
+    if (!getenv("RACEBEAM_INTERPRETER")) cpu = std::make_unique<translator::Translator>(board);
+  }
 
   Properties properties;
   PowerOn& power_on;
   Board board;
   Format format;
   Pictures pictures;
+  std::unique_ptr<translator::Translator> cpu;
 
   State& state() { return board.state; }
   std::size_t picture_size() const { return static_cast<std::size_t>(height()) * kLinePixels; }
@@ -109,14 +113,21 @@ void Console::Impl::step() {
 void Console::Impl::run_step(Picture& picture) {
   thread_local WriteLog log;
   const State at_begin = state();
+  const auto repeat = [&](bool exact) {
+    state() = at_begin;
+    board.map_memory();
+    board.begin_step(picture, log, exact);
+    interpret(board, kInstructionsPerStep);
+  };
   board.begin_step(picture, log);
-  run(board, kInstructionsPerStep);
+  if (cpu == nullptr) {
+    interpret(board, kInstructionsPerStep);
+  } else if (!cpu->run(board, kInstructionsPerStep)) {
+    repeat(false);
+  }
   board.end_step();
   if (!board.needs_exact_step()) return;
-  state() = at_begin;
-  board.map_memory();
-  board.begin_step(picture, log, true);
-  run(board, kInstructionsPerStep);
+  repeat(true);
   board.end_step();
 }
 

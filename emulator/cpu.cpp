@@ -74,7 +74,7 @@ void reset_cpu(Board& board) {
   cpu.store_state();
 }
 
-void run(Board& board, std::int32_t instructions) {
+void interpret(Board& board, std::int32_t instructions) {
   if (board.state.cpu.jammed) return;
   board.stop = false;
 

@@ -9,6 +9,6 @@ namespace racebeam {
 void reset_cpu(Board& board);
 
 // Runs up to `instructions` instructions; ends early, between two of them, when the board asks to stop or the chip jams.
-void run(Board& board, std::int32_t instructions);
+void interpret(Board& board, std::int32_t instructions);
 
 }  // namespace racebeam

@@ -45,4 +45,9 @@ std::int32_t sure_timer_turns(const std::uint8_t* branch, const RiotState& riot,
   return static_cast<std::int32_t>((ends - elapsed + period - 1) / period);
 }
 
+bool is_timer_loop(const std::uint8_t* branch) {
+  const Range range = looping_counts(branch);
+  return range.least <= range.most;
+}
+
 }  // namespace racebeam

@@ -15,4 +15,7 @@ constexpr std::int8_t kTimerLoopOffset = -5;  // of a branch back to the three-b
 std::int32_t sure_timer_turns(const std::uint8_t* branch, const RiotState& riot, std::int32_t next_read,
                               std::int32_t period);
 
+// Is it one?
+bool is_timer_loop(const std::uint8_t* branch);
+
 }  // namespace racebeam

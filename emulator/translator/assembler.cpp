@@ -1,0 +1,31 @@
+#include "emulator/translator/assembler.hpp"
+
+#include "emulator/board.hpp"
+
+namespace racebeam::translator {
+
+Layout::Layout(Board& board) {
+  const auto at = [&board](const auto& member) {
+    return static_cast<std::int32_t>(reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&board));
+  };
+  const State& state = board.state;
+  ram = at(state.riot.ram);
+  a = at(state.cpu.A);
+  x = at(state.cpu.X);
+  y = at(state.cpu.Y);
+  sp = at(state.cpu.SP);
+  cycle = at(state.cycle);
+  pages = at(board.map.page);
+  stop = at(board.stop);
+  code_span = at(board.code.span);
+  last_access = at(board.last_access_);
+  limit = at(board.translated.limit);
+  first_line = at(board.translated.first_line);
+  nz = at(board.translated.nz);
+  carry = at(board.translated.carry);
+  overflow = at(board.translated.V);
+  decimal = at(board.translated.D);
+  interrupt = at(board.translated.I);
+}
+
+}  // namespace racebeam::translator

@@ -1,0 +1,242 @@
+#include "emulator/translator/block_emitter.hpp"
+
+#include "emulator/timer_loop.hpp"
+#include "emulator/translator/bus_calls.hpp"
+
+namespace racebeam::translator {
+
+BlockEmitter::BlockEmitter(Assembler& assembler, const Block& block) : as_(assembler), block_(block) {}
+
+void BlockEmitter::emit() {
+  as_.L(as_.blocks[block_.pc]);
+  if (block_.instructions.empty()) {
+    as_.mov(as_.eax, block_.pc | kInterpretNext);
+    as_.jmp(as_.way_out, Xbyak::CodeGenerator::T_NEAR);
+    return;
+  }
+  check_limit();
+  const std::vector<Flags> live = live_flags(block_);
+  for (std::size_t i = 0; i < block_.instructions.size(); ++i) emit(block_.instructions[i], live[i]);
+  if (block_.instructions.back().access != Access::Jump) {
+    settle(here());
+    jump_to(block_.next);
+  }
+  for (std::size_t i = 0; i < cold_.size(); ++i) cold_[i]();
+}
+
+// In loops, and before writes to the TIA, which past the limit close the frame.
+void BlockEmitter::check_limit() {
+  bool matters = block_.loops;
+  for (const Instruction& instruction : block_.instructions) matters = matters || may_write_device(instruction);
+  if (!matters) return;
+  Xbyak::Label reached;
+  as_.cmp(as_.ebp, as_.dword_of(as_.layout.limit));
+  as_.jge(reached, Xbyak::CodeGenerator::T_NEAR);
+  cold([this, reached]() mutable {
+    as_.L(reached);
+    as_.mov(as_.eax, block_.pc);
+    as_.jmp(as_.way_out, Xbyak::CodeGenerator::T_NEAR);
+  });
+}
+
+void BlockEmitter::emit(const Instruction& instruction, Flags live) {
+  switch (instruction.access) {
+    case Access::Read: case Access::Immediate: emit_read(instruction, live); break;
+    case Access::Write: write(instruction); break;
+    case Access::Modify: case Access::Accumulator: modify(instruction, live); break;
+    case Access::Implied: implied(instruction, live); break;
+    case Access::Branch: emit_branch(instruction); return;
+    case Access::Jump: emit_jump(instruction); return;
+  }
+  elapsed_ += instruction.cycles;
+}
+
+void BlockEmitter::emit_read(const Instruction& instruction, Flags live) {
+  const Value value = read(instruction);
+  switch (instruction.operation) {
+    case Operation::lda: return load(as_.r12d, value, NzHome::kA);
+    case Operation::ldx: return load(as_.r13d, value, NzHome::kX);
+    case Operation::ldy: return load(as_.r14d, value, NzHome::kY);
+    case Operation::and_: case Operation::ora: case Operation::eor: return logic(instruction, value);
+    case Operation::adc: case Operation::sbc: return add(instruction, value, live);
+    case Operation::cmp: return compare(as_.r12b, value, live);
+    case Operation::cpx: return compare(as_.r13b, value, live);
+    case Operation::cpy: return compare(as_.r14b, value, live);
+    default: return bit(value, live);
+  }
+}
+
+void BlockEmitter::settle(const Place& place) {
+  if (place.elapsed != 0) as_.add(as_.ebp, place.elapsed);
+  switch (place.nz) {
+    case NzHome::kNumber: break;
+    case NzHome::kA: as_.mov(as_.r8d, as_.r12d); break;
+    case NzHome::kX: as_.mov(as_.r8d, as_.r13d); break;
+    case NzHome::kY: as_.mov(as_.r8d, as_.r14d); break;
+  }
+  if (place.carry != CarryHome::kNumber) as_.mov(as_.r9d, place.carry == CarryHome::kSet ? 1 : 0);
+}
+
+void BlockEmitter::leave_before(const Instruction& instruction) {
+  as_.mov(as_.eax, instruction.pc | kInterpretNext);
+  as_.jmp(as_.way_out, Xbyak::CodeGenerator::T_NEAR);
+}
+
+// The interpreter does the instruction if `label` is jumped to, from `place`.
+void BlockEmitter::leave_cold(Xbyak::Label label, const Instruction& instruction, const Place& place) {
+  cold([this, instruction, place, label]() mutable {
+    as_.L(label);
+    settle(place);
+    leave_before(instruction);
+  });
+}
+
+// Everything is settled.
+void BlockEmitter::jump_to(std::uint16_t target) {
+  const auto found = as_.blocks.find(target);
+  if (found != as_.blocks.end()) {
+    as_.jmp(found->second, Xbyak::CodeGenerator::T_NEAR);
+    return;
+  }
+  const void* entry = holds(as_.window.code, target) ? as_.window.entries[as_.offset_of(target)] : nullptr;
+  if (entry != nullptr) {
+    as_.jmp(entry, Xbyak::CodeGenerator::T_NEAR);
+    return;
+  }
+  as_.mov(as_.eax, target);
+  as_.jmp(as_.way_out, Xbyak::CodeGenerator::T_NEAR);
+}
+
+void BlockEmitter::emit_branch(const Instruction& instruction) {
+  elapsed_ += instruction.cycles;
+  Xbyak::Label taken;
+  constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
+  const auto test_nz = [this](bool only_zero) {
+    if (host_nz_) return;
+    switch (nz_) {
+      case NzHome::kA: as_.test(as_.r12b, as_.r12b); break;
+      case NzHome::kX: as_.test(as_.r13b, as_.r13b); break;
+      case NzHome::kY: as_.test(as_.r14b, as_.r14b); break;
+      case NzHome::kNumber:
+        if (only_zero) as_.test(as_.r8b, as_.r8b);
+        else as_.test(as_.r8d, 0x8080);
+        return;
+    }
+    host_nz_ = true;
+    host_carry_ = HostCarry::kUnknown;
+  };
+  const bool number = nz_ == NzHome::kNumber && !host_nz_;
+  const auto test_byte = [this](std::int32_t place) { as_.cmp(as_.byte_of(place), 0); };
+  const auto clobber = [this] { clobbered_flags(); };
+  switch (instruction.operation) {
+    case Operation::bpl:
+      test_nz(false);
+      if (number) as_.jz(taken, kNear), clobber();
+      else as_.jns(taken, kNear);
+      break;
+    case Operation::bmi:
+      test_nz(false);
+      if (number) as_.jnz(taken, kNear), clobber();
+      else as_.js(taken, kNear);
+      break;
+    case Operation::bne: test_nz(true); as_.jnz(taken, kNear); if (number) clobber(); break;
+    case Operation::beq: test_nz(true); as_.jz(taken, kNear); if (number) clobber(); break;
+    case Operation::bvc: test_byte(as_.layout.overflow); as_.je(taken, kNear); clobber(); break;
+    case Operation::bvs: test_byte(as_.layout.overflow); as_.jne(taken, kNear); clobber(); break;
+    default: {
+      const bool if_set = instruction.operation == Operation::bcs;
+      if (carry_ != CarryHome::kNumber) {
+        if ((carry_ == CarryHome::kSet) != if_set) return;  // never taken
+        as_.jmp(taken, kNear);
+      } else if (host_carry_ != HostCarry::kUnknown) {
+        if ((host_carry_ == HostCarry::kSame) == if_set) as_.jc(taken, kNear);
+        else as_.jnc(taken, kNear);
+      } else {
+        as_.test(as_.r9b, as_.r9b);
+        clobber();
+        if (if_set) as_.jnz(taken, kNear);
+        else as_.jz(taken, kNear);
+      }
+      break;
+    }
+  }
+  Place place = here();
+  const int penalty = (instruction.next() ^ instruction.target()) & 0xFF00 ? 2 : 1;
+  place.elapsed += penalty;
+  cold([this, instruction, place, penalty, taken]() mutable {
+    as_.L(taken);
+    settle(place);
+    const std::uint16_t read = instruction.target();
+    if (static_cast<std::int8_t>(instruction.operand) == kTimerLoopOffset && as_.covers(read) &&
+        is_timer_loop(as_.window.code.memory + as_.offset_of(instruction.pc))) {
+      constexpr int kLoadCycles = 4, kBranchCycles = 2;
+      call_skip_timer_loop(as_, as_.window.code.memory + as_.offset_of(instruction.pc), kLoadCycles + kBranchCycles + penalty);
+    }
+    jump_to(instruction.target());
+  });
+}
+
+void BlockEmitter::emit_jump(const Instruction& instruction) {
+  if (instruction.operation == Operation::jsr) return jsr(instruction);
+  if (instruction.operation == Operation::rts) return rts(instruction);
+  const bool goes_far = instruction.mode == Mode::indirect || !holds(as_.window.code, instruction.target());
+  if (!goes_far) elapsed_ += instruction.cycles;
+  settle(here());
+  if (goes_far) leave_before(instruction);
+  else jump_to(instruction.target());
+}
+
+// Both bytes of the return address must fall into RAM.
+void BlockEmitter::jsr(const Instruction& instruction) {
+  Xbyak::Label outside;
+  const Place before = here();
+  if (!holds(as_.window.code, instruction.target()) || !as_.covers(instruction.pc, 3)) {
+    settle(before);
+    leave_before(instruction);
+    return;
+  }
+  as_.movzx(as_.eax, as_.byte_of(as_.layout.sp));
+  as_.cmp(as_.al, 0x81);
+  as_.jb(outside, Xbyak::CodeGenerator::T_NEAR);
+  const unsigned pushed = static_cast<std::uint16_t>(instruction.pc + 2);
+  // Low byte below the high one, as the stack grows down.
+  as_.mov(as_.word[as_.rbx + as_.rax + (as_.layout.ram - 0x81)], pushed);
+  as_.sub(as_.byte_of(as_.layout.sp), 2);
+  elapsed_ += instruction.cycles;
+  settle(here());
+  jump_to(instruction.target());
+  leave_cold(outside, instruction, before);
+}
+
+// The return address comes from RAM, and leads into the window.
+void BlockEmitter::rts(const Instruction& instruction) {
+  constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
+  Xbyak::Label outside;
+  settle(here());
+  as_.movzx(as_.ecx, as_.byte_of(as_.layout.sp));
+  as_.lea(as_.edx, as_.ptr[as_.rcx - 0x7F]);
+  as_.cmp(as_.edx, 0x7E);
+  as_.ja(outside, kNear);
+  as_.movzx(as_.eax, as_.word[as_.rbx + as_.rcx + (as_.layout.ram - 0x7F)]);
+  as_.lea(as_.edx, as_.ptr[as_.rax + (1 - as_.window.code.first)]);
+  as_.cmp(as_.edx, as_.window.code.span);
+  as_.jae(outside, kNear);
+  as_.cmp(as_.edx, 1);  // the byte before it is read, too
+  as_.jb(outside, kNear);
+  as_.mov(as_.rsi, reinterpret_cast<std::uintptr_t>(as_.window.entries));
+  as_.mov(as_.rsi, as_.ptr[as_.rsi + as_.rdx * 8]);
+  as_.test(as_.rsi, as_.rsi);
+  as_.jz(outside, kNear);
+  as_.cmp(as_.ebp, as_.dword_of(as_.layout.limit));
+  as_.jge(outside, kNear);
+  as_.add(as_.cl, 2);
+  as_.mov(as_.byte_of(as_.layout.sp), as_.cl);
+  as_.add(as_.ebp, instruction.cycles);
+  as_.jmp(as_.rsi);
+  cold([this, instruction, outside]() mutable {
+    as_.L(outside);
+    leave_before(instruction);
+  });
+}
+
+}  // namespace racebeam::translator

@@ -1,0 +1,340 @@
+// Reads and writes: what is known of an address when the code is translated decides how short they are.
+#include <cstddef>
+
+#include "emulator/line_key.hpp"
+#include "emulator/registers.hpp"
+#include "emulator/translator/addresses.hpp"
+#include "emulator/translator/block_emitter.hpp"
+#include "emulator/translator/bus_calls.hpp"
+#include "emulator/write_log.hpp"
+
+namespace racebeam::translator {
+namespace {
+
+constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
+
+constexpr std::uint8_t high_byte(std::uint16_t word) { return static_cast<std::uint8_t>(word >> 8); }
+
+}  // namespace
+
+BlockEmitter::Value BlockEmitter::read(const Instruction& instruction) {
+  switch (instruction.mode) {
+    case Mode::immediate: return {Value::Kind::kConstant, static_cast<std::uint8_t>(instruction.operand)};
+    case Mode::zero_page: case Mode::absolute: return read_fixed(instruction);
+    case Mode::zero_page_x: return read_zero_page_indexed(instruction, as_.r13d);
+    case Mode::zero_page_y: return read_zero_page_indexed(instruction, as_.r14d);
+    case Mode::absolute_x: return read_indexed(instruction, as_.r13d);
+    case Mode::absolute_y: return read_indexed(instruction, as_.r14d);
+    default: return read_through_pointer(instruction);
+  }
+}
+
+BlockEmitter::Value BlockEmitter::read_fixed(const Instruction& instruction) {
+  const std::uint16_t address = instruction.operand;
+  if (is_ram(address)) return {Value::Kind::kMemory, 0, as_.rbx + (as_.layout.ram + (address & 0x7F))};
+  if (!is_cartridge(address)) {
+    as_.mov(as_.eax, address);
+    as_.mov(as_.ecx, instruction.length == 3 ? high_byte(address) : address);  // the operand was on the bus before
+    read_device(instruction, here());
+    return {Value::Kind::kEax};
+  }
+  if (as_.covers(address)) return {Value::Kind::kConstant, as_.byte_at(address)};
+  Xbyak::Label hidden;
+  as_.mov(as_.rdx, as_.ptr[as_.rbx + as_.layout.pages + 8 * (address >> 6 & 0xFF)]);
+  as_.test(as_.rdx, as_.rdx);
+  as_.jz(hidden, kNear);
+  leave_cold(hidden, instruction, here());
+  clobbered_flags();
+  return {Value::Kind::kMemory, 0, as_.rdx + (address & 0x3F)};
+}
+
+// Reads the TIA or the RIOT, in line; eax, ecx as call_read wants them.
+void BlockEmitter::read_device(const Instruction& instruction, const Place& place) {
+  as_.lea(as_.edx, as_.ptr[as_.rbp + (place.elapsed + instruction.cycles)]);
+  call_read(as_);
+  if (place.rom_loaded) load_rom_again();
+  clobbered_flags();
+}
+
+BlockEmitter::Value BlockEmitter::read_zero_page_indexed(const Instruction& instruction, Reg32 index) {
+  Xbyak::Label device, done;
+  as_.lea(as_.ecx, as_.ptr[index.cvt64() + (instruction.operand - 0x80)]);
+  as_.movzx(as_.ecx, as_.cl);
+  as_.test(as_.cl, as_.cl);
+  as_.js(device, kNear);
+  as_.movzx(as_.eax, as_.byte[as_.rbx + as_.rcx + as_.layout.ram]);
+  as_.L(done);
+  clobbered_flags();
+  cold([this, instruction, place = here(), device, done]() mutable {
+    as_.L(device);
+    as_.mov(as_.eax, as_.ecx);
+    as_.xor_(as_.eax, 0x80);
+    as_.mov(as_.ecx, instruction.operand);
+    read_device(instruction, place);
+    as_.jmp(done, kNear);
+  });
+  return {Value::Kind::kEax};
+}
+
+// A table of the window is read without a check.
+BlockEmitter::Value BlockEmitter::read_indexed(const Instruction& instruction, Reg32 index) {
+  const std::uint16_t base = instruction.operand;
+  if (is_cartridge(base) && as_.covers(base, 256)) {
+    add_penalty(instruction, index);
+    load_rom();
+    return {Value::Kind::kMemory, 0, as_.r10 + index.cvt64() + as_.offset_of(base)};
+  }
+  as_.lea(as_.eax, as_.ptr[index.cvt64() + base]);
+  as_.movzx(as_.eax, as_.ax);
+  add_penalty(instruction, index);
+  as_.mov(as_.esi, high_byte(base));
+  read_at_eax(instruction);
+  return {Value::Kind::kEax};
+}
+
+BlockEmitter::Value BlockEmitter::read_through_pointer(const Instruction& instruction) {
+  if (!load_pointer(instruction)) return {Value::Kind::kConstant};
+  as_.mov(as_.esi, as_.eax);
+  as_.shr(as_.esi, 8);
+  if (instruction.mode == Mode::indirect_y) {
+    as_.movzx(as_.ecx, as_.al);
+    as_.add(as_.cl, as_.r14b);
+    as_.adc(as_.ebp, 0);
+    as_.add(as_.eax, as_.r14d);
+    as_.movzx(as_.eax, as_.ax);
+  }
+  clobbered_flags();
+  read_at_eax(instruction);
+  return {Value::Kind::kEax};
+}
+
+// The pointer of (zp),Y or (zp,X) into eax. False if it is not in RAM, and the interpreter does the instruction.
+bool BlockEmitter::load_pointer(const Instruction& instruction) {
+  if (instruction.mode == Mode::indirect_y) {
+    if (instruction.operand < 0x80 || instruction.operand == 0xFF) {
+      settle(here());
+      leave_before(instruction);
+      return false;
+    }
+    as_.movzx(as_.eax, as_.word[as_.rbx + (as_.layout.ram + (instruction.operand & 0x7F))]);
+    return true;
+  }
+  Xbyak::Label outside;
+  as_.lea(as_.ecx, as_.ptr[as_.r13 + (instruction.operand - 0x80)]);
+  as_.movzx(as_.ecx, as_.cl);
+  as_.cmp(as_.ecx, 0x7F);
+  as_.jae(outside, kNear);
+  as_.movzx(as_.eax, as_.word[as_.rbx + as_.rcx + as_.layout.ram]);
+  leave_cold(outside, instruction, here());
+  clobbered_flags();
+  return true;
+}
+
+// Reads whatever the memory map has at the address in eax, into eax; esi: the data bus before. The penalty has been
+// added already.
+void BlockEmitter::read_at_eax(const Instruction& instruction) {
+  Xbyak::Label device, done;
+  as_.mov(as_.ecx, as_.eax);
+  as_.shr(as_.ecx, 6);
+  as_.movzx(as_.ecx, as_.cl);
+  as_.mov(as_.rdx, as_.ptr[as_.rbx + as_.rcx * 8 + as_.layout.pages]);
+  as_.test(as_.rdx, as_.rdx);
+  as_.jz(device, kNear);
+  as_.and_(as_.eax, 0x3F);
+  as_.movzx(as_.eax, as_.byte[as_.rdx + as_.rax]);
+  as_.L(done);
+  clobbered_flags();
+  cold([this, instruction, place = here(), device, done]() mutable {
+    Xbyak::Label cartridge;
+    as_.L(device);
+    as_.test(as_.ah, 0x10);
+    as_.jnz(cartridge, kNear);
+    as_.mov(as_.ecx, as_.esi);
+    read_device(instruction, place);
+    as_.jmp(done, kNear);
+    as_.L(cartridge);
+    remove_penalty(instruction);
+    settle(place);
+    leave_before(instruction);
+  });
+}
+
+// A cycle more where the index leads into another page.
+void BlockEmitter::add_penalty(const Instruction& instruction, Reg32 index) {
+  const int low = instruction.operand & 0xFF;
+  if (low == 0) return;
+  as_.cmp(index.cvt8(), 256 - low);
+  as_.sbb(as_.ebp, -1);
+  clobbered_flags();
+}
+
+void BlockEmitter::remove_penalty(const Instruction& instruction) {
+  const int low = instruction.operand & 0xFF;
+  switch (instruction.mode) {
+    case Mode::absolute_x: case Mode::absolute_y:
+      if (low == 0) return;
+      as_.cmp(instruction.mode == Mode::absolute_x ? as_.r13b : as_.r14b, 256 - low);
+      as_.adc(as_.ebp, -1);
+      break;
+    case Mode::indirect_y:
+      as_.movzx(as_.ecx, as_.ram(instruction.operand));
+      as_.add(as_.cl, as_.r14b);
+      as_.sbb(as_.ebp, 0);
+      break;
+    default: break;
+  }
+}
+
+void BlockEmitter::load_rom() {
+  if (!rom_loaded_) load_rom_again();
+  rom_loaded_ = true;
+}
+
+void BlockEmitter::load_rom_again() { as_.mov(as_.r10, reinterpret_cast<std::uintptr_t>(as_.window.code.memory)); }
+
+void BlockEmitter::write(const Instruction& instruction) {
+  const Reg32 value = instruction.operation == Operation::sta   ? as_.r12d
+                      : instruction.operation == Operation::stx ? as_.r13d
+                                                                : as_.r14d;
+  const auto index = [&] { return instruction.mode == Mode::absolute_x ? as_.r13 : as_.r14; };
+  switch (instruction.mode) {
+    case Mode::zero_page: case Mode::absolute: write_fixed(instruction, value); return;
+    case Mode::zero_page_x: write_zero_page_indexed(instruction, as_.r13, value); return;
+    case Mode::zero_page_y: write_zero_page_indexed(instruction, as_.r14, value); return;
+    case Mode::absolute_x: case Mode::absolute_y:
+      as_.lea(as_.eax, as_.ptr[index() + instruction.operand]);
+      break;
+    default:
+      if (!load_pointer(instruction)) return;
+      if (instruction.mode == Mode::indirect_y) as_.add(as_.eax, as_.r14d);
+      break;
+  }
+  write_at_eax(instruction, value);
+}
+
+void BlockEmitter::write_fixed(const Instruction& instruction, Reg32 value) {
+  const std::uint16_t address = instruction.operand;
+  if (is_ram(address)) {
+    as_.mov(as_.ram(address), value.cvt8());
+    return;
+  }
+  if (is_cartridge(address)) {
+    settle(here());
+    leave_before(instruction);
+    return;
+  }
+  const unsigned reg = address & 0x3F;
+  if (is_tia(address) && (as_.window.plain_registers >> reg & 1) != 0) return write_register(instruction, reg, value);
+  if (is_tia(address) && reg == WSYNC && as_.window.plain_registers != 0) return write_wsync(instruction);
+  as_.mov(as_.eax, address);
+  call_write(instruction, value, here());
+}
+
+// WriteLog::append_change, in line.
+void BlockEmitter::write_register(const Instruction& instruction, unsigned reg, Reg32 value) {
+  if ((kDrawingRegisters >> reg & 1) == 0) return;
+  const auto written = [](unsigned of) { return static_cast<int>(offsetof(WriteLog, written) + 2 * of); };
+  const Xbyak::Reg16 word_value(value.getIdx());
+  Xbyak::Label repeated;
+  if (WriteLog::kNeverRepeats[reg] == 0) {
+    as_.cmp(as_.word[as_.r15 + written(reg)], word_value);
+    as_.je(repeated);
+    as_.mov(as_.word[as_.r15 + written(reg)], word_value);
+    if (const unsigned other = WriteLog::kDisturbed[reg]; other != WriteLog::kNobody)
+      as_.or_(as_.byte[as_.r15 + written(other) + 1], WriteLog::kUnsettled >> 8);
+  }
+  as_.lea(as_.ecx, as_.ptr[as_.rbp + (elapsed_ + instruction.cycles)]);
+  as_.sub(as_.ecx, as_.dword[as_.r15 + offsetof(WriteLog, base)]);
+  as_.shl(as_.ecx, TiaWrite::kCycleShift);
+  as_.lea(as_.ecx, as_.ptr[as_.rcx + value.cvt64() + static_cast<int>(reg << 8)]);
+  as_.mov(as_.rdx, as_.ptr[as_.r15 + offsetof(WriteLog, next)]);
+  as_.mov(as_.ptr[as_.rdx], as_.ecx);
+  as_.add(as_.qword[as_.r15 + offsetof(WriteLog, next)], sizeof(std::uint32_t));
+  as_.L(repeated);
+  clobbered_flags();
+}
+
+// Waits until the line's end: a division by 76, for cycles below 69,000 (the limit is far below).
+void BlockEmitter::write_wsync(const Instruction& instruction) {
+  const int cycles = elapsed_ + instruction.cycles;
+  as_.mov(as_.ecx, as_.dword_of(as_.layout.first_line));
+  as_.lea(as_.eax, as_.ptr[as_.rbp + (cycles + 75)]);
+  as_.sub(as_.eax, as_.ecx);
+  as_.imul(as_.eax, as_.eax, 55189);
+  as_.shr(as_.eax, 22);
+  as_.imul(as_.eax, as_.eax, 76);
+  as_.add(as_.eax, as_.ecx);
+  as_.lea(as_.edx, as_.ptr[as_.rbp + cycles]);
+  as_.mov(as_.dword_of(as_.layout.last_access), as_.edx);
+  as_.mov(as_.ebp, as_.eax);
+  elapsed_ = -static_cast<int>(instruction.cycles);  // they are counted when the instruction is done
+  clobbered_flags();
+}
+
+void BlockEmitter::write_zero_page_indexed(const Instruction& instruction, Xbyak::Reg64 index, Reg32 value) {
+  Xbyak::Label device, done;
+  as_.lea(as_.ecx, as_.ptr[index + (instruction.operand - 0x80)]);
+  as_.movzx(as_.ecx, as_.cl);
+  as_.test(as_.cl, as_.cl);
+  as_.js(device, kNear);
+  as_.mov(as_.byte[as_.rbx + as_.rcx + as_.layout.ram], value.cvt8());
+  as_.L(done);
+  clobbered_flags();
+  cold([this, instruction, value, place = here(), device, done]() mutable {
+    as_.L(device);
+    as_.mov(as_.eax, as_.ecx);
+    as_.xor_(as_.eax, 0x80);
+    call_write(instruction, value, place);
+    as_.jmp(done, kNear);
+  });
+}
+
+void BlockEmitter::write_at_eax(const Instruction& instruction, Reg32 value) {
+  Xbyak::Label device, done;
+  as_.mov(as_.ecx, as_.eax);
+  as_.and_(as_.ecx, 0x1280);
+  as_.cmp(as_.ecx, 0x80);
+  as_.jne(device, kNear);
+  as_.and_(as_.eax, 0x7F);
+  as_.mov(as_.byte[as_.rbx + as_.rax + as_.layout.ram], value.cvt8());
+  as_.L(done);
+  clobbered_flags();
+  cold([this, instruction, value, place = here(), device, done]() mutable {
+    Xbyak::Label cartridge;
+    as_.L(device);
+    as_.test(as_.ah, 0x10);
+    as_.jnz(cartridge, kNear);
+    as_.movzx(as_.eax, as_.ax);
+    call_write(instruction, value, place);
+    as_.jmp(done, kNear);
+    as_.L(cartridge);
+    settle(place);
+    leave_before(instruction);
+  });
+}
+
+// Writes to the TIA or the RIOT at the address in eax. The write may end the frame, or change what the window shows.
+void BlockEmitter::call_write(const Instruction& instruction, Reg32 value, const Place& place) {
+  const int cycles = place.elapsed + instruction.cycles;
+  Xbyak::Label leaves;
+  if (value.getIdx() != as_.ecx.getIdx()) as_.mov(as_.ecx, value);
+  as_.lea(as_.edx, as_.ptr[as_.rbp + cycles]);
+  call_write_bus(as_);
+  as_.lea(as_.ebp, as_.ptr[as_.rax - cycles]);
+  as_.cmp(as_.byte_of(as_.layout.stop), 0);
+  as_.jne(leaves, kNear);
+  as_.cmp(as_.word[as_.rbx + as_.layout.code_span], 0);
+  as_.je(leaves, kNear);
+  if (place.rom_loaded) load_rom_again();
+  clobbered_flags();
+  cold([this, instruction, place, cycles, leaves]() mutable {
+    as_.L(leaves);
+    Place after = place;
+    after.elapsed = cycles;
+    settle(after);
+    as_.mov(as_.eax, instruction.next());
+    as_.jmp(as_.way_out, kNear);
+  });
+}
+
+}  // namespace racebeam::translator

@@ -1,0 +1,108 @@
+#include "emulator/translator/bus_calls.hpp"
+
+#include "emulator/board.hpp"
+#include "emulator/decimal.hpp"
+#include "emulator/timer_loop.hpp"
+
+namespace racebeam::translator {
+namespace {
+
+std::uint32_t read_bus(Board* board, std::uint32_t address, std::uint32_t latch, std::int32_t cycle) {
+  return board->read_device(static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch), cycle);
+}
+
+std::int32_t write_bus(Board* board, std::uint32_t address, std::uint32_t value, std::int32_t cycle) {
+  const auto byte = static_cast<std::uint8_t>(value);
+  board->state.cpu.latch = byte;
+  if ((address & 0x0080) == 0 && board->is_plain_write(static_cast<std::uint16_t>(address), cycle)) {
+    board->log->append_change(cycle, address & 0x3F, byte);
+    return cycle;
+  }
+  return board->write_device(static_cast<std::uint16_t>(address), byte, cycle, true);
+}
+
+// V in bit 16, carry in bit 8, the sum in bits 7-0.
+std::uint32_t decimal(std::uint32_t a, std::uint32_t m, std::uint32_t carry, bool subtracts) {
+  const auto left = static_cast<std::uint8_t>(a), right = static_cast<std::uint8_t>(m);
+  const auto in = static_cast<std::uint8_t>(carry);
+  const DecimalResult result = subtracts ? subtract_decimal(left, right, in) : add_decimal(left, right, in);
+  const unsigned overflow = ((left ^ result.value) & (result.value ^ right)) >> 7 & 1U;
+  return overflow << 16 | unsigned{result.carry} << 8 | result.value;
+}
+
+std::int32_t skip_timer_loop(Board* board, const std::uint8_t* branch, std::int32_t cycle, std::int32_t period) {
+  return cycle + period * sure_timer_turns(branch, board->state.riot, cycle + 4, period);
+}
+
+template <class Function>
+void call(Assembler& as, Function* function) {
+  as.mov(as.ptr[as.rsp], as.r8d);
+  as.mov(as.ptr[as.rsp + 4], as.r9d);
+  as.mov(as.rax, reinterpret_cast<std::uintptr_t>(function));
+  as.call(as.rax);
+  as.mov(as.r8d, as.ptr[as.rsp]);
+  as.mov(as.r9d, as.ptr[as.rsp + 4]);
+}
+
+}  // namespace
+
+void call_read(Assembler& as) {
+  as.mov(as.rdi, as.rbx);
+  as.mov(as.esi, as.eax);
+  as.xchg(as.ecx, as.edx);
+  call(as, read_bus);
+}
+
+void call_write_bus(Assembler& as) {
+  as.mov(as.rdi, as.rbx);
+  as.mov(as.esi, as.eax);
+  as.xchg(as.ecx, as.edx);
+  call(as, write_bus);
+}
+
+void call_decimal(Assembler& as, bool subtracts) {
+  as.mov(as.edi, as.r12d);
+  as.mov(as.esi, as.eax);
+  as.mov(as.edx, as.r9d);
+  as.mov(as.ecx, subtracts ? 1 : 0);
+  call(as, decimal);
+  as.movzx(as.r12d, as.al);
+  as.shr(as.eax, 8);
+  as.movzx(as.r9d, as.al);
+  as.shr(as.eax, 8);
+  as.mov(as.byte_of(as.layout.overflow), as.al);
+}
+
+void call_skip_timer_loop(Assembler& as, const std::uint8_t* branch, int period) {
+  as.mov(as.rdi, as.rbx);
+  as.mov(as.rsi, reinterpret_cast<std::uintptr_t>(branch));
+  as.mov(as.edx, as.ebp);
+  as.mov(as.ecx, period);
+  call(as, skip_timer_loop);
+  as.mov(as.ebp, as.eax);
+}
+
+// N V 1 1 D I Z C.
+void status_into_ecx(Assembler& as) {
+  const auto put = [&as](std::int32_t place, int bit) {
+    as.movzx(as.edx, as.byte_of(place));
+    as.shl(as.edx, bit);
+    as.or_(as.ecx, as.edx);
+  };
+  as.xor_(as.ecx, as.ecx);
+  as.test(as.r8b, as.r8b);
+  as.setz(as.cl);
+  as.add(as.ecx, as.ecx);
+  as.xor_(as.edx, as.edx);
+  as.test(as.r8d, 0x8080);
+  as.setnz(as.dl);
+  as.shl(as.edx, 7);
+  as.or_(as.ecx, as.edx);
+  as.or_(as.ecx, as.r9d);
+  put(as.layout.overflow, 6);
+  put(as.layout.decimal, 3);
+  put(as.layout.interrupt, 2);
+  as.or_(as.ecx, 0x30);
+}
+
+}  // namespace racebeam::translator

@@ -1,0 +1,102 @@
+#include "emulator/translator/image_code.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "emulator/board.hpp"
+#include "emulator/translator/block_emitter.hpp"
+#include "emulator/translator/program.hpp"
+
+namespace racebeam::translator {
+namespace {
+
+std::atomic<std::size_t> code_capacity = 4U << 20;
+
+constexpr std::size_t kRoomForBatch = 1U << 16;  // less than this is not begun with
+
+}  // namespace
+
+void set_code_capacity(std::size_t bytes) { code_capacity = bytes; }
+
+std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom) {
+  static std::mutex mutex;
+  static std::map<Rom, std::weak_ptr<ImageCode>> images;
+  const std::lock_guard lock(mutex);
+  std::erase_if(images, [](const auto& image) { return image.second.expired(); });
+  auto code = images[rom].lock();
+  if (code && !code->is_full()) return code;
+  code = std::make_shared<ImageCode>(rom, code_capacity);
+  images[rom] = code;
+  return code;
+}
+
+ImageCode::ImageCode(const Rom& rom, std::size_t capacity) : rom_(rom), memory_(std::max(capacity, 2 * kRoomForBatch)) {}
+
+View* ImageCode::view(const CodeWindow& window, const Rom& rom) {
+  const std::less<> before;
+  if (before(window.memory, rom.data()) || !before(window.memory, rom.data() + rom.size())) return nullptr;
+  const auto rom_offset = static_cast<std::size_t>(window.memory - rom.data());
+  const std::lock_guard lock(mutex_);
+  for (const auto& view : views_)
+    if (view->rom_offset == rom_offset && view->code.first == window.first && view->code.span == window.span)
+      return view.get();
+  views_.push_back(std::make_unique<View>(CodeWindow{rom_.data() + rom_offset, window.first, window.span}, rom_offset));
+  return views_.back().get();
+}
+
+// The way in: saves what belongs to the caller, loads the 6507's registers and jumps. The way out: the reverse.
+void ImageCode::make_gates(const Layout& layout) {
+  using namespace Xbyak::util;
+  Xbyak::CodeGenerator as(memory_.left(), memory_.writable());
+  const Xbyak::Reg64 saved[] = {rbx, rbp, r12, r13, r14, r15};
+  const auto in = [&](const Xbyak::Reg32& reg, std::int32_t place) { as.movzx(reg, byte[rbx + place]); };
+  const auto out = [&](const Xbyak::Reg8& reg, std::int32_t place) { as.mov(byte[rbx + place], reg); };
+  const void* enter = as.getCurr();
+  for (const auto& reg : saved) as.push(reg);
+  as.sub(rsp, 24);
+  as.mov(rbx, rsi);
+  as.mov(r15, rdx);
+  in(r12d, layout.a), in(r13d, layout.x), in(r14d, layout.y);
+  as.mov(ebp, dword[rbx + layout.cycle]);
+  as.mov(r8d, dword[rbx + layout.nz]);
+  as.mov(r9d, dword[rbx + layout.carry]);
+  as.jmp(rdi);
+  way_out_ = as.getCurr();
+  out(r12b, layout.a), out(r13b, layout.x), out(r14b, layout.y);
+  as.mov(dword[rbx + layout.cycle], ebp);
+  as.mov(dword[rbx + layout.nz], r8d);
+  as.mov(dword[rbx + layout.carry], r9d);
+  as.add(rsp, 24);
+  std::for_each(std::rbegin(saved), std::rend(saved), [&](const auto& reg) { as.pop(reg); });
+  as.ret();
+  memory_.seal(as.getSize());
+  enter_ = reinterpret_cast<Enter>(reinterpret_cast<std::uintptr_t>(enter));
+}
+
+const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout, std::uint64_t plain_registers) {
+  const std::lock_guard lock(mutex_);
+  if (const void* entry = view.entry(pc)) return entry;
+  if (memory_.left() < kRoomForBatch) full_ = true;
+  if (full_) return nullptr;
+  if (enter_ == nullptr) make_gates(layout);
+  const Window window{view.code, plain_registers, view.entries.data()};
+  Assembler assembler(memory_.writable(), memory_.left(), layout, window, way_out_);
+  const std::vector<Block> blocks = discover(view.code, pc, view.known);
+  try {
+    for (const Block& block : blocks) assembler.blocks[block.pc];
+    for (const Block& block : blocks) BlockEmitter(assembler, block).emit();
+  } catch (const Xbyak::Error&) {  // out of room
+    full_ = true;
+    return nullptr;
+  }
+  memory_.seal(assembler.getSize());
+  for (const Block& block : blocks) {
+    const auto offset = static_cast<std::uint16_t>(block.pc - view.code.first);
+    view.known[offset] = true;
+    const void* start = assembler.blocks[block.pc].getAddress();
+    std::atomic_ref(view.entries[offset]).store(start, std::memory_order_release);
+  }
+  return view.entry(pc);
+}
+
+}  // namespace racebeam::translator

@@ -1,0 +1,72 @@
+// The translated code of one cartridge image, shared by all machines in the process that run it.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "emulator/memory_map.hpp"
+#include "emulator/scheme.hpp"
+#include "emulator/state.hpp"
+#include "emulator/translator/assembler.hpp"
+#include "emulator/translator/code_memory.hpp"
+
+namespace racebeam {
+struct WriteLog;
+}
+
+namespace racebeam::translator {
+
+// A run of the image that the CPU sees at certain addresses, and its blocks.
+struct View {
+  View(const CodeWindow& window, std::size_t offset)
+      : code(window), rom_offset(offset), entries(window.span), known(window.span) {}
+
+  const CodeWindow code;          // in the copy of the image that belongs to the code
+  const std::size_t rom_offset;   // of its first byte
+  std::vector<const void*> entries;  // by offset: where the block that starts there begins; read by other threads
+  std::vector<bool> known;        // the same for the translator alone
+
+  const void* entry(std::uint16_t pc) {
+    const auto offset = static_cast<std::uint16_t>(pc - code.first);
+    return offset < code.span ? std::atomic_ref(entries[offset]).load(std::memory_order_acquire) : nullptr;
+  }
+};
+
+class ImageCode {
+ public:
+  // Of an image like this one, made when it is first asked for. Throws std::system_error where executable memory is
+  // refused.
+  static std::shared_ptr<ImageCode> of(const Rom& rom);
+
+  ImageCode(const Rom& rom, std::size_t capacity);
+
+  // The view through this window of a machine's memory. Null if it shows something else than this image.
+  View* view(const CodeWindow& window, const Rom& rom);
+
+  // Translates what can be reached from `pc`, which must be in the view. Null if there is no room.
+  const void* translate(View& view, std::uint16_t pc, const Layout& layout, std::uint64_t plain_registers);
+
+  // Runs from `entry` on; returns the new PC, with kInterpretNext or not.
+  using Enter = std::uint32_t (*)(const void* entry, Board* board, WriteLog* log);
+  Enter enter() const { return enter_; }
+
+  bool is_full() const { return full_.load(std::memory_order_relaxed); }
+
+ private:
+  void make_gates(const Layout& layout);
+
+  const Rom rom_;
+  std::mutex mutex_;
+  CodeMemory memory_;
+  std::vector<std::unique_ptr<View>> views_;
+  Enter enter_ = nullptr;
+  const void* way_out_ = nullptr;
+  std::atomic<bool> full_ = false;
+};
+
+// The most bytes of translated code for one image; applies to images that are translated from now on.
+void set_code_capacity(std::size_t bytes);
+
+}  // namespace racebeam::translator

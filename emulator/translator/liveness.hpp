@@ -1,0 +1,21 @@
+// Which flags somebody may look at after an instruction of a block. A flag that is overwritten first need not be made.
+#pragma once
+
+#include <vector>
+
+#include "emulator/translator/program.hpp"
+
+namespace racebeam::translator {
+
+struct Flags {
+  bool nz = true, c = true, v = true;
+};
+
+// One for each instruction of the block: the flags that are live after it. All are at the block's end, where a branch
+// may leave it, and after a write that may end the frame, where the state is seen from outside.
+std::vector<Flags> live_flags(const Block& block);
+
+// Does the instruction write somewhere else than RAM, or may it?
+bool may_write_device(const Instruction& instruction);
+
+}  // namespace racebeam::translator
