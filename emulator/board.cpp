@@ -53,6 +53,8 @@ void Board::set_format_limits() {
   overlong_cycle_ = state.tia.origin / 3 + kLineCycles * (limit + 1);
 }
 
+std::uint64_t Board::plain_registers() const { return slot.scheme.watches_tia ? 0 : ~kSpecialRegisters; }
+
 void Board::open_frame() {
   const auto now = static_cast<std::uint32_t>(state.cycle);
   const std::int32_t phase = (3 * state.cycle - state.tia.origin) % kLineClocks;
@@ -74,7 +76,7 @@ void Board::begin_step(Picture& picture, WriteLog& scratch, bool exact) {
   last_access_ = kNever;
   exact_ = exact;
   fetched_latches_ = false;
-  plain_registers_ = exact || slot.scheme.watches_tia ? 0 : ~kSpecialRegisters;
+  plain_registers_ = exact ? 0 : plain_registers();
   tia.begin_step(picture, scratch, exact);
 }
 

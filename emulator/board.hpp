@@ -53,7 +53,7 @@ class Board {
   bool find_code(std::uint16_t pc);
 
   // For the translator: TIA writes that only go to the log, and the cycle from which on they close the frame.
-  std::uint64_t plain_registers() const { return plain_registers_; }
+  std::uint64_t plain_registers() const;
   std::int32_t overlong_cycle() const { return overlong_cycle_; }
   translator::Context translated;
 
