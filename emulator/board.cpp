@@ -1,5 +1,6 @@
 #include "emulator/board.hpp"
 
+#include <bit>
 #include <limits>
 
 #include "emulator/line_key.hpp"
@@ -20,6 +21,7 @@ constexpr std::uint64_t kSpecialRegisters = bit(VSYNC) | bit(VBLANK) | bit(WSYNC
 std::size_t ram_beside_state(const Scheme& scheme) { return scheme.ram > kRamInState ? scheme.ram : 0; }
 
 constexpr int kLineLimit = 290, kLineLimitPal = 342;
+constexpr std::uint64_t kHash = 0x9E3779B97F4A7C15;
 constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::min() / 4;
 
 }  // namespace
@@ -44,6 +46,7 @@ void Board::map_memory() {
   }
   slot.scheme.map(slot);
   code = {};
+  known_windows_.fill({});
   tia.forget();
   set_format_limits();
 }
@@ -90,11 +93,17 @@ bool Board::needs_exact_step() const {
   return fetched_latches_ || (!untouched && tia.stopped_inside(state.cycle));
 }
 
+// What the map shows depends on the banks alone, so that a window that was found once is found again by them.
 bool Board::find_code(std::uint16_t pc) {
-  if (map.page_of(pc) == nullptr) return false;
-  const CodeWindow window = map.window_around(pc);
-  if (static_cast<std::uint16_t>(pc - window.first) >= window.span) return false;
-  code = window;
+  const std::uint64_t banks = selected_banks();
+  const unsigned page = pc >> 6;
+  KnownWindow& known = known_windows_[(page ^ page >> 4 ^ static_cast<unsigned>(banks * kHash >> 60)) % known_windows_.size()];
+  if (known.page != page || known.banks != banks) {
+    if (!map.may_hold_code(pc)) return false;
+    known = {banks, page, map.window_around(pc)};
+  }
+  if (static_cast<std::uint16_t>(pc - known.window.first) >= known.window.span) return false;
+  code = known.window;
   return true;
 }
 
@@ -118,16 +127,26 @@ std::uint8_t Board::read(std::uint16_t address, std::uint8_t latch, std::int32_t
   return page != nullptr ? page[address & 0x3F] : read_device(address, latch, cycle);
 }
 
+// The CPU must look for its code again if a cartridge's access has changed what it sees.
+std::uint8_t Board::read_cartridge(std::uint16_t address, std::int32_t cycle) {
+  const std::uint64_t banks = selected_banks();
+  const std::uint8_t value = slot.scheme.read(slot, address, cycle);
+  if (selected_banks() != banks) code.span = 0;
+  return value;
+}
+
+Delivery Board::write_cartridge(std::uint16_t address, std::uint8_t value) {
+  const std::uint64_t banks = selected_banks();
+  const Delivery delivery = slot.scheme.write(slot, address, value);
+  if (selected_banks() != banks) code.span = 0;
+  return delivery;
+}
+
 std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
   if (address & 0x1000) return read_cartridge(address, cycle);
   if (address & 0x0080) return read_riot(address, cycle);
-  if (plain_registers_ == 0) [[unlikely]] read_cartridge(address, cycle);
+  if (slot.scheme.watches_tia) [[unlikely]] read_cartridge(address, cycle);
   return read_tia(address, latch, cycle);
-}
-
-std::uint8_t Board::read_cartridge(std::uint16_t address, std::int32_t cycle) {
-  code.span = 0;  // the bank may change
-  return slot.scheme.read(slot, address, cycle);
 }
 
 // WSYNC, which most lines have, goes the shortest way.
@@ -137,20 +156,15 @@ std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std:
 }
 
 std::int32_t Board::write_anywhere(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
-  const bool to_tia = (address & 0x1080) == 0;
-  if (!to_tia || plain_registers_ == 0) {
-    if ((address & 0x1080) == 0x0080) {
-      write_riot(address, value, cycle);
-      return cycle;
-    }
+  const bool to_cartridge = (address & 0x1000) != 0;
+  if (!to_cartridge && (address & 0x0080) != 0) {
+    write_riot(address, value, cycle);
+    return cycle;
+  }
+  if (to_cartridge || slot.scheme.watches_tia) {
     if (write_cartridge(address, value) == Delivery::kTaken) return cycle;
   }
   return write_tia(address, value, cycle, after_read);
-}
-
-Delivery Board::write_cartridge(std::uint16_t address, std::uint8_t value) {
-  code.span = 0;  // the bank may change
-  return slot.scheme.write(slot, address, value);
 }
 
 std::uint8_t Board::read_riot(std::uint16_t address, std::int32_t cycle) {

@@ -1,6 +1,8 @@
 // The board as the CPU sees it: decodes addresses and owns the chips (spec: cpu.md section 2, riot.md, tia.md).
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -87,10 +89,20 @@ class Board {
   void make_room(std::int32_t cycle);
   std::uint8_t collision_bits(unsigned reg, std::int32_t cycle);
 
+  std::uint64_t selected_banks() const { return std::bit_cast<std::uint64_t>(state.cartridge.bank); }
+  std::uint8_t read_cartridge(std::uint16_t address, std::int32_t cycle);
+  Delivery write_cartridge(std::uint16_t address, std::uint8_t value);
   const std::uint8_t* fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
   std::uint8_t read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
 
+  struct KnownWindow {
+    std::uint64_t banks = 0;
+    unsigned page = ~0U;
+    CodeWindow window;
+  };
+
   std::shared_ptr<const Rom> rom_;
+  std::array<KnownWindow, 32> known_windows_{};
   Ports ports_;
   std::uint64_t plain_registers_ = 0;
   std::int32_t overlong_cycle_ = 0;  // from this cycle on, a TIA write closes the frame

@@ -113,8 +113,10 @@ void Console::Impl::step() {
 void Console::Impl::run_step(Picture& picture) {
   thread_local WriteLog log;
   const State at_begin = state();
+  const std::vector<std::uint8_t> ram_at_begin = board.cartridge_ram;  // mostly there is none
   const auto repeat = [&](bool exact) {
     state() = at_begin;
+    board.cartridge_ram = ram_at_begin;
     board.map_memory();
     board.begin_step(picture, log, exact);
     interpret(board, kInstructionsPerStep);

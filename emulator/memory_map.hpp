@@ -16,18 +16,32 @@ struct CodeWindow {
 
 struct MemoryMap {
   static constexpr int kPageSize = 64;
+  static constexpr unsigned kLastPage = 0x7F;  // of the cartridge; bit 13 makes another one of it
 
   std::array<const std::uint8_t*, 256> page{};
 
+  // Bytes of the cartridge's last page that come before its first hot spot: code may run there, too.
+  std::uint16_t quiet_tail = 0;
+
   const std::uint8_t* page_of(std::uint16_t address) const { return page[address >> 6 & 0xFF]; }
 
-  // The longest run of plain memory around an address that has some.
+  // The longest run of memory around an address that may hold code.
   CodeWindow window_around(std::uint16_t address) const {
-    unsigned low = address >> 6 & 0xFF, high = low;
+    unsigned low = address >> 6 & 0xFF;
+    if (page[low] == nullptr) --low;
+    unsigned high = low;
     while ((low & 0x3F) != 0 && page[low - 1] != nullptr && page[low - 1] + kPageSize == page[low]) --low;
     while ((high & 0x3F) != 0x3F && page[high + 1] == page[high] + kPageSize) ++high;
     const auto first = static_cast<std::uint16_t>((address & 0xC000) | low << 6);
-    return {page[low], first, static_cast<std::uint16_t>((high - low + 1) * kPageSize - 2)};
+    const unsigned tail = (high & 0x7F) == kLastPage - 1 && page[high + 1] == nullptr ? quiet_tail : 0U;
+    return {page[low], first, static_cast<std::uint16_t>((high - low + 1) * kPageSize + tail - 2)};
+  }
+
+  // Plain memory or the quiet tail after it: where instructions can be.
+  bool may_hold_code(std::uint16_t address) const {
+    if (page_of(address) != nullptr) return true;
+    const bool last = (address >> 6 & 0x7F) == kLastPage;
+    return last && (address & 0x3F) < quiet_tail && page_of(static_cast<std::uint16_t>(address - kPageSize)) != nullptr;
   }
 
   // Shows `memory` from cartridge address `from` (0-$FFF) on, for `size` bytes, whatever bits 13 and 15-14 are.
@@ -38,8 +52,10 @@ struct MemoryMap {
     }
   }
 
-  // Addresses of the cartridge that do something when they are touched.
-  void hide(unsigned from, unsigned size) {
+  // Addresses of the cartridge that do something when they are touched. If it is the last page, `quiet` of its bytes
+  // do not, and the image goes on in them.
+  void hide(unsigned from, unsigned size, unsigned quiet = 0) {
+    quiet_tail = static_cast<std::uint16_t>(quiet);
     for (unsigned offset = 0; offset < size; offset += kPageSize)
       page[(0x1000 + from + offset) >> 6] = page[(0x3000 + from + offset) >> 6] = nullptr;
   }

@@ -9,6 +9,7 @@
 namespace racebeam::atari {
 
 constexpr unsigned kBankSize = 4096;
+constexpr unsigned kHotPage = kBankSize - MemoryMap::kPageSize;
 
 inline const std::uint8_t* bank(const Slot& slot) { return slot.rom.data() + kBankSize * slot.state.bank[0]; }
 
@@ -22,7 +23,7 @@ inline void map_plain(Slot& slot) {
 inline void map(Slot& slot) {
   slot.map.show(0, bank(slot), kBankSize - MemoryMap::kPageSize);
   slot.map.show(slot.scheme.ram, slot.ram.data(), slot.scheme.ram);
-  slot.map.hide(kBankSize - MemoryMap::kPageSize, MemoryMap::kPageSize);
+  slot.map.hide(kHotPage, MemoryMap::kPageSize, slot.scheme.hotspot - kHotPage);
 }
 
 inline void touch(Slot& slot, std::uint16_t address) {

@@ -7,6 +7,7 @@
 namespace racebeam::parker {
 
 constexpr unsigned kSlice = 1024;
+constexpr unsigned kFirstHotspot = 0xFE0, kHotPage = 4 * kSlice - MemoryMap::kPageSize;
 
 inline const std::uint8_t* slice(const Slot& slot, unsigned window) {
   return slot.rom.data() + kSlice * slot.state.bank[window];
@@ -18,11 +19,11 @@ inline void reset(Slot& slot) {
 
 inline void map(Slot& slot) {
   for (unsigned window = 0; window < 4; ++window) slot.map.show(kSlice * window, slice(slot, window), kSlice);
-  slot.map.hide(4 * kSlice - MemoryMap::kPageSize, MemoryMap::kPageSize);
+  slot.map.hide(kHotPage, MemoryMap::kPageSize, kFirstHotspot - kHotPage);
 }
 
 inline void touch(Slot& slot, std::uint16_t address) {
-  const unsigned hotspot = (address & 0xFFFU) - 0xFE0;
+  const unsigned hotspot = (address & 0xFFFU) - kFirstHotspot;
   if (hotspot >= 24) return;
   slot.state.bank[hotspot / 8] = hotspot % 8;
   slot.map.show(kSlice * (hotspot / 8), slice(slot, hotspot / 8), kSlice);

@@ -1,6 +1,7 @@
 #include "emulator/translator/block_emitter.hpp"
 
 #include "emulator/timer_loop.hpp"
+#include "emulator/translator/addresses.hpp"
 #include "emulator/translator/bus_calls.hpp"
 
 namespace racebeam::translator {
@@ -179,11 +180,42 @@ void BlockEmitter::emit_branch(const Instruction& instruction) {
 void BlockEmitter::emit_jump(const Instruction& instruction) {
   if (instruction.operation == Operation::jsr) return jsr(instruction);
   if (instruction.operation == Operation::rts) return rts(instruction);
-  const bool goes_far = instruction.mode == Mode::indirect || !holds(as_.window.code, instruction.target());
+  if (instruction.mode == Mode::indirect) return jmp_indirect(instruction);
+  const bool goes_far = !holds(as_.window.code, instruction.target());
   if (!goes_far) elapsed_ += instruction.cycles;
   settle(here());
   if (goes_far) leave_before(instruction);
   else jump_to(instruction.target());
+}
+
+// Both bytes of the pointer must be in RAM.
+void BlockEmitter::jmp_indirect(const Instruction& instruction) {
+  settle(here());
+  if (!is_ram(instruction.operand) || (instruction.operand & 0x7F) == 0x7F) return leave_before(instruction);
+  Xbyak::Label outside;
+  as_.movzx(as_.eax, as_.word[as_.rbx + (as_.layout.ram + (instruction.operand & 0x7F))]);
+  as_.lea(as_.edx, as_.ptr[as_.rax - as_.window.code.first]);
+  find_block(outside);
+  jump_to_block(instruction);
+  leave_cold(outside, instruction, {0, NzHome::kNumber, CarryHome::kNumber, false});
+}
+
+// The block that starts at the offset edx, into rsi.
+void BlockEmitter::find_block(Xbyak::Label& none) {
+  constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
+  as_.cmp(as_.edx, as_.window.code.span);
+  as_.jae(none, kNear);
+  as_.mov(as_.rsi, reinterpret_cast<std::uintptr_t>(as_.window.entries));
+  as_.mov(as_.rsi, as_.ptr[as_.rsi + as_.rdx * 8]);
+  as_.test(as_.rsi, as_.rsi);
+  as_.jz(none, kNear);
+  as_.cmp(as_.ebp, as_.dword_of(as_.layout.limit));
+  as_.jge(none, kNear);
+}
+
+void BlockEmitter::jump_to_block(const Instruction& instruction) {
+  as_.add(as_.ebp, instruction.cycles);
+  as_.jmp(as_.rsi);
 }
 
 // Both bytes of the return address must fall into RAM.
@@ -219,24 +251,13 @@ void BlockEmitter::rts(const Instruction& instruction) {
   as_.ja(outside, kNear);
   as_.movzx(as_.eax, as_.word[as_.rbx + as_.rcx + (as_.layout.ram - 0x7F)]);
   as_.lea(as_.edx, as_.ptr[as_.rax + (1 - as_.window.code.first)]);
-  as_.cmp(as_.edx, as_.window.code.span);
-  as_.jae(outside, kNear);
-  as_.cmp(as_.edx, 1);  // the byte before it is read, too
-  as_.jb(outside, kNear);
-  as_.mov(as_.rsi, reinterpret_cast<std::uintptr_t>(as_.window.entries));
-  as_.mov(as_.rsi, as_.ptr[as_.rsi + as_.rdx * 8]);
-  as_.test(as_.rsi, as_.rsi);
+  as_.test(as_.edx, as_.edx);  // the byte before it is read, too
   as_.jz(outside, kNear);
-  as_.cmp(as_.ebp, as_.dword_of(as_.layout.limit));
-  as_.jge(outside, kNear);
+  find_block(outside);
   as_.add(as_.cl, 2);
   as_.mov(as_.byte_of(as_.layout.sp), as_.cl);
-  as_.add(as_.ebp, instruction.cycles);
-  as_.jmp(as_.rsi);
-  cold([this, instruction, outside]() mutable {
-    as_.L(outside);
-    leave_before(instruction);
-  });
+  jump_to_block(instruction);
+  leave_cold(outside, instruction, {0, NzHome::kNumber, CarryHome::kNumber, false});
 }
 
 }  // namespace racebeam::translator

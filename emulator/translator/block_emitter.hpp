@@ -52,6 +52,9 @@ class BlockEmitter {
   void emit_jump(const Instruction& instruction);
   void jsr(const Instruction& instruction);
   void rts(const Instruction& instruction);
+  void jmp_indirect(const Instruction& instruction);
+  void find_block(Xbyak::Label& none);
+  void jump_to_block(const Instruction& instruction);
   void jump_to(std::uint16_t target);
   void check_limit();
   void leave_before(const Instruction& instruction);  // the interpreter does it; called in cold code

@@ -130,22 +130,29 @@ bool BlockEmitter::load_pointer(const Instruction& instruction) {
   return true;
 }
 
-// Reads whatever the memory map has at the address in eax, into eax; esi: the data bus before. The penalty has been
-// added already.
+// Reads what is at the address in eax, into eax; esi: the data bus before. The penalty has been added already. Mostly it
+// is a table in the window's ROM.
 void BlockEmitter::read_at_eax(const Instruction& instruction) {
-  Xbyak::Label device, done;
-  as_.mov(as_.ecx, as_.eax);
-  as_.shr(as_.ecx, 6);
-  as_.movzx(as_.ecx, as_.cl);
-  as_.mov(as_.rdx, as_.ptr[as_.rbx + as_.rcx * 8 + as_.layout.pages]);
-  as_.test(as_.rdx, as_.rdx);
-  as_.jz(device, kNear);
-  as_.and_(as_.eax, 0x3F);
-  as_.movzx(as_.eax, as_.byte[as_.rdx + as_.rax]);
+  Xbyak::Label elsewhere, done;
+  load_rom();
+  as_.lea(as_.ecx, as_.ptr[as_.rax - as_.window.code.first]);
+  as_.cmp(as_.ecx, as_.size());
+  as_.jae(elsewhere, kNear);
+  as_.movzx(as_.eax, as_.byte[as_.r10 + as_.rcx]);
   as_.L(done);
   clobbered_flags();
-  cold([this, instruction, place = here(), device, done]() mutable {
-    Xbyak::Label cartridge;
+  cold([this, instruction, place = here(), elsewhere, done]() mutable {
+    Xbyak::Label device, cartridge;
+    as_.L(elsewhere);
+    as_.mov(as_.ecx, as_.eax);
+    as_.shr(as_.ecx, 6);
+    as_.movzx(as_.ecx, as_.cl);
+    as_.mov(as_.rdx, as_.ptr[as_.rbx + as_.rcx * 8 + as_.layout.pages]);
+    as_.test(as_.rdx, as_.rdx);
+    as_.jz(device, kNear);
+    as_.and_(as_.eax, 0x3F);
+    as_.movzx(as_.eax, as_.byte[as_.rdx + as_.rax]);
+    as_.jmp(done, kNear);
     as_.L(device);
     as_.test(as_.ah, 0x10);
     as_.jnz(cartridge, kNear);

@@ -203,19 +203,27 @@ void BlockEmitter::push(const Instruction& instruction) {
   });
 }
 
+// The place above the stack pointer; where that is no RAM, reading it does something.
 void BlockEmitter::pull(const Instruction& instruction) {
-  Xbyak::Label outside;
-  const Place before = here();
+  Xbyak::Label outside, done;
   as_.movzx(as_.eax, as_.byte_of(as_.layout.sp));
-  as_.lea(as_.ecx, as_.ptr[as_.rax - 0x7F]);
+  as_.lea(as_.ecx, as_.ptr[as_.rax - 0x80]);
   as_.cmp(as_.ecx, 0x7F);
-  as_.ja(outside, kNear);
+  as_.jae(outside, kNear);
   as_.movzx(as_.r12d, as_.byte[as_.rbx + as_.rax + (as_.layout.ram - 0x7F)]);
   as_.inc(as_.al);
   as_.mov(as_.byte_of(as_.layout.sp), as_.al);
+  as_.L(done);
   clobbered_flags();
   made_nz(NzHome::kA, false);
-  leave_cold(outside, instruction, before);
+  cold([this, instruction, place = here(), outside, done]() mutable {
+    as_.L(outside);
+    as_.lea(as_.edx, as_.ptr[as_.rbp + (place.elapsed + instruction.cycles)]);
+    call_pull(as_);
+    as_.mov(as_.r12d, as_.eax);
+    if (place.rom_loaded) load_rom_again();
+    as_.jmp(done, kNear);
+  });
 }
 
 void BlockEmitter::modify(const Instruction& instruction, Flags live) {

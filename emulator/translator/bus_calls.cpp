@@ -21,6 +21,17 @@ std::int32_t write_bus(Board* board, std::uint32_t address, std::uint32_t value,
   return board->write_device(static_cast<std::uint16_t>(address), byte, cycle, true);
 }
 
+std::uint32_t pull(Board* board, std::int32_t cycle) {
+  constexpr std::uint8_t kOpcode = 0x68;
+  CpuState& cpu = board->state.cpu;
+  const auto read = [&](std::uint8_t sp, std::uint8_t latch) {
+    return sp & 0x80 ? board->state.riot.ram[sp & 0x7F]
+                     : board->read_device(static_cast<std::uint16_t>(0x100 | sp), latch, cycle);
+  };
+  const std::uint8_t unused = read(cpu.SP, kOpcode);
+  return read(++cpu.SP, unused);
+}
+
 // V in bit 16, carry in bit 8, the sum in bits 7-0.
 std::uint32_t decimal(std::uint32_t a, std::uint32_t m, std::uint32_t carry, bool subtracts) {
   const auto left = static_cast<std::uint8_t>(a), right = static_cast<std::uint8_t>(m);
@@ -58,6 +69,12 @@ void call_write_bus(Assembler& as) {
   as.mov(as.esi, as.eax);
   as.xchg(as.ecx, as.edx);
   call(as, write_bus);
+}
+
+void call_pull(Assembler& as) {
+  as.mov(as.rdi, as.rbx);
+  as.mov(as.esi, as.edx);
+  call(as, pull);
 }
 
 void call_decimal(Assembler& as, bool subtracts) {

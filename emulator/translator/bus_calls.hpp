@@ -14,6 +14,9 @@ void call_read(Assembler& as);
 // eax: address below the cartridge's; ecx: value; edx: cycle. Answers the cycle after it in eax.
 void call_write_bus(Assembler& as);
 
+// PLA over the bus, wherever the stack pointer is; edx: cycle. Answers the byte in eax.
+void call_pull(Assembler& as);
+
 // al: operand. Decimal addition or subtraction with A and carry in r12d and r9d; makes V too.
 void call_decimal(Assembler& as, bool subtracts);
 

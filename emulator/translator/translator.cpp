@@ -10,6 +10,9 @@ namespace {
 // No block lasts longer, so that a write in it comes before the line limit if the block starts before it by this much.
 constexpr std::int32_t kMargin = 400;
 
+// Instructions that the interpreter runs at a time where there is nothing to translate: code in RAM, mostly.
+constexpr std::int32_t kElsewhere = 4;
+
 constexpr std::int32_t kFewestCycles = 2;  // of an instruction
 
 bool same(const CodeWindow& a, const CodeWindow& b) {
@@ -81,7 +84,7 @@ bool Translator::run(Board& board, std::int32_t instructions) {
     }
     const void* start = entry(board);
     if (start != nullptr && !enter(board, start)) continue;
-    if (!board.stop) interpret(board, 1);
+    if (!board.stop) interpret(board, start != nullptr ? 1 : kElsewhere);
   }
   return true;
 }
