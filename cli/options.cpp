@@ -64,6 +64,9 @@ void warn_about(const Recognition& recognition, const Image& image) {
   }
 }
 
+const std::map<std::string, CpuKind> kCpuKinds = {
+    {"auto", CpuKind::kAuto}, {"interpreter", CpuKind::kInterpreter}, {"translator", CpuKind::kTranslator}};
+
 }  // namespace
 
 CLI::Option* add_count(CLI::App& app, const std::string& name, int& value, int least,
@@ -94,6 +97,11 @@ void add_machine_options(CLI::App& app, MachineOptions& options) {
       ->check(one_of(rules))
       ->default_str("ale-0.12")
       ->type_name("NAME");
+  const auto set_cpu = [&settings](const std::string& name) { settings.cpu = kCpuKinds.at(name); };
+  app.add_option_function<std::string>("--cpu", set_cpu,
+                                       "What runs the instructions; auto: the translator where the system allows it")
+      ->check(CLI::IsMember(kCpuKinds))
+      ->default_str("auto");
   app.add_option("--mode", options.mode, "Game variation (racebeam games lists them)")
       ->check(whole_number(0, kMostInt));
   app.add_option("--difficulty", options.difficulty, "Difficulty switches (racebeam games lists them)")

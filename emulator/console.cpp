@@ -22,17 +22,16 @@ bool is_pal(Format format) { return format == Format::kPal || format == Format::
 }  // namespace
 
 struct Console::Impl {
-  Impl(std::shared_ptr<const Rom> rom, const Properties& given, PowerOn& source)
-      : properties(given), power_on(source), board(std::move(rom), given), format(given.format) {
-    if (!getenv("RACEBEAM_INTERPRETER")) cpu = std::make_unique<translator::Translator>(board);
-  }
+  Impl(std::shared_ptr<const Rom> rom, const Properties& given, PowerOn& source, CpuKind kind)
+      : properties(given), power_on(source), board(std::move(rom), given), format(given.format),
+        translator(Translator::make(board, kind)) {}
 
   Properties properties;
   PowerOn& power_on;
   Board board;
   Format format;
   Pictures pictures;
-  std::unique_ptr<translator::Translator> cpu;
+  const std::unique_ptr<Translator> translator;  // null: the interpreter runs all
 
   State& state() { return board.state; }
   std::size_t picture_size() const { return static_cast<std::size_t>(height()) * kLinePixels; }
@@ -122,9 +121,9 @@ void Console::Impl::run_step(Picture& picture) {
     interpret(board, kInstructionsPerStep);
   };
   board.begin_step(picture, log);
-  if (cpu == nullptr) {
+  if (translator == nullptr) {
     interpret(board, kInstructionsPerStep);
-  } else if (!cpu->run(board, kInstructionsPerStep)) {
+  } else if (!translator->run(board, kInstructionsPerStep)) {
     repeat(false);
   }
   board.end_step();
@@ -161,8 +160,9 @@ Format Console::Impl::detect_format() {
   return long_frames >= 15 ? Format::kPal : Format::kNtsc;
 }
 
-Console::Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on)
-    : impl_(std::make_unique<Impl>(std::move(rom), properties, power_on)) {
+Console::Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on,
+                 CpuKind cpu)
+    : impl_(std::make_unique<Impl>(std::move(rom), properties, power_on, cpu)) {
   impl_->power_up();
 }
 

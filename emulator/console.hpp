@@ -13,6 +13,7 @@
 #include "emulator/properties.hpp"
 #include "emulator/sound.hpp"
 #include "emulator/state.hpp"
+#include "emulator/translator/translator.hpp"
 
 namespace racebeam {
 
@@ -20,7 +21,9 @@ class Console {
  public:
   // Builds the console around an image, as console.md section 1 says: power-on RAM, format detection, system reset.
   // Throws std::invalid_argument when no cartridge scheme fits the image. `power_on` must outlive the console.
-  Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on);
+  // cpu: what runs the instructions; kTranslator throws std::system_error where code can't be translated.
+  Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on,
+          CpuKind cpu = CpuKind::kAuto);
   ~Console();
 
   void reset();  // system reset, console.md section 2

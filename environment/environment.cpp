@@ -70,7 +70,7 @@ Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_pt
       properties(game->properties_for(image->md5)),
       random(settings.random_seed),
       power_on(make_power_on(settings, random)),
-      console(image->bytes, properties, *power_on),
+      console(image->bytes, properties, *power_on, settings.cpu),
       rule(*game),
       legal(game->legal_actions, console.has_paddles()),
       sticky(settings.sticky),

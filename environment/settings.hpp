@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "emulator/translator/translator.hpp"
+
 namespace racebeam {
 
 // Which rule finds rewards, end and lives in memory.
@@ -27,6 +29,7 @@ struct Settings {
   bool sound = false;   // produce the 512 audio samples of each act
   int paddle_min = -1;  // -1: the built-in limits, or what the game says
   int paddle_max = -1;
+  CpuKind cpu = CpuKind::kAuto;  // what runs the instructions; it changes nothing but the speed
   // ALE 0.4-0.6: one generator for machine and stickiness, sticky actions survive a reset, and so on
   // (spec: classic-protocol.md, section 6).
   bool classic = false;

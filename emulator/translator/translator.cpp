@@ -1,10 +1,16 @@
 #include "emulator/translator/translator.hpp"
 
+#include <array>
+#include <optional>
+#include <string>
+#include <system_error>
+
 #include "emulator/board.hpp"
 #include "emulator/cpu.hpp"
+#include "emulator/translator/image_code.hpp"
 #include "emulator/translator/program.hpp"
 
-namespace racebeam::translator {
+namespace racebeam {
 namespace {
 
 // No block lasts longer, so that a write in it comes before the line limit if the block starts before it by this much.
@@ -19,7 +25,7 @@ bool same(const CodeWindow& a, const CodeWindow& b) {
   return a.memory == b.memory && a.first == b.first && a.span == b.span;
 }
 
-void unpack_status(Context& context, std::uint8_t p) {
+void unpack_status(translator::Context& context, std::uint8_t p) {
   context.nz = (p & 0x80U) << 8 | (p & 2 ? 0U : 1U);
   context.carry = p & 1;
   context.V = p >> 6 & 1;
@@ -27,66 +33,114 @@ void unpack_status(Context& context, std::uint8_t p) {
   context.I = p >> 2 & 1;
 }
 
-std::uint8_t pack_status(const Context& context) {
+std::uint8_t pack_status(const translator::Context& context) {
   const unsigned n = context.nz & 0x8080 ? 0x80U : 0U, z = context.nz & 0xFF ? 0U : 2U;
-  return static_cast<std::uint8_t>(n | unsigned{context.V} << 6 | unsigned{context.D} << 3 | unsigned{context.I} << 2 | z |
-                                   context.carry);
+  const unsigned others = unsigned{context.V} << 6 | unsigned{context.D} << 3 | unsigned{context.I} << 2;
+  return static_cast<std::uint8_t>(n | others | z | context.carry);
+}
+
+// Whether the system lets memory be made executable is found out once.
+const std::string& refusal() {
+  static const std::string reason = [] {
+    try {
+      translator::CodeMemory(1).seal(1);
+      return std::string();
+    } catch (const std::system_error& error) {
+      return std::string(error.what());
+    }
+  }();
+  return reason;
 }
 
 }  // namespace
 
-Translator::Translator(Board& board)
-    : code_(ImageCode::of(board.slot.rom)), layout_(board), plain_registers_(board.plain_registers()) {}
+struct Translator::Impl {
+  explicit Impl(Board& board)
+      : code(translator::ImageCode::of(board.slot.rom)), layout(board), plain_registers(board.plain_registers()) {}
 
-View* Translator::current_view(Board& board) {
-  if (board.code.span == 0 || static_cast<std::uint16_t>(board.state.cpu.PC - board.code.first) >= board.code.span) {
-    if (!board.find_code(board.state.cpu.PC)) return nullptr;
+  // The windows that were looked into last: a bank switch finds its way back without asking the image.
+  struct Seen {
+    CodeWindow window;
+    translator::View* view = nullptr;
+  };
+
+  translator::View* current_view(Board& board);
+  const void* entry(Board& board);
+  bool enter(Board& board, const void* entry);
+
+  std::shared_ptr<translator::ImageCode> code;
+  const translator::Layout layout;
+  const std::uint64_t plain_registers;
+  std::array<Seen, 16> seen{};
+  std::size_t next_seen = 0;
+  Seen current;
+};
+
+translator::View* Translator::Impl::current_view(Board& board) {
+  const std::uint16_t pc = board.state.cpu.PC;
+  if (static_cast<std::uint16_t>(pc - board.code.first) >= board.code.span && !board.find_code(pc)) return nullptr;
+  if (current.view != nullptr && same(current.window, board.code)) return current.view;
+  for (const Seen& known : seen) {
+    if (known.view == nullptr || !same(known.window, board.code)) continue;
+    current = known;
+    return current.view;
   }
-  if (current_.view != nullptr && same(current_.window, board.code)) return current_.view;
-  for (const Seen& seen : seen_) {
-    if (seen.view == nullptr || !same(seen.window, board.code)) continue;
-    current_ = seen;
-    return current_.view;
-  }
-  current_ = {board.code, code_->view(board.code, board.slot.rom)};
-  if (current_.view != nullptr) seen_[next_seen_++ % seen_.size()] = current_;
-  return current_.view;
+  current = {board.code, code->view(board.code, board.slot.rom)};
+  if (current.view != nullptr) seen[next_seen++ % seen.size()] = current;
+  return current.view;
 }
 
-const void* Translator::entry(Board& board) {
-  View* view = current_view(board);
+// Where the block at PC starts, made if need be; null if the interpreter must go on.
+const void* Translator::Impl::entry(Board& board) {
+  translator::View* view = current_view(board);
   if (view == nullptr) return nullptr;
   if (const void* known = view->entry(board.state.cpu.PC)) return known;
-  if (!holds(view->code, board.state.cpu.PC) || code_->is_full()) return nullptr;
-  return code_->translate(*view, board.state.cpu.PC, layout_, plain_registers_);
+  if (!translator::holds(view->code, board.state.cpu.PC) || code->is_full()) return nullptr;
+  return code->translate(*view, board.state.cpu.PC, layout, plain_registers);
 }
 
 // True if the interpreter must do the next instruction.
-bool Translator::enter(Board& board, const void* entry) {
-  Context& context = board.translated;
+bool Translator::Impl::enter(Board& board, const void* entry) {
+  translator::Context& context = board.translated;
   unpack_status(context, board.state.cpu.P);
-  const std::uint32_t left = code_->enter()(entry, &board, board.log);
+  const std::uint32_t left = code->enter()(entry, &board, board.log);
   board.state.cpu.PC = static_cast<std::uint16_t>(left);
   board.state.cpu.P = pack_status(context);
-  return (left & kInterpretNext) != 0;
+  return (left & translator::kInterpretNext) != 0;
+}
+
+Translator::Translator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Translator::~Translator() = default;
+
+std::unique_ptr<Translator> Translator::make(Board& board, CpuKind kind) {
+  if (kind == CpuKind::kInterpreter) return nullptr;
+  if (!refusal().empty()) {
+    if (kind == CpuKind::kAuto) return nullptr;
+    throw std::system_error(std::make_error_code(std::errc::permission_denied), refusal());
+  }
+  return std::unique_ptr<Translator>(new Translator(std::make_unique<Impl>(board)));
 }
 
 bool Translator::run(Board& board, std::int32_t instructions) {
-  if (code_->is_full()) *this = Translator(board);
+  if (impl_->code->is_full()) impl_ = std::make_unique<Impl>(board);
   board.stop = false;
-  board.translated.limit = board.overlong_cycle() - kMargin;
+  const std::int32_t limit = board.translated.limit = board.overlong_cycle() - kMargin;
   board.translated.first_line = board.state.tia.origin / 3;
   const std::int32_t first_cycle = board.state.cycle;
   while (!board.stop && !board.state.cpu.jammed) {
-    if (board.state.cycle >= board.translated.limit) {
+    if (board.state.cycle >= limit) {
       interpret(board, instructions - (board.state.cycle - first_cycle) / kFewestCycles);
-      return board.stop || board.state.cpu.jammed || first_cycle >= board.translated.limit;
+      return board.stop || board.state.cpu.jammed || first_cycle >= limit;
     }
-    const void* start = entry(board);
-    if (start != nullptr && !enter(board, start)) continue;
+    const void* start = impl_->entry(board);
+    if (start != nullptr && !impl_->enter(board, start)) continue;
     if (!board.stop) interpret(board, start != nullptr ? 1 : kElsewhere);
   }
   return true;
 }
 
-}  // namespace racebeam::translator
+void Translator::set_code_capacity(std::size_t bytes) { translator::set_code_capacity(bytes); }
+
+const char* Translator::obstacle() { return refusal().c_str(); }
+
+}  // namespace racebeam

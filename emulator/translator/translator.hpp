@@ -1,40 +1,41 @@
-// Runs a machine's 6507 code as x86-64 code, and the rest with the interpreter (docs/translator.md).
+// Runs a machine's 6507 code as x86-64 code, and with the interpreter what is no translated code (docs/translator.md).
+// On other processors, and where the system refuses executable memory, there is only the interpreter.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
-#include "emulator/translator/image_code.hpp"
+namespace racebeam {
 
-namespace racebeam::translator {
+class Board;
 
-// One machine's way to the translated code of its image.
+// What runs a machine's instructions. All do the same, to the byte.
+enum class CpuKind { kAuto, kInterpreter, kTranslator };
+
+// One machine's way to the translated code of its image, which all machines of the process that run it share.
 class Translator {
  public:
-  explicit Translator(Board& board);  // throws std::system_error where executable memory is refused
+  // Null where the interpreter is wanted, or kAuto finds that code can't be translated here. Throws std::system_error
+  // if it can't and kTranslator was asked for.
+  static std::unique_ptr<Translator> make(Board& board, CpuKind kind);
+  ~Translator();
 
   // Like interpret(), but the instructions are not counted. False if there may have been `instructions` of them before
   // the frame closed: then there were no more, and the step must be run again by who counts.
   bool run(Board& board, std::int32_t instructions);
 
+  // The most bytes of translated code for one image, at least 131072; 4 MiB unless told. When they are used up, all is
+  // translated anew. Applies to images that are translated from now on.
+  static void set_code_capacity(std::size_t bytes);
+
+  // Why kAuto gives the interpreter in this process; empty if it does not.
+  static const char* obstacle();
+
  private:
-  const void* entry(Board& board);
-  View* current_view(Board& board);
-  bool enter(Board& board, const void* entry);
-
-  std::shared_ptr<ImageCode> code_;
-  Layout layout_;
-  std::uint64_t plain_registers_;
-
-  // The windows that were looked into last: a bank switch finds its way back without asking the image.
-  struct Seen {
-    CodeWindow window;
-    View* view = nullptr;
-  };
-  std::array<Seen, 8> seen_{};
-  std::size_t next_seen_ = 0;
-  Seen current_{};
+  struct Impl;
+  explicit Translator(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace racebeam::translator
+}  // namespace racebeam
