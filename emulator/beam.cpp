@@ -27,7 +27,7 @@ bool writes_groups(unsigned enabled, std::uint8_t ctrlpf) {
 PixelMask shapes(const TiaState& tia, const Line& line) {
   PixelMask all = line.mask[kM0] | line.mask[kM1] | line.mask[kBall];
   for (unsigned i = 0; i < 2; ++i)
-    if (line.enabled >> (kP0 + i) & 1) all = all | player_shape(tia.player[i]);
+    if (tia.enabled >> (kP0 + i) & 1) all = all | player_shape(tia.player[i]);
   return all;
 }
 
@@ -43,13 +43,12 @@ void Beam::begin_frame() {
   tia_.cursor = start();
   tia_.left = kLineClocks;
   tia_.pixel = 0;
-  repeats_ = false;
 }
 
 void Beam::forget() {
   find_window();
+  tia_.enabled = enabled_objects(tia_);
   stale_ = 0xFF;
-  repeats_ = false;
 }
 
 void Beam::draw_to(std::int32_t clock) {
@@ -82,7 +81,6 @@ void Beam::take_line(const LineRecord& record) {
   tia_.cursor += kLineClocks;
   tia_.pixel += kLinePixels;
   end_line();
-  repeats_ = record.repeats;
 }
 
 void Beam::draw_span(int begin, int clocks) {
@@ -91,17 +89,8 @@ void Beam::draw_span(int begin, int clocks) {
   const int first = std::max(visible - kBlankClocks, 0);
   const int last = std::max(end_clock - kBlankClocks, first);
   std::uint8_t* row = picture_->pixel.data() + tia_.pixel - first;
-  record().count = LineRecord::kInvalid;
-  if (last > first) {
-    const bool whole = first == 0 && last == kLinePixels;
-    if (whole && repeats_ && !tia_.comb_armed) {
-      std::memcpy(row, row - kLinePixels, kLinePixels);
-      if (!tia_.vblank) collide(first, last);
-    } else {
-      draw_visible(row, first, last);
-      repeats_ = whole && !tia_.comb_armed;
-    }
-  }
+  if (has_record()) record().count = LineRecord::kInvalid;
+  if (last > first) draw_visible(row, first, last);
   if (tia_.comb_armed && visible < kCombEnd) blank_comb(row, visible, end_clock, first, last);
   tia_.pixel += last - first;
 }
@@ -111,6 +100,8 @@ void Beam::draw_visible(std::uint8_t* row, int first, int last) {
     std::memset(row + first, 0, static_cast<std::size_t>(last - first));
     return;
   }
+  const bool score = (tia_.enabled & object_bit(kPlayfield)) != 0 && (tia_.ctrlpf & 2) != 0;
+  seen_ |= tia_.enabled | kLit | (score ? kScoreSeen : 0);
   collide(first, last);
   draw_pixels(line_, tia_, row, first, last);
   if (exact_spans_) spill(row, first, last);
@@ -125,7 +116,7 @@ void Beam::collide(int first, int last) {
 // The reference writes some pixels four at a time, and so up to three beyond the span (tia.md, "Provisional pixels").
 void Beam::spill(std::uint8_t* row, int first, int last) {
   const int group = last & ~3;
-  if (group == last || group < first || !writes_groups(line_.enabled, tia_.ctrlpf)) return;
+  if (group == last || group < first || !writes_groups(tia_.enabled, tia_.ctrlpf)) return;
   if (shapes(tia_, line_).meets(PixelMask::range(group, group + 4))) return;
   std::memset(row + last, row[group], static_cast<std::size_t>(group + 4 - last));
 }
@@ -141,15 +132,13 @@ void Beam::blank_comb(std::uint8_t* row, int begin, int end, int first, int last
 
 void Beam::end_line() {
   const std::uint8_t reflect = tia_.ctrlpf & 1;
-  if (tia_.reflect != reflect) {
-    tia_.reflect = reflect;
-    changed(1U << kPlayfield);
-  }
-  for (unsigned i = 0; i < 2; ++i) {
-    if (!tia_.player[i].skip) continue;
-    tia_.player[i].skip = 0;
-    changed(static_cast<std::uint8_t>(1U << (kP0 + i)));
-  }
+  auto& [p0, p1] = tia_.player;
+  if (((tia_.reflect ^ reflect) | p0.skip | p1.skip | tia_.cosmic) == 0) return;
+  if (tia_.reflect != reflect) changed(object_bit(kPlayfield));
+  if (p0.skip) changed(object_bit(kP0));
+  if (p1.skip) changed(object_bit(kP1));
+  tia_.reflect = reflect;
+  p0.skip = p1.skip = 0;
   if (tia_.cosmic) advance_cosmic();
 }
 

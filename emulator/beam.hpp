@@ -34,20 +34,21 @@ class Beam {
   // Draws with the registers as they are; a clock that is already passed draws nothing.
   void draw_to(std::int32_t clock);
 
-  // A register of these objects (bit n: Object n) has changed; 0: something else that the pixels depend on.
-  void changed(std::uint8_t objects) {
-    stale_ |= objects;
-    repeats_ = false;
-  }
+  // A register of these objects (bit n: Object n) has changed.
+  void changed(std::uint8_t objects) { stale_ |= objects; }
 
   // Line by line, for lines that are drawn as a whole.
   bool at_line_start() const { return tia_.left == kLineClocks && tia_.cursor >= start(); }
   std::int32_t line_end() const { return tia_.cursor + tia_.left; }
   bool line_can_end() const { return line_end() < end(); }  // the window's last line never does
   void finish_line();                                       // draws the rest of the line and acts on its end
-  LineRecord& record() { return picture_->line[static_cast<std::size_t>(tia_.pixel / kLinePixels)]; }
-  bool repeats() const { return repeats_; }
   void take_line(const LineRecord& record);                 // the line is as the record says
+  bool has_record() const { return row() < Picture::kRecordedRows; }
+  LineRecord& record() { return picture_->line[row()]; }
+
+  // What has been drawn since: LineView::seen.
+  void look_afresh() { seen_ = 0; }
+  std::uint16_t seen() const { return seen_; }
 
   // Step by step as the reference draws, pixels beyond the end of a span included (tia.md, "Provisional pixels").
   void set_exact_spans(bool on) { exact_spans_ = on; }
@@ -57,6 +58,7 @@ class Beam {
   std::int32_t end() const { return end_; }
 
  private:
+  std::size_t row() const { return static_cast<std::size_t>(tia_.pixel) / kLinePixels; }
   void find_window();
   void draw_span(int begin, int clocks);
   void draw_visible(std::uint8_t* row, int first, int last);
@@ -72,7 +74,7 @@ class Beam {
   std::int32_t start_ = 0, end_ = 0;
   Line line_;
   std::uint8_t stale_ = 0xFF;   // masks to make anew
-  bool repeats_ = false;        // the line above was drawn in one piece by exactly these registers
+  std::uint16_t seen_ = 0;
   bool exact_spans_ = false;
 };
 

@@ -14,9 +14,8 @@ namespace {
 
 constexpr std::uint64_t bit(unsigned reg) { return std::uint64_t{1} << reg; }
 
-// Registers with an effect on more than the picture, or on other registers.
-constexpr std::uint64_t kSpecialRegisters = bit(VSYNC) | bit(VBLANK) | bit(WSYNC) | bit(AUDC0) | bit(AUDC1) |
-                                            bit(AUDF0) | bit(AUDF1) | bit(AUDV0) | bit(AUDV1) | bit(HMCLR);
+// Of those that draw: with an effect on more than the picture, or on other registers.
+constexpr std::uint64_t kSpecialRegisters = bit(VBLANK) | bit(HMCLR);
 
 std::size_t ram_beside_state(const Scheme& scheme) { return scheme.ram > kRamInState ? scheme.ram : 0; }
 
@@ -56,7 +55,9 @@ void Board::set_format_limits() {
   overlong_cycle_ = state.tia.origin / 3 + kLineCycles * (limit + 1);
 }
 
-std::uint64_t Board::plain_registers() const { return slot.scheme.watches_tia ? 0 : ~kSpecialRegisters; }
+std::uint64_t Board::plain_registers() const {
+  return slot.scheme.watches_tia ? 0 : kDrawingRegisters & ~kSpecialRegisters;
+}
 
 void Board::open_frame() {
   const auto now = static_cast<std::uint32_t>(state.cycle);
@@ -239,7 +240,7 @@ std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::in
   last_access_ = cycle;
   make_room(cycle);
   log->append(cycle, reg, value);
-  if (exact_) tia.play_log();
+  if (exact_) tia.play_log(cycle);
   return cycle;
 }
 

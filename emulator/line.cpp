@@ -47,7 +47,8 @@ constexpr auto kSpread = make_spread();
 constexpr std::uint64_t kOnes = 0x0101010101010101;
 
 // Three layers make every priority mode.
-void set_layers(Line& line, std::uint8_t ctrlpf) {
+void set_layers(Line& line, const TiaRegisters& tia) {
+  const std::uint8_t ctrlpf = tia.ctrlpf;
   const auto& m = line.mask;
   const auto set = [&line](unsigned place, const PixelMask& mask, Color color) {
     line.layer[place].mask = mask;
@@ -59,7 +60,7 @@ void set_layers(Line& line, std::uint8_t ctrlpf) {
     set(0, ball, kColupf);
     set(1, m[kP1] | m[kM1] | (playfield & kRightHalf), kColup1);
     set(2, m[kP0] | m[kM0] | (playfield & kLeftHalf), kColup0);
-  } else if (score && line.enabled == bit(kPlayfield)) {
+  } else if (score && tia.enabled == bit(kPlayfield)) {
     set(0, {}, kColupf);
     set(1, playfield & kRightHalf, kColup1);
     set(2, playfield & kLeftHalf, kColup0);
@@ -138,20 +139,19 @@ constexpr auto kPairOfLatch = make_pair_of_latch();
 }  // namespace
 
 void Line::refresh(const TiaState& tia, std::uint8_t objects) {
-  const auto set = [this](Object object, bool is_enabled, const PixelMask& pixels) {
+  const auto set = [this](Object object, const PixelMask& pixels) {
     mask[object] = pixels;
     covered = static_cast<std::uint8_t>((covered & ~bit(object)) | (pixels.any() ? bit(object) : 0));
-    enabled = static_cast<std::uint8_t>((enabled & ~bit(object)) | (is_enabled ? bit(object) : 0));
   };
   for (unsigned i = 0; i < 2; ++i) {
     if (objects >> (kP0 + i) & 1)
-      set(static_cast<Object>(kP0 + i), shown_graphics(tia.player[i]) != 0, player_mask(tia.player[i]));
+      set(static_cast<Object>(kP0 + i), player_mask(tia.player[i]));
     if (objects >> (kM0 + i) & 1)
-      set(static_cast<Object>(kM0 + i), missile_enabled(tia.missile[i]), missile_mask(tia, i));
+      set(static_cast<Object>(kM0 + i), missile_mask(tia, i));
   }
-  if (objects & bit(kBall)) set(kBall, ball_enabled(tia.ball), ball_mask(tia));
-  if (objects & bit(kPlayfield)) set(kPlayfield, playfield_bits(tia) != 0, playfield_mask(tia));
-  set_layers(*this, tia.ctrlpf);
+  if (objects & bit(kBall)) set(kBall, ball_mask(tia));
+  if (objects & bit(kPlayfield)) set(kPlayfield, playfield_mask(tia));
+  set_layers(*this, tia);
 }
 
 void draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {

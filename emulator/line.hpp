@@ -23,7 +23,6 @@ struct Line {
   std::array<PixelMask, kObjects> mask;  // by Object
   std::array<Layer, 3> layer;            // what hides what: from the back to the front
   std::uint8_t covered = 0;              // bit n: mask n has pixels
-  std::uint8_t enabled = 0;              // bit n: Object n is enabled, even if it has no pixel on this line
 
   void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew, and the layers
 };

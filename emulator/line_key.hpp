@@ -1,8 +1,19 @@
-// What of the registers can be seen on a line, given the writes that it meets: two lines with the same key and the same
-// writes have the same pixels and collisions. A disabled object that drifts about does not make a line another one.
+// Which registers have a say in a line: two lines that meet the same writes, and start with the same values in the
+// registers that the first one looked at, have the same pixels and collisions. An object that is not shown may drift
+// about, be resized and recoloured as it likes.
+//
+// The argument, for the one who changes something here. An object is shown while it is enabled (objects.hpp). Whether
+// it is depends on few bytes, its *control*: graphics and VDELPx, ENAxx, RESMPx, the playfield's bits. A write that
+// acts on an object's control makes these bytes part of the key; for the other objects the bit that says if they are
+// enabled is enough, because it stays what it was. So both lines show the same objects at the same clocks, and an
+// object that was never shown while the first one was drawn is not shown on the second. What is left of the objects,
+// *shape* and colour, counts only for those that were shown. Clocks are the same, too, for what a write waits for
+// depends on the write alone, with one exception: RESPx lets the old copy be finished, so that the player's old place
+// counts, shown or not, if another write follows so soon that it waits for that.
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 
 #include "emulator/state.hpp"
@@ -12,19 +23,38 @@ namespace racebeam {
 // The registers (one bit each) whose writes may change the picture at all.
 extern const std::uint64_t kDrawingRegisters;
 
-// What a write of such a register may do to the line that it falls on.
-struct LineEffect {
-  std::int8_t last_cycle;   // of the line, at which it still takes effect on the same line
-  std::uint8_t involved;    // bit n: it may make Object n visible; and the two below
-};
-constexpr std::uint8_t kMovesObjects = 1U << 6, kBlanks = 1U << 7;
+// What a line looked at. seen: bits 0-5 an Object each, that was shown, and
+constexpr std::uint16_t kScoreSeen = 1U << 6;    // the playfield in the players' colours
+constexpr std::uint16_t kLit = 1U << 7;          // anything but VBLANK's black
+constexpr std::uint16_t kMoves = 1U << 8;        // there is an HMOVE
+// control: bits 0-5 an Object each, whose control a write acts on, and
+constexpr std::uint8_t kPlaceOfP0 = 1U << 6, kPlaceOfP1 = 1U << 7;  // their old places count
 
+struct LineView {
+  std::uint16_t seen;
+  std::uint8_t control;
+  std::uint8_t clears;  // there is a CXCLR: meetings before it are forgotten
+};
+
+// What a write to a register may do to the line that it falls on.
+struct LineEffect {
+  std::int8_t last_cycle;  // of the line, at which it still takes effect on the same line
+  std::uint8_t control;    // see LineView; RESPx: if a write follows at once
+  std::uint16_t seen;      // kMoves or 0
+};
 extern const std::array<LineEffect, 64> kLineEffects;
 
-// `registers` with everything set to zero that can't be seen. involved: of all writes on the line.
-TiaRegisters line_key(const TiaRegisters& registers, std::uint8_t involved);
+using RegisterWords = std::array<std::uint64_t, sizeof(TiaRegisters) / sizeof(std::uint64_t)>;
+extern const std::array<RegisterWords, 512> kSeenBytes;     // $FF for each byte that counts, by LineView::seen
+extern const std::array<RegisterWords, 256> kControlBytes;  // and by LineView::control
 
-// Is that `key`?
-bool has_key(const TiaRegisters& registers, std::uint8_t involved, const TiaRegisters& key);
+// Do the two differ in nothing that the line looks at?
+inline bool look_the_same(const TiaRegisters& a, const TiaRegisters& b, LineView view) {
+  const auto words_a = std::bit_cast<RegisterWords>(a), words_b = std::bit_cast<RegisterWords>(b);
+  const RegisterWords &seen = kSeenBytes[view.seen], &control = kControlBytes[view.control];
+  std::uint64_t difference = 0;
+  for (std::size_t i = 0; i < words_a.size(); ++i) difference |= (words_a[i] ^ words_b[i]) & (seen[i] | control[i]);
+  return difference == 0;
+}
 
 }  // namespace racebeam

@@ -11,6 +11,8 @@ namespace racebeam {
 
 enum Object : unsigned { kP0, kP1, kM0, kM1, kBall, kPlayfield, kObjects };
 
+constexpr std::uint8_t object_bit(unsigned object) { return static_cast<std::uint8_t>(1U << object); }
+
 // The 20 bits of PF0, PF1, PF2 in the order of the screen: bit 0 is the leftmost block.
 std::uint32_t playfield_bits(const TiaState& tia);
 
@@ -20,6 +22,10 @@ inline std::uint8_t shown_graphics(const PlayerState& player) {  // before REFPx
 }
 inline bool missile_enabled(const MissileState& missile) { return missile.enabled && !missile.locked; }
 inline bool ball_enabled(const BallState& ball) { return (ball.vdel ? ball.old_enabled : ball.enabled) != 0; }
+
+inline bool playfield_enabled(const TiaRegisters& tia) { return ((tia.pf[0] & 0xF0) | tia.pf[1] | tia.pf[2]) != 0; }
+
+std::uint8_t enabled_objects(const TiaRegisters& tia);  // TiaRegisters::enabled, made anew
 
 PixelMask playfield_mask(const TiaState& tia);
 PixelMask player_mask(const PlayerState& player);

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "emulator/line.hpp"
+#include "emulator/line_key.hpp"
 #include "emulator/state.hpp"
 
 namespace racebeam {
@@ -15,11 +16,10 @@ namespace racebeam {
 struct LineRecord {
   static constexpr std::uint8_t kInvalid = 0xFF;
 
-  TiaRegisters key;                // line_key() at the start of the line
-  Collisions meetings;             // pairs that met on the line
+  TiaRegisters start;              // at the line's first clock
+  Collisions meetings;             // pairs that met on the line, after the last CXCLR
+  LineView view;                   // what of `start` counts
   std::uint8_t count = kInvalid;   // of events
-  std::uint8_t involved;           // what the events may make visible, see line_key.hpp
-  std::uint8_t repeats;            // drawn in one piece by the registers as the line left them
   std::uint8_t comb_armed;         // what the line left
   std::array<std::uint32_t, 18> event;  // the writes: TiaWrite, with cycles from the line's first on
 };
@@ -27,9 +27,10 @@ static_assert(sizeof(LineRecord) == 128);
 
 struct Picture {
   static constexpr int kRows = 320;  // the window, and what a reset may shift it down by (tia.md, section 2)
+  static constexpr int kRecordedRows = 250;  // of the tallest picture that games have
 
   alignas(64) std::array<std::uint8_t, static_cast<std::size_t>(kRows) * kLinePixels> pixel{};
-  std::array<LineRecord, kRows> line;
+  std::array<LineRecord, kRecordedRows> line;
 
   // The pixels were written by somebody else.
   void forget_lines() {

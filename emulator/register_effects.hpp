@@ -52,6 +52,14 @@ class RegisterEffects {
   // On odd line counts PAL loses its colour (tia.md, section 12).
   std::uint8_t color_loss() const { return video_.pal ? frame_.lines & 1 : 0; }
 
+  // The objects whose control has been written are enabled, or not.
+  void enable(unsigned object_number, bool on) {
+    const unsigned rest = tia_.enabled & ~(1U << object_number);
+    tia_.enabled = static_cast<std::uint8_t>(rest | (on ? 1U : 0U) << object_number);
+  }
+  void enable_player(unsigned which) { enable(kP0 + which, shown_graphics(tia_.player[which]) != 0); }
+  void enable_missile(unsigned which) { enable(kM0 + which, missile_enabled(tia_.missile[which])); }
+
   template <class T>
   bool assign(T& reg, T value, std::int32_t clock, std::uint8_t objects);
   std::uint8_t strobe_position(std::int32_t clock, int in_blank, int delay) const;
@@ -123,8 +131,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t
     case RESBL:  strobe_ball(clock); break;
     case GRP0:   write_graphics(0, value, clock + 1); break;
     case GRP1:   write_graphics(1, value, clock + 1); break;
-    case ENAM0:  assign(m0.enabled, flag(1), clock, object(kM0, 0)); break;
-    case ENAM1:  assign(m1.enabled, flag(1), clock, object(kM0, 1)); break;
+    case ENAM0:  assign(m0.enabled, flag(1), clock, object(kM0, 0)), enable_missile(0); break;
+    case ENAM1:  assign(m1.enabled, flag(1), clock, object(kM0, 1)), enable_missile(1); break;
     case ENABL:  write_ball(flag(1), ball.old_enabled, ball.vdel, clock); break;
     case HMP0:   painter_.reach(clock); p0.motion = motion(); break;
     case HMP1:   painter_.reach(clock); p1.motion = motion(); break;
@@ -179,6 +187,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, s
   static constexpr std::uint8_t kDelay[4] = {4, 5, 2, 3};  // until the next block of four pixels
   const std::int32_t clock = 3 * cycle;
   assign(tia_.pf[which], value, clock + kDelay[line_cycle(cycle) % 4], kPlayfieldBit);
+  enable(kPlayfield, playfield_enabled(tia_));
 }
 
 // Writing one player's graphics moves the other's into the register that VDELPx shows.
@@ -194,13 +203,19 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, st
   else painter_.reach(clock);
   written.grp = value;
   other.old_grp = other.grp;
-  if (which == 1) tia_.ball.old_enabled = tia_.ball.enabled;
+  enable_player(0);
+  enable_player(1);
+  if (which == 1) {
+    tia_.ball.old_enabled = tia_.ball.enabled;
+    enable(kBall, ball_enabled(tia_.ball));
+  }
   if (objects != 0) painter_.changed(objects);
 }
 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_vdel(unsigned which, std::uint8_t value, std::int32_t clock) {
   assign(tia_.player[which].vdel, value, clock, object(kP0, which));
+  enable_player(which);
 }
 
 template <class Painter>
@@ -215,6 +230,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, 
   }
   ball.enabled = enabled;
   ball.vdel = vdel;
+  enable(kBall, shown);
 }
 
 // Unlocking a missile leaves it in the middle of its player.
@@ -222,7 +238,9 @@ template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_resmp(unsigned which, std::uint8_t value, std::int32_t clock) {
   MissileState& missile = tia_.missile[which];
   const bool unlocks = missile.locked && !value;
-  if (!assign(missile.locked, value, clock, object(kM0, which)) || !unlocks) return;
+  const bool changed = assign(missile.locked, value, clock, object(kM0, which));
+  enable_missile(which);
+  if (!changed || !unlocks) return;
   const PlayerState& player = tia_.player[which];
   missile.position = wrapped(player.position + 4 * static_cast<int>(kCopies[player.nusiz & 7].scale));
   if (which == 0) show_cosmic_normally();

@@ -65,7 +65,8 @@ struct TiaRegisters {
   std::uint8_t cosmic = 0;         // missile 0 moves by itself (tia.md, "Cosmic Ark mode")
   std::uint8_t cosmic_count = 0;
   CosmicShape cosmic_shape = CosmicShape::kNormal;
-  std::uint8_t spare[5]{};         // to a whole number of words: compared and masked as such, for every line
+  std::uint8_t enabled = 0;        // enabled_objects(), kept up to date
+  std::uint8_t spare[4]{};         // to a whole number of words: compared and masked as such, for every line
 };
 
 // The picture side of the TIA: registers, and where the beam is.

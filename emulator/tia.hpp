@@ -20,22 +20,25 @@ class Tia {
   // Pixels go to `picture`, writes come in `log`. Exact: the picture shows what the reference has drawn ahead of the
   // beam at every access; then each write must be played, and each read touched, before the next.
   void begin_step(Picture& picture, WriteLog& log, bool exact);
-  void play_log();                       // all that was written
+  void play_log(std::int32_t cycle);     // all that was written, the last of it before or at `cycle`
   void empty_log(std::int32_t cycle);    // the same, and makes room; its cycles count from `cycle` from now on
   void touch(std::int32_t cycle);        // an access that changes nothing: draws up to it
-  void catch_up(std::int32_t cycle) { play_log(), touch(cycle); }
+  void catch_up(std::int32_t cycle) { play_log(cycle), touch(cycle); }
   bool stopped_inside(std::int32_t cycle) const;  // would a picture that stops here show what was drawn ahead?
   void forget() { beam_.forget(); }      // the registers were replaced as a whole
   void grey(Picture& picture, std::int32_t cycle) const;  // rows not drawn when a step ended open
 
  private:
   void play(const std::uint32_t* next);
-  bool play_line();
-  const std::uint32_t* end_of_known_line(const LineRecord& known) const;
-  void recall_line(const std::uint32_t* next);
-  void draw_line(const std::uint32_t* next, std::uint8_t count);
-  bool draw_new_line();
-  const std::uint32_t* gather_events(LineRecord& line, std::uint8_t& count) const;
+  void skip(const std::uint32_t* next);
+  const std::uint32_t* end_of_unseen() const;
+  bool finish_line();
+  bool at_whole_line() const;
+  void take_lines();
+  bool take_line(std::uint32_t origin);
+  void recall_line(const LineRecord& record);
+  void draw_line(LineRecord& record, std::uint8_t count);
+  bool gather_events(std::uint32_t origin, LineRecord& record, std::uint8_t& count) const;
 
   TiaState& tia_;
   const FrameState& frame_;

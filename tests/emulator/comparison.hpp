@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+#include "emulator/objects.hpp"
 #include "tests/emulator/bench.hpp"
 #include "tests/emulator/reference_tia.hpp"
 
@@ -84,6 +85,7 @@ class Comparison {
     if (at != ours.end())
       FAIL("row " << (at - ours.begin()) / 160 << ", pixel " << (at - ours.begin()) % 160 << " is "
                   << int{*at} << ", not " << int{*expected});
+    REQUIRE(int{bench_.state.tia.enabled} == int{enabled_objects(bench_.state.tia)});
     const std::string difference = reference_.difference(bench_.state.tia);
     if (!difference.empty()) FAIL(difference);
   }
