@@ -45,8 +45,14 @@ void Beam::begin_frame() {
   tia_.pixel = 0;
 }
 
+void Beam::aim(Picture& picture) {
+  picture_ = &picture;
+  look_afresh();
+}
+
 void Beam::forget() {
   find_window();
+  look_afresh();
   tia_.enabled = enabled_objects(tia_);
   stale_ = 0xFF;
 }
@@ -110,7 +116,8 @@ void Beam::draw_visible(std::uint8_t* row, int first, int last) {
 void Beam::collide(int first, int last) {
   if (stale_ != 0) line_.refresh(tia_, stale_);
   stale_ = 0;
-  tia_.collisions |= meetings(line_, first, last, tia_.collisions);
+  meetings_ |= racebeam::meetings(line_, first, last, meetings_);
+  tia_.collisions |= meetings_;
 }
 
 // The reference writes some pixels four at a time, and so up to three beyond the span (tia.md, "Provisional pixels").

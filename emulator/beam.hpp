@@ -26,7 +26,7 @@ class Beam {
   Beam(TiaState& state, const Video& video) : tia_(state), video_(video) {}
 
   void begin_frame();                            // cursor to the window's start
-  void aim(Picture& picture) { picture_ = &picture; }  // where pixels go
+  void aim(Picture& picture);                    // where pixels go
 
   // Everything derived from the registers is made anew: after a reset or a restored state.
   void forget();
@@ -46,9 +46,11 @@ class Beam {
   bool has_record() const { return row() < Picture::kRecordedRows; }
   LineRecord& record() { return picture_->line[row()]; }
 
-  // What has been drawn since: LineView::seen.
-  void look_afresh() { seen_ = 0; }
+  // What has been drawn since: LineView::seen, and the pairs that met, after the last CXCLR.
+  void look_afresh() { seen_ = meetings_ = 0; }
   std::uint16_t seen() const { return seen_; }
+  Collisions meetings() const { return meetings_; }
+  void clear_collisions() { tia_.collisions = meetings_ = 0; }
 
   // Step by step as the reference draws, pixels beyond the end of a span included (tia.md, "Provisional pixels").
   void set_exact_spans(bool on) { exact_spans_ = on; }
@@ -75,6 +77,7 @@ class Beam {
   Line line_;
   std::uint8_t stale_ = 0xFF;   // masks to make anew
   std::uint16_t seen_ = 0;
+  Collisions meetings_ = 0;
   bool exact_spans_ = false;
 };
 

@@ -216,7 +216,7 @@ std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int
 // The only reads that need the picture: the log is played up to now.
 std::uint8_t Board::collision_bits(unsigned reg, std::int32_t cycle) {
   last_access_ = cycle;
-  tia.catch_up(cycle);
+  tia.find_collisions(cycle, static_cast<Collisions>(3U << (2 * reg)));
   return static_cast<std::uint8_t>((state.tia.collisions >> (2 * reg) & 3) << 6);
 }
 

@@ -2,6 +2,7 @@
 //
 // A Painter is told before anything that can be seen changes: draw_to(clock) asks for what stands so far to be drawn,
 // reach(clock) says that the beam is there and nothing has changed, changed(objects) names what has (bit n: Object n).
+// One whose kDraws is false hears only the last, and may hear it for nothing.
 #pragma once
 
 #include <cstdint>
@@ -88,7 +89,7 @@ class RegisterEffects {
 template <class Painter>
 template <class T>
 RACEBEAM_INLINE bool RegisterEffects<Painter>::assign(T& reg, T value, std::int32_t clock, std::uint8_t objects) {
-  if (reg == value) {
+  if (Painter::kDraws && reg == value) {
     painter_.reach(clock);
     return false;
   }
@@ -161,7 +162,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_nusiz(unsigned which, std::
   PlayerState& player = tia_.player[which];
   const bool reselects = player.skip || (which == 0 && tia_.cosmic);
   value &= 0x37;
-  if (player.nusiz == value && !reselects) return painter_.reach(clock);
+  if (Painter::kDraws && player.nusiz == value && !reselects) return painter_.reach(clock);
   painter_.draw_to(clock);
   player.nusiz = value;
   player.skip = 0;
@@ -174,7 +175,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, 
   const bool latches = line_cycle(clock / 3) < 49;  // later, the playfield turns round at the end of the line only
   const std::uint8_t reflect = latches ? value & 1 : tia_.reflect;
   value &= 0x37;
-  if (tia_.ctrlpf == value && tia_.reflect == reflect) return painter_.reach(clock);
+  if (Painter::kDraws && tia_.ctrlpf == value && tia_.reflect == reflect) return painter_.reach(clock);
   painter_.draw_to(clock);
   // Drawing may have passed a line's end, and with it the latch.
   tia_.reflect = latches ? value & 1 : tia_.reflect;
@@ -195,12 +196,15 @@ template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, std::uint8_t value, std::int32_t clock) {
   PlayerState& written = tia_.player[which];
   PlayerState& other = tia_.player[1 - which];
-  std::uint8_t objects = 0;
-  if (!written.vdel && written.grp != value) objects |= object(kP0, which);
-  if (other.vdel && other.old_grp != other.grp) objects |= object(kP0, 1 - which);
-  if (which == 1 && tia_.ball.vdel && tia_.ball.old_enabled != tia_.ball.enabled) objects |= kBallBit;
-  if (objects != 0) painter_.draw_to(clock);
-  else painter_.reach(clock);
+  std::uint8_t objects = kBallBit | object(kP0, 0) | object(kP0, 1);
+  if (Painter::kDraws) {
+    objects = 0;
+    if (!written.vdel && written.grp != value) objects |= object(kP0, which);
+    if (other.vdel && other.old_grp != other.grp) objects |= object(kP0, 1 - which);
+    if (which == 1 && tia_.ball.vdel && tia_.ball.old_enabled != tia_.ball.enabled) objects |= kBallBit;
+    if (objects != 0) painter_.draw_to(clock);
+    else painter_.reach(clock);
+  }
   written.grp = value;
   other.old_grp = other.grp;
   enable_player(0);
@@ -209,7 +213,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, st
     tia_.ball.old_enabled = tia_.ball.enabled;
     enable(kBall, ball_enabled(tia_.ball));
   }
-  if (objects != 0) painter_.changed(objects);
+  painter_.changed(objects);
 }
 
 template <class Painter>
@@ -222,7 +226,7 @@ template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, std::uint8_t old_enabled, std::uint8_t vdel, std::int32_t clock) {
   BallState& ball = tia_.ball;
   const bool shown = vdel ? old_enabled != 0 : enabled != 0;
-  if (shown != ball_enabled(ball)) {
+  if (!Painter::kDraws || shown != ball_enabled(ball)) {
     painter_.draw_to(clock);
     painter_.changed(kBallBit);
   } else {
@@ -351,9 +355,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(std::int32_t cycle) 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::clear_collisions(std::int32_t clock) {
   painter_.draw_to(clock);
-  if (tia_.collisions == 0) return;
-  tia_.collisions = 0;
-  painter_.changed(kNoObject);
+  painter_.clear_collisions();
 }
 
 }  // namespace racebeam

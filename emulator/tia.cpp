@@ -11,6 +11,7 @@ namespace {
 
 // Draws what stood before a change, as far as the beam had come.
 struct Drawing {
+  static constexpr bool kDraws = true;
   Beam& beam;
   std::int32_t& reached;
 
@@ -20,15 +21,18 @@ struct Drawing {
     beam.draw_to(reached);
   }
   RACEBEAM_INLINE void changed(std::uint8_t objects) const { beam.changed(objects); }
+  RACEBEAM_INLINE void clear_collisions() const { beam.clear_collisions(); }
 };
 
 // The line's pixels are there already; only the registers are wanted.
 struct Recalling {
+  static constexpr bool kDraws = false;
   Beam& beam;
 
   RACEBEAM_INLINE void reach(std::int32_t) const {}
   RACEBEAM_INLINE void draw_to(std::int32_t) const {}
   RACEBEAM_INLINE void changed(std::uint8_t objects) const { beam.changed(objects); }
+  RACEBEAM_INLINE void clear_collisions() const { beam.clear_collisions(); }
 };
 
 // Writes from here on, counted from a line's first cycle, are beyond it. One in cycle 76 can still act on the line: it is
@@ -39,14 +43,11 @@ constexpr std::uint32_t kLineOfWrites = TiaWrite(kLineCycles, 0, 0).packed();
 // A write that comes this much later than RESPx, or sooner, may wait for the old copy of the player.
 constexpr std::uint32_t kWaitOfRespx = TiaWrite(4, 0, 0).packed() - 1;
 
-// Are the next writes those of the record, and is the one after them beyond the line? `origin` is the line's first
-// cycle as a write has it.
-bool meets_the_same(const std::uint32_t* entry, std::uint32_t origin, const LineRecord& record) {
-  const unsigned count = record.count;
-  if (count == LineRecord::kInvalid || entry[count] - origin < kBeyondLine) return false;
-  for (unsigned i = 0; i < count; ++i)
-    if (entry[i] - origin != record.event[i]) return false;
-  return true;
+// The record's first writes that are also the next ones; `origin` is the line's first cycle as a write has it.
+unsigned common_writes(const std::uint32_t* entry, std::uint32_t origin, const LineRecord& record) {
+  unsigned i = 0;
+  while (i < record.count && entry[i] - origin == record.event[i]) ++i;
+  return i;
 }
 
 constexpr std::int32_t kLongestDelay = 11;  // colour clocks that a write may draw ahead
@@ -65,19 +66,21 @@ void Tia::begin_step(Picture& picture, WriteLog& log, bool exact) {
   beam_.set_exact_spans(exact);
   log_ = &log;
   played_ = log.next;
+  recorded_ = nullptr;
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
 
-// The word behind the last write says up to which cycle there is no other.
-void Tia::play_log(std::int32_t cycle) {
+// The word behind the last write says up to which cycle there is no other. Of the line in which that is, only what
+// decides about the latches `asked` need be played; false if it was left.
+bool Tia::play_log(std::int32_t cycle, Collisions asked) {
   const bool empty = log_->size() == 0;
-  if (empty && cycle < log_->base) return;
+  if (empty && cycle < log_->base) return true;
   const std::int32_t last = empty ? 0 : TiaWrite(log_->next[-1]).cycle();
   *log_->next = TiaWrite(std::max(cycle - log_->base, last), WriteLog::kNobody, 0).packed();
   for (;;) {
     skip(end_of_unseen());
-    if (finish_line() || at_whole_line()) take_lines();
-    if (played_ == log_->next) return;
+    if (at_line() && take_lines(asked)) return false;
+    if (played_ == log_->next) return true;
     play(played_ + 1);
   }
 }
@@ -86,6 +89,15 @@ void Tia::empty_log(std::int32_t cycle) {
   play_log(cycle);
   log_->rewind(cycle);
   played_ = log_->next;
+}
+
+void Tia::catch_up(std::int32_t cycle) {
+  play_log(cycle);
+  touch(cycle);
+}
+
+void Tia::find_collisions(std::int32_t cycle, Collisions asked) {
+  if (play_log(cycle, asked)) touch(cycle);
 }
 
 void Tia::touch(std::int32_t cycle) { Drawing{beam_, reached_}.draw_to(3 * cycle); }
@@ -116,40 +128,41 @@ const std::uint32_t* Tia::end_of_unseen() const {
   return at;
 }
 
-// Draws the rest of a line that has begun, if the next write lies beyond it.
-bool Tia::finish_line() {
-  if (beam_.exact_spans() || tia_.left == kLineClocks || !beam_.line_can_end()) return false;
-  if (3 * (log_->base + TiaWrite(*played_).cycle()) <= beam_.line_end()) return false;
-  beam_.finish_line();
-  return at_whole_line();
+std::uint32_t Tia::line_origin() const {
+  return TiaWrite(beam_.line_end() / 3 - kLineCycles - log_->base, 0, 0).packed();
 }
 
-bool Tia::at_whole_line() const {
-  if (beam_.exact_spans() || !beam_.at_line_start() || reached_ > tia_.cursor) return false;
-  const std::int32_t first_cycle = tia_.cursor / 3 - log_->base;
-  return first_cycle >= 0 && TiaWrite(*played_).cycle() >= first_cycle;
+// Is the next write on the cursor's line or beyond it, and nothing known about the line that can't be remembered?
+bool Tia::at_line() const {
+  if (beam_.exact_spans() || tia_.cursor < beam_.start() || !beam_.line_can_end()) return false;
+  const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles - log_->base;
+  if (first_cycle < 0 || TiaWrite(*played_).cycle() < first_cycle) return false;
+  return recorded_ != nullptr || !beam_.at_line_start() || reached_ <= tia_.cursor;
 }
 
-// Takes as many lines as can be taken as a whole.
-void Tia::take_lines() {
-  std::uint32_t origin = TiaWrite(tia_.cursor / 3 - log_->base, 0, 0).packed();
-  while (beam_.line_can_end() && beam_.has_record() && take_line(origin)) origin += kLineOfWrites;
-}
-
-// A line that starts with the same registers, as far as they count, and meets the same writes as when this row of the
-// buffer was drawn last is there already; another one is drawn, and remembered. False if a write, or what is not
-// written yet, may act on two lines.
-bool Tia::take_line(std::uint32_t origin) {
-  LineRecord& record = beam_.record();
-  if (meets_the_same(played_, origin, record)) {
-    if (look_the_same(tia_, record.start, record.view)) recall_line(record);
-    else draw_line(record, record.count);
-    return true;
+// Takes one line after the other, as long as they can be taken as a whole: one that starts with the same registers, as
+// far as they count, and meets the same writes as when this row of the buffer was drawn last is there already; others
+// are drawn, and remembered. True if nothing more need be played.
+bool Tia::take_lines(Collisions asked) {
+  for (std::uint32_t origin = line_origin(); beam_.line_can_end(); origin += kLineOfWrites) {
+    if (beam_.at_line_start() && reached_ > tia_.cursor) return false;
+    if (beam_.at_line_start() && beam_.has_record()) {
+      const LineRecord& record = beam_.record();
+      if (record.count != LineRecord::kInvalid && look_the_same(tia_, record.start, record.view)) {
+        const unsigned common = common_writes(played_, origin, record);
+        const std::uint32_t* next = played_ + common;
+        if (common == record.count && *next - origin >= kBeyondLine) {
+          recall_line(record);
+          continue;
+        }
+        // So far it is the line that is there, and on that, nothing asked for has met.
+        const bool enough = (record.meetings & asked) == 0 && !record.view.clears && asked != kWholePicture;
+        if (next == log_->next && enough) return true;
+      }
+    }
+    if (!draw_line(origin)) return false;
   }
-  std::uint8_t count = 0;
-  if (!gather_events(origin, record, count)) return false;
-  draw_line(record, count);
-  return true;
+  return false;
 }
 
 void Tia::recall_line(const LineRecord& record) {
@@ -157,37 +170,51 @@ void Tia::recall_line(const LineRecord& record) {
   beam_.take_line(record);
 }
 
-// Draws the cursor's line, whose writes the row's record has, and remembers it.
-void Tia::draw_line(LineRecord& record, std::uint8_t count) {
-  record.start = tia_.registers();
-  const Collisions before = tia_.collisions;
-  tia_.collisions = 0;  // the record keeps those of this line
-  beam_.look_afresh();
-  play(played_ + count);
+// Draws the cursor's line up to the last write, or to its end if the next one lies beyond: then it returns true.
+bool Tia::draw_line(std::uint32_t origin) {
+  if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr) {
+    recorded_ = &beam_.record();
+    recorded_->count = LineRecord::kInvalid;  // until the line is whole
+    recorded_->start = tia_.registers();
+    recorded_->view = {};
+    count_ = 0;
+    beam_.look_afresh();
+  }
+  if (!record_writes(origin)) return false;
   beam_.finish_line();
-  record.view.seen = static_cast<std::uint16_t>((record.view.seen & kMoves) | beam_.seen());
-  record.meetings = tia_.collisions;
-  record.comb_armed = tia_.comb_armed;
-  record.count = count;
-  if (!record.view.clears) tia_.collisions |= before;
+  close_record();
+  return true;
 }
 
-// The writes that the cursor's line meets; false if it can't be taken as a whole.
-bool Tia::gather_events(std::uint32_t origin, LineRecord& record, std::uint8_t& count) const {
-  record.count = LineRecord::kInvalid;
-  record.view = {};
-  for (const std::uint32_t* at = played_;; ++at) {
-    const std::uint32_t since = *at - origin;
-    if (since >= kBeyondLine) return true;
-    const TiaWrite write(since);
+// Plays the writes that the cursor's line meets, and remembers them; true if they are all known. Those that act on two
+// lines, or are too many, are left, and the line is not remembered.
+bool Tia::record_writes(std::uint32_t origin) {
+  const std::uint32_t* at = played_;
+  for (; *at - origin < kBeyondLine && at != log_->next; ++at) {
+    const TiaWrite write(*at - origin);
     const LineEffect effect = kLineEffects[write.reg()];
-    if (at == log_->next || count == record.event.size() || write.cycle() > effect.last_cycle) return false;
-    record.event[count++] = since;
-    record.view.seen |= effect.seen;
-    record.view.clears |= write.reg() == CXCLR;
+    if (recorded_ == nullptr || count_ == recorded_->event.size() || write.cycle() > effect.last_cycle) {
+      recorded_ = nullptr;
+      break;
+    }
+    recorded_->event[count_++] = write.packed();
+    LineView& view = recorded_->view;
+    view.seen |= effect.seen;
+    view.clears |= write.reg() == CXCLR;
     const bool waits = write.reg() == RESP0 || write.reg() == RESP1;
-    if (!waits || at[1] - *at <= kWaitOfRespx) record.view.control |= effect.control;
+    if (!waits || at[1] - *at <= kWaitOfRespx) view.control |= effect.control;
   }
+  play(at);
+  return *at - origin >= kBeyondLine;
+}
+
+void Tia::close_record() {
+  if (recorded_ == nullptr) return;
+  recorded_->view.seen |= beam_.seen();
+  recorded_->meetings = beam_.meetings();
+  recorded_->comb_armed = tia_.comb_armed;
+  recorded_->count = count_;
+  recorded_ = nullptr;
 }
 
 // tia.md, section 2, "Greying": what is seen when the processor stands still in the middle of a picture.

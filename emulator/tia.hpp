@@ -20,25 +20,29 @@ class Tia {
   // Pixels go to `picture`, writes come in `log`. Exact: the picture shows what the reference has drawn ahead of the
   // beam at every access; then each write must be played, and each read touched, before the next.
   void begin_step(Picture& picture, WriteLog& log, bool exact);
-  void play_log(std::int32_t cycle);     // all that was written, the last of it before or at `cycle`
+  void play_log(std::int32_t cycle) { play_log(cycle, kWholePicture); }  // all that was written up to `cycle`
   void empty_log(std::int32_t cycle);    // the same, and makes room; its cycles count from `cycle` from now on
   void touch(std::int32_t cycle);        // an access that changes nothing: draws up to it
-  void catch_up(std::int32_t cycle) { play_log(cycle), touch(cycle); }
+  void catch_up(std::int32_t cycle);     // plays all, and draws up to `cycle`
+  void find_collisions(std::int32_t cycle, Collisions asked);  // these latches stand as they do at `cycle`
   bool stopped_inside(std::int32_t cycle) const;  // would a picture that stops here show what was drawn ahead?
   void forget() { beam_.forget(); }      // the registers were replaced as a whole
   void grey(Picture& picture, std::int32_t cycle) const;  // rows not drawn when a step ended open
 
  private:
+  static constexpr Collisions kWholePicture = 0xFFFF;  // asked: not collisions alone
+
+  bool play_log(std::int32_t cycle, Collisions asked);
   void play(const std::uint32_t* next);
   void skip(const std::uint32_t* next);
   const std::uint32_t* end_of_unseen() const;
-  bool finish_line();
-  bool at_whole_line() const;
-  void take_lines();
-  bool take_line(std::uint32_t origin);
+  bool at_line() const;
+  std::uint32_t line_origin() const;
+  bool take_lines(Collisions asked);
   void recall_line(const LineRecord& record);
-  void draw_line(LineRecord& record, std::uint8_t count);
-  bool gather_events(std::uint32_t origin, LineRecord& record, std::uint8_t& count) const;
+  bool draw_line(std::uint32_t origin);
+  bool record_writes(std::uint32_t origin);
+  void close_record();
 
   TiaState& tia_;
   const FrameState& frame_;
@@ -46,6 +50,8 @@ class Tia {
   Beam beam_;
   WriteLog* log_ = nullptr;
   const std::uint32_t* played_ = nullptr;  // of its entries, up to here
+  LineRecord* recorded_ = nullptr;  // the cursor's line, as far as it has been drawn
+  std::uint8_t count_ = 0;          // of its events so far
   std::int32_t reached_ = 0;  // the beam as the reference has it: ours may be behind, with the same registers
 };
 
