@@ -81,12 +81,9 @@ void Beam::finish_line() {
   end_line();
 }
 
-void Beam::take_line(const LineRecord& record) {
-  tia_.collisions |= record.meetings;
-  tia_.comb_armed = record.comb_armed;
-  tia_.cursor += kLineClocks;
-  tia_.pixel += kLinePixels;
-  end_line();
+void Beam::pass_lines(int count) {
+  tia_.cursor += count * kLineClocks;
+  tia_.pixel += count * kLinePixels;
 }
 
 void Beam::draw_span(int begin, int clocks) {
@@ -137,10 +134,9 @@ void Beam::blank_comb(std::uint8_t* row, int begin, int end, int first, int last
   if (end >= kCombEnd) tia_.comb_armed = 0;
 }
 
-void Beam::end_line() {
+void Beam::act_on_line_end() {
   const std::uint8_t reflect = tia_.ctrlpf & 1;
   auto& [p0, p1] = tia_.player;
-  if (((tia_.reflect ^ reflect) | p0.skip | p1.skip | tia_.cosmic) == 0) return;
   if (tia_.reflect != reflect) changed(object_bit(kPlayfield));
   if (p0.skip) changed(object_bit(kP0));
   if (p1.skip) changed(object_bit(kP1));

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "emulator/inlining.hpp"
 #include "emulator/line.hpp"
 #include "emulator/picture.hpp"
 #include "emulator/state.hpp"
@@ -42,9 +43,17 @@ class Beam {
   std::int32_t line_end() const { return tia_.cursor + tia_.left; }
   bool line_can_end() const { return line_end() < end(); }  // the window's last line never does
   void finish_line();                                       // draws the rest of the line and acts on its end
-  void take_line(const LineRecord& record);                 // the line is as the record says
+  void pass_lines(int count);  // which are there already, and whose ends have been acted on
+  int lines_to_end() const { return (end() - 1 - tia_.cursor) / kLineClocks; }  // without the last
   bool has_record() const { return row() < Picture::kRecordedRows; }
+  int rows_to_end_of_records() const { return Picture::kRecordedRows - static_cast<int>(row()); }
   LineRecord& record() { return picture_->line[row()]; }
+
+  RACEBEAM_INLINE void end_line() {
+    const std::uint8_t reflect = tia_.ctrlpf & 1;
+    const auto& [p0, p1] = tia_.player;
+    if (((tia_.reflect ^ reflect) | p0.skip | p1.skip | tia_.cosmic) != 0) act_on_line_end();
+  }
 
   // What has been drawn since: LineView::seen, and the pairs that met, after the last CXCLR.
   void look_afresh() { seen_ = meetings_ = 0; }
@@ -67,7 +76,7 @@ class Beam {
   void collide(int first, int last);
   void spill(std::uint8_t* row, int first, int last);
   void blank_comb(std::uint8_t* row, int begin, int end, int first, int last);
-  void end_line();
+  void act_on_line_end();
   void advance_cosmic();
 
   TiaState& tia_;

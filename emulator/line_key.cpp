@@ -41,8 +41,8 @@ constexpr std::uint8_t control_of(unsigned reg) {
 constexpr std::array<LineEffect, 64> make_effects() {
   std::array<LineEffect, 64> table{};
   for (unsigned reg = 0; reg < 64; ++reg) {
-    const std::uint16_t moves = reg == HMOVE ? kMoves : 0;
-    table[reg] = {static_cast<std::int8_t>((228 - longest_delay(reg)) / 3), control_of(reg), moves};
+    const std::uint16_t seen = reg == HMOVE ? kMoves : reg == CXCLR ? kClears : 0;
+    table[reg] = {static_cast<std::int8_t>((228 - longest_delay(reg)) / 3), control_of(reg), seen};
   }
   return table;
 }

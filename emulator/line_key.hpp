@@ -27,31 +27,31 @@ extern const std::uint64_t kDrawingRegisters;
 constexpr std::uint16_t kScoreSeen = 1U << 6;    // the playfield in the players' colours
 constexpr std::uint16_t kLit = 1U << 7;          // anything but VBLANK's black
 constexpr std::uint16_t kMoves = 1U << 8;        // there is an HMOVE
+constexpr std::uint16_t kClears = 1U << 9;       // there is a CXCLR: meetings before it are forgotten
 // control: bits 0-5 an Object each, whose control a write acts on, and
 constexpr std::uint8_t kPlaceOfP0 = 1U << 6, kPlaceOfP1 = 1U << 7;  // their old places count
 
 struct LineView {
   std::uint16_t seen;
   std::uint8_t control;
-  std::uint8_t clears;  // there is a CXCLR: meetings before it are forgotten
 };
 
 // What a write to a register may do to the line that it falls on.
 struct LineEffect {
   std::int8_t last_cycle;  // of the line, at which it still takes effect on the same line
   std::uint8_t control;    // see LineView; RESPx: if a write follows at once
-  std::uint16_t seen;      // kMoves or 0
+  std::uint16_t seen;      // kMoves, kClears or 0
 };
 extern const std::array<LineEffect, 64> kLineEffects;
 
 using RegisterWords = std::array<std::uint64_t, sizeof(TiaRegisters) / sizeof(std::uint64_t)>;
-extern const std::array<RegisterWords, 512> kSeenBytes;     // $FF for each byte that counts, by LineView::seen
+extern const std::array<RegisterWords, 512> kSeenBytes;     // $FF for each byte that counts, by LineView::seen but kClears
 extern const std::array<RegisterWords, 256> kControlBytes;  // and by LineView::control
 
 // Do the two differ in nothing that the line looks at?
 inline bool look_the_same(const TiaRegisters& a, const TiaRegisters& b, LineView view) {
   const auto words_a = std::bit_cast<RegisterWords>(a), words_b = std::bit_cast<RegisterWords>(b);
-  const RegisterWords &seen = kSeenBytes[view.seen], &control = kControlBytes[view.control];
+  const RegisterWords &seen = kSeenBytes[view.seen & 0x1FF], &control = kControlBytes[view.control];
   std::uint64_t difference = 0;
   for (std::size_t i = 0; i < words_a.size(); ++i) difference |= (words_a[i] ^ words_b[i]) & (seen[i] | control[i]);
   return difference == 0;

@@ -21,7 +21,8 @@ struct LineRecord {
   LineView view;                   // what of `start` counts
   std::uint8_t count = kInvalid;   // of events
   std::uint8_t comb_armed;         // what the line left
-  std::array<std::uint32_t, 18> event;  // the writes: TiaWrite, with cycles from the line's first on
+  std::uint8_t enabled;            // the same; of a line that is kLit
+  std::array<std::uint32_t, 17> event;  // the writes: TiaWrite, with cycles from the line's first on
 };
 static_assert(sizeof(LineRecord) == 128);
 

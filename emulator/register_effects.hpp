@@ -2,7 +2,8 @@
 //
 // A Painter is told before anything that can be seen changes: draw_to(clock) asks for what stands so far to be drawn,
 // reach(clock) says that the beam is there and nothing has changed, changed(objects) names what has (bit n: Object n).
-// One whose kDraws is false hears only the last, and may hear it for nothing.
+// One whose kDraws is false hears only the last, and may hear it for nothing; it brings TiaRegisters::enabled up to date
+// itself, afterwards.
 #pragma once
 
 #include <cstdint>
@@ -55,6 +56,7 @@ class RegisterEffects {
 
   // The objects whose control has been written are enabled, or not.
   void enable(unsigned object_number, bool on) {
+    if (!Painter::kDraws) return;
     const unsigned rest = tia_.enabled & ~(1U << object_number);
     tia_.enabled = static_cast<std::uint8_t>(rest | (on ? 1U : 0U) << object_number);
   }

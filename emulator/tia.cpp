@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "emulator/line_key.hpp"
+#include "emulator/objects.hpp"
 #include "emulator/register_effects.hpp"
 
 namespace racebeam {
@@ -115,7 +116,9 @@ void Tia::play(const std::uint32_t* next) {
 
 // Up to `next`, for what needs no drawing.
 void Tia::skip(const std::uint32_t* next) {
+  if (next == played_) return;
   RegisterEffects(tia_, frame_, video_, Recalling{beam_}).play(played_, next, log_->base);
+  tia_.enabled = enabled_objects(tia_);
   played_ = next;
 }
 
@@ -140,34 +143,49 @@ bool Tia::at_line() const {
   return recorded_ != nullptr || !beam_.at_line_start() || reached_ <= tia_.cursor;
 }
 
-// Takes one line after the other, as long as they can be taken as a whole: one that starts with the same registers, as
-// far as they count, and meets the same writes as when this row of the buffer was drawn last is there already; others
+// Takes one line after the other, as long as they can be taken as a whole: those that are there already, or else they
 // are drawn, and remembered. True if nothing more need be played.
 bool Tia::take_lines(Collisions asked) {
-  for (std::uint32_t origin = line_origin(); beam_.line_can_end(); origin += kLineOfWrites) {
-    if (beam_.at_line_start() && reached_ > tia_.cursor) return false;
-    if (beam_.at_line_start() && beam_.has_record()) {
-      const LineRecord& record = beam_.record();
-      if (record.count != LineRecord::kInvalid && look_the_same(tia_, record.start, record.view)) {
-        const unsigned common = common_writes(played_, origin, record);
-        const std::uint32_t* next = played_ + common;
-        if (common == record.count && *next - origin >= kBeyondLine) {
-          recall_line(record);
-          continue;
-        }
-        // So far it is the line that is there, and on that, nothing asked for has met.
-        const bool enough = (record.meetings & asked) == 0 && !record.view.clears && asked != kWholePicture;
-        if (next == log_->next && enough) return true;
-      }
+  std::uint32_t origin = line_origin();
+  while (beam_.line_can_end()) {
+    if (beam_.at_line_start()) {
+      if (reached_ > tia_.cursor) return false;
+      if (recall_lines(origin, asked)) return true;
+      if (!beam_.line_can_end()) return false;
     }
     if (!draw_line(origin)) return false;
+    origin += kLineOfWrites;
   }
   return false;
 }
 
-void Tia::recall_line(const LineRecord& record) {
-  skip(played_ + record.count);
-  beam_.take_line(record);
+// Lines that start with the same registers, as far as they count, and meet the same writes as when these rows of the
+// buffer were drawn last. True if it stops at one that is not known to its end, but so far it is the same as well, and
+// nothing asked for has met on that.
+bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
+  if (recorded_ != nullptr || !beam_.has_record()) return false;
+  RegisterEffects effects(tia_, frame_, video_, Recalling{beam_});
+  LineRecord* const first = &beam_.record();
+  LineRecord* const last = first + std::min(beam_.lines_to_end(), beam_.rows_to_end_of_records());
+  LineRecord* record = first;
+  bool enough = false;
+  for (; record != last; ++record, origin += kLineOfWrites) {
+    if (record->count == LineRecord::kInvalid || !look_the_same(tia_, record->start, record->view)) break;
+    const std::uint32_t* next = played_ + common_writes(played_, origin, *record);
+    if (next != played_ + record->count || *next - origin < kBeyondLine) {
+      const bool can_meet = (record->meetings & asked) != 0 || (record->view.seen & kClears) != 0;
+      enough = next == log_->next && !can_meet && asked != kWholePicture;
+      break;
+    }
+    effects.play(played_, next, log_->base);
+    played_ = next;
+    tia_.enabled = record->view.seen & kLit ? record->enabled : enabled_objects(tia_);
+    tia_.collisions |= record->meetings;
+    tia_.comb_armed = record->comb_armed;
+    beam_.end_line();
+  }
+  beam_.pass_lines(static_cast<int>(record - first));
+  return enough;
 }
 
 // Draws the cursor's line up to the last write, or to its end if the next one lies beyond: then it returns true.
@@ -200,7 +218,6 @@ bool Tia::record_writes(std::uint32_t origin) {
     recorded_->event[count_++] = write.packed();
     LineView& view = recorded_->view;
     view.seen |= effect.seen;
-    view.clears |= write.reg() == CXCLR;
     const bool waits = write.reg() == RESP0 || write.reg() == RESP1;
     if (!waits || at[1] - *at <= kWaitOfRespx) view.control |= effect.control;
   }
@@ -213,6 +230,7 @@ void Tia::close_record() {
   recorded_->view.seen |= beam_.seen();
   recorded_->meetings = beam_.meetings();
   recorded_->comb_armed = tia_.comb_armed;
+  recorded_->enabled = tia_.enabled;
   recorded_->count = count_;
   recorded_ = nullptr;
 }

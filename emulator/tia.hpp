@@ -39,7 +39,7 @@ class Tia {
   bool at_line() const;
   std::uint32_t line_origin() const;
   bool take_lines(Collisions asked);
-  void recall_line(const LineRecord& record);
+  bool recall_lines(std::uint32_t& origin, Collisions asked);
   bool draw_line(std::uint32_t origin);
   bool record_writes(std::uint32_t origin);
   void close_record();
