@@ -90,8 +90,6 @@ class Board {
   std::uint8_t collision_bits(unsigned reg, std::int32_t cycle);
 
   std::uint64_t selected_banks() const { return std::bit_cast<std::uint64_t>(state.cartridge.bank); }
-  std::uint8_t read_cartridge(std::uint16_t address, std::int32_t cycle);
-  Delivery write_cartridge(std::uint16_t address, std::uint8_t value);
   const std::uint8_t* fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
   std::uint8_t read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
 

@@ -92,9 +92,9 @@ constexpr TiaRegisters make_control(unsigned control) {
 }
 
 template <std::size_t kSize>
-constexpr std::array<RegisterWords, kSize> make_bytes(TiaRegisters make(unsigned)) {
-  std::array<RegisterWords, kSize> table{};
-  for (unsigned i = 0; i < kSize; ++i) table[i] = std::bit_cast<RegisterWords>(make(i));
+constexpr std::array<TiaRegisters, kSize> make_bytes(TiaRegisters make(unsigned)) {
+  std::array<TiaRegisters, kSize> table{};
+  for (unsigned i = 0; i < kSize; ++i) table[i] = make(i);
   return table;
 }
 
@@ -102,7 +102,7 @@ constexpr std::array<RegisterWords, kSize> make_bytes(TiaRegisters make(unsigned
 
 constinit const std::uint64_t kDrawingRegisters = make_drawing_registers();
 constinit const std::array<LineEffect, 64> kLineEffects = make_effects();
-constinit const std::array<RegisterWords, 512> kSeenBytes = make_bytes<512>(make_seen);
-constinit const std::array<RegisterWords, 256> kControlBytes = make_bytes<256>(make_control);
+constinit const std::array<TiaRegisters, 512> kSeenBytes = make_bytes<512>(make_seen);
+constinit const std::array<TiaRegisters, 256> kControlBytes = make_bytes<256>(make_control);
 
 }  // namespace racebeam

@@ -13,10 +13,11 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 
+#include "emulator/inlining.hpp"
 #include "emulator/state.hpp"
+#include "emulator/vectors.hpp"
 
 namespace racebeam {
 
@@ -44,17 +45,20 @@ struct LineEffect {
 };
 extern const std::array<LineEffect, 64> kLineEffects;
 
-using RegisterWords = std::array<std::uint64_t, sizeof(TiaRegisters) / sizeof(std::uint64_t)>;
-extern const std::array<RegisterWords, 512> kSeenBytes;     // $FF for each byte that counts, by LineView::seen but kClears
-extern const std::array<RegisterWords, 256> kControlBytes;  // and by LineView::control
+extern const std::array<TiaRegisters, 512> kSeenBytes;     // $FF for each byte that counts, by LineView::seen but kClears
+extern const std::array<TiaRegisters, 256> kControlBytes;  // and by LineView::control
 
 // Do the two differ in nothing that the line looks at?
-inline bool look_the_same(const TiaRegisters& a, const TiaRegisters& b, LineView view) {
-  const auto words_a = std::bit_cast<RegisterWords>(a), words_b = std::bit_cast<RegisterWords>(b);
-  const RegisterWords &seen = kSeenBytes[view.seen & 0x1FF], &control = kControlBytes[view.control];
-  std::uint64_t difference = 0;
-  for (std::size_t i = 0; i < words_a.size(); ++i) difference |= (words_a[i] ^ words_b[i]) & (seen[i] | control[i]);
-  return difference == 0;
+RACEBEAM_INLINE bool look_the_same(const TiaRegisters& a, const TiaRegisters& b, LineView view) {
+  const TiaRegisters &seen = kSeenBytes[view.seen & 0x1FF], &control = kControlBytes[view.control];
+  TwoWords difference{};
+  for (std::size_t at = 0; at < sizeof(TiaRegisters); at += sizeof(TwoWords)) {
+    const auto part = [at](const TiaRegisters& registers) {
+      return load<TwoWords>(reinterpret_cast<const std::uint8_t*>(&registers) + at);
+    };
+    difference |= (part(a) ^ part(b)) & (part(seen) | part(control));
+  }
+  return is_zero(difference);
 }
 
 }  // namespace racebeam

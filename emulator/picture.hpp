@@ -22,7 +22,7 @@ struct LineRecord {
   std::uint8_t count = kInvalid;   // of events
   std::uint8_t comb_armed;         // what the line left
   std::uint8_t enabled;            // the same; of a line that is kLit
-  std::array<std::uint32_t, 17> event;  // the writes: TiaWrite, with cycles from the line's first on
+  std::array<std::uint32_t, 17> event;  // the writes: TiaWrite, with cycles from the line's first on; read by fours
 };
 static_assert(sizeof(LineRecord) == 128);
 
@@ -32,6 +32,7 @@ struct Picture {
 
   alignas(64) std::array<std::uint8_t, static_cast<std::size_t>(kRows) * kLinePixels> pixel{};
   std::array<LineRecord, kRecordedRows> line;
+  std::array<std::uint32_t, 4> beyond_last_event{};  // of the last record
 
   // The pixels were written by somebody else.
   void forget_lines() {

@@ -44,11 +44,24 @@ constexpr std::uint32_t kLineOfWrites = TiaWrite(kLineCycles, 0, 0).packed();
 // A write that comes this much later than RESPx, or sooner, may wait for the old copy of the player.
 constexpr std::uint32_t kWaitOfRespx = TiaWrite(4, 0, 0).packed() - 1;
 
-// The record's first writes that are also the next ones; `origin` is the line's first cycle as a write has it.
-unsigned common_writes(const std::uint32_t* entry, std::uint32_t origin, const LineRecord& record) {
-  unsigned i = 0;
-  while (i < record.count && entry[i] - origin == record.event[i]) ++i;
-  return i;
+constexpr std::array<std::uint32_t, 8> kFirstOfFour = {~0U, ~0U, ~0U, ~0U, 0, 0, 0, 0};
+
+// Are the next writes those of the record? `origin` is the line's first cycle as a write has it.
+RACEBEAM_INLINE bool meets_the_same(const std::uint32_t* entry, std::uint32_t origin, const LineRecord& record) {
+  FourWords difference{};
+  int left = record.count;
+  for (const std::uint32_t* event = record.event.data(); left > 0; event += 4, entry += 4, left -= 4) {
+    const auto counted = load<FourWords>(&kFirstOfFour[static_cast<unsigned>(left < 4 ? 4 - left : 0)]);
+    difference |= ((load<FourWords>(entry) - origin) ^ load<FourWords>(event)) & counted;
+  }
+  return is_zero(load<TwoWords>(&difference));
+}
+
+// Is what has been written so far the beginning of that?
+bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::uint32_t origin, const LineRecord& record) {
+  const auto count = static_cast<std::size_t>(end - entry);
+  if (count > record.count) return false;
+  return std::equal(entry, end, record.event.begin(), [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
 }
 
 constexpr std::int32_t kLongestDelay = 11;  // colour clocks that a write may draw ahead
@@ -171,10 +184,10 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   bool enough = false;
   for (; record != last; ++record, origin += kLineOfWrites) {
     if (record->count == LineRecord::kInvalid || !look_the_same(tia_, record->start, record->view)) break;
-    const std::uint32_t* next = played_ + common_writes(played_, origin, *record);
-    if (next != played_ + record->count || *next - origin < kBeyondLine) {
+    const std::uint32_t* next = played_ + record->count;
+    if (*next - origin < kBeyondLine || !meets_the_same(played_, origin, *record)) {
       const bool can_meet = (record->meetings & asked) != 0 || (record->view.seen & kClears) != 0;
-      enough = next == log_->next && !can_meet && asked != kWholePicture;
+      enough = asked != kWholePicture && !can_meet && begins_the_same(played_, log_->next, origin, *record);
       break;
     }
     effects.play(played_, next, log_->base);
