@@ -51,7 +51,7 @@ struct Bench {
     state.riot.ram[1] = static_cast<std::uint8_t>(operand);
     cpu.PC = 0x80;
     state.cycle = cycle - 3;
-    racebeam::run(board, 1);
+    racebeam::interpret(board, 1);
   }
 
   struct Whole {
@@ -159,7 +159,7 @@ struct Bench {
 
   void run(int instructions) {
     act([=](Bench& bench) {
-      racebeam::run(bench.board, instructions);
+      racebeam::interpret(bench.board, instructions);
       return std::uint8_t{0};
     });
   }

@@ -30,9 +30,7 @@ void expect(Bench& bench, unsigned address, unsigned value) {
 
 unsigned color(Bench& bench, unsigned number) {
   bench.end_step();
-  const unsigned value = bench.state.tia.color[number];
-  bench.begin_step();
-  return value;
+  return bench.state.tia.color[number];
 }
 
 TEST_CASE("Case 5: E7") {
