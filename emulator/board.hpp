@@ -37,6 +37,7 @@ class Board {
   bool stop = false;  // the frame has closed: the CPU ends after this instruction
 
   // What the CPU does where there is no plain memory. `latch` is the data bus before the access.
+  std::uint8_t read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);  // plain memory or a device
   std::uint8_t read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
 
   // The bytes of the instruction at `pc`: moves the code window there, or, where there is no plain memory or too little
@@ -91,7 +92,6 @@ class Board {
 
   std::uint64_t selected_banks() const { return std::bit_cast<std::uint64_t>(state.cartridge.bank); }
   const std::uint8_t* fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
-  std::uint8_t read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
 
   struct KnownWindow {
     std::uint64_t banks = 0;

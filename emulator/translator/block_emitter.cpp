@@ -16,7 +16,7 @@ void BlockEmitter::emit() {
     return;
   }
   check_limit();
-  const std::vector<Flags> live = live_flags(block_);
+  const std::vector<Flags> live = live_flags(block_, as_.window.code);
   for (std::size_t i = 0; i < block_.instructions.size(); ++i) emit(block_.instructions[i], live[i]);
   if (block_.instructions.back().access != Access::Jump) {
     settle(here());

@@ -39,6 +39,21 @@ bool reads_carry(Operation operation) {
          operation == Operation::ror;
 }
 
+// A read that may find a hot spot: not known to be in the window, in RAM, or in a device.
+bool may_switch_banks(const Instruction& instruction, const CodeWindow& window) {
+  const bool reads = instruction.access == Access::Read || instruction.access == Access::Modify;
+  const auto known = [&](unsigned count) {
+    const unsigned offset = (instruction.operand - window.first) & 0x3FFFU;
+    return !is_cartridge(instruction.operand) || offset + count <= window.span;
+  };
+  switch (instruction.mode) {
+    case Mode::absolute: return reads && !known(1);
+    case Mode::absolute_x: case Mode::absolute_y: return reads && !(is_cartridge(instruction.operand) && known(256));
+    case Mode::indirect_x: case Mode::indirect_y: return reads;
+    default: return false;
+  }
+}
+
 }  // namespace
 
 bool may_write_device(const Instruction& instruction) {
@@ -47,13 +62,14 @@ bool may_write_device(const Instruction& instruction) {
   return !fixed || !is_ram(instruction.operand);
 }
 
-std::vector<Flags> live_flags(const Block& block) {
+std::vector<Flags> live_flags(const Block& block, const CodeWindow& window) {
   std::vector<Flags> after(block.instructions.size());
   Flags live;
   for (std::size_t i = block.instructions.size(); i-- > 0;) {
     const Instruction& instruction = block.instructions[i];
     if (may_write_device(instruction)) live = Flags{};
     after[i] = live;
+    if (may_switch_banks(instruction, window)) live = Flags{};
     if (sets_nz(instruction)) live.nz = false;
     if (sets_carry(instruction.operation)) live.c = false;
     if (sets_overflow(instruction.operation)) live.v = false;

@@ -12,8 +12,9 @@ struct Flags {
 };
 
 // One for each instruction of the block: the flags that are live after it. All are at the block's end, where a branch
-// may leave it, and after a write that may end the frame, where the state is seen from outside.
-std::vector<Flags> live_flags(const Block& block);
+// may leave it, after a write that may end the frame, where the state is seen from outside, and after a read that the
+// interpreter may have to do, since it may bring other code before the processor.
+std::vector<Flags> live_flags(const Block& block, const CodeWindow& window);
 
 // Does the instruction write somewhere else than RAM, or may it?
 bool may_write_device(const Instruction& instruction);

@@ -44,6 +44,12 @@ class Discovery {
     if (role > known) known = role;
   }
 
+  // What lies beyond the window may be a device, and reads what was on the data bus: the interpreter knows that.
+  bool leads_out(const Instruction& instruction) const {
+    const bool branches = instruction.access == Access::Branch && !holds(window_, instruction.target());
+    return branches || (!ends_flow(instruction) && !holds(window_, instruction.next()));
+  }
+
   // Follows the instructions from `pc` on, and makes leaders of all that they lead to.
   void scan(std::uint16_t pc) {
     while (holds(window_, pc) && !seen_[offset(pc)]) {
@@ -68,7 +74,7 @@ class Discovery {
       const std::size_t here = offset(block.next);
       if (here != start && (role_[here] != kNone || known_[here])) break;
       const Instruction instruction = at(block.next);
-      if (!is_translatable(instruction)) break;
+      if (!is_translatable(instruction) || leads_out(instruction)) break;
       cycles += instruction.cycles + 2;
       if (cycles > kMostBlockCycles) {
         role_[here] = kLeader;  // it lies further on: its turn comes

@@ -1,0 +1,13 @@
+// One image on two machines: the interpreter's and the translator's.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace racebeam::test {
+
+// Runs the program of a seed on both, `steps` steps, with states saved and restored on the way, and compares
+// everything after each: state, cartridge RAM, pictures, sound. Empty if all is the same, else what differs.
+std::string difference_in_program(std::uint32_t seed, int steps);
+
+}  // namespace racebeam::test

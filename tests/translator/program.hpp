@@ -1,0 +1,19 @@
+// Random 6507 programs for every cartridge scheme: all opcodes, with operands where something happens, in loops,
+// subroutines, RAM, and across banks.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace racebeam::test {
+
+struct Program {
+  std::string_view scheme;
+  std::vector<std::uint8_t> rom;
+};
+
+// The same for the same seed, on every machine.
+Program make_program(std::uint32_t seed);
+
+}  // namespace racebeam::test

@@ -1,0 +1,26 @@
+// translator_programs FIRST COUNT [STEPS]: runs that many random programs, from seed FIRST on, on the interpreter and
+// on the translator, and says what differs. Ends with 1 if anything did.
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/translator/pair.hpp"
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fputs("usage: translator_programs FIRST COUNT [STEPS]\n", stderr);
+    return 2;
+  }
+  const auto first = static_cast<std::uint32_t>(std::strtoul(argv[1], nullptr, 10));
+  const auto count = static_cast<std::uint32_t>(std::strtoul(argv[2], nullptr, 10));
+  const int steps = argc > 3 ? std::atoi(argv[3]) : 3;
+  unsigned different = 0;
+  for (std::uint32_t seed = first; seed != first + count; ++seed) {
+    const std::string found = racebeam::test::difference_in_program(seed, steps);
+    if (found.empty()) continue;
+    ++different;
+    std::puts(found.c_str());
+    std::fflush(stdout);
+  }
+  std::printf("%u programs from %u, %d steps each: %u different\n", count, first, steps, different);
+  return different == 0 ? 0 : 1;
+}

@@ -1,0 +1,22 @@
+// The interpreter against the translator. scripts/programs runs as many as are asked for.
+#include <catch2/catch.hpp>
+
+#include "emulator/translator/translator.hpp"
+#include "tests/translator/pair.hpp"
+
+namespace racebeam::test {
+namespace {
+
+TEST_CASE("Random programs run translated as they run interpreted") {
+  if (Translator::obstacle()[0] != '\0') {
+    WARN("skipped: " << Translator::obstacle());
+    return;
+  }
+  for (std::uint32_t seed = 1; seed <= 2000; ++seed) {
+    const std::string difference = difference_in_program(seed, 3);
+    if (!difference.empty()) FAIL_CHECK(difference);
+  }
+}
+
+}  // namespace
+}  // namespace racebeam::test
