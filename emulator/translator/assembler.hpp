@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "emulator/memory_map.hpp"
+#include "emulator/translator/window.hpp"
 
 namespace racebeam {
 class Board;
@@ -20,13 +20,6 @@ struct Layout {
 
   std::int32_t ram, a, x, y, sp, cycle, pages, stop, code_span, last_access;
   std::int32_t limit, first_line, nz, carry, overflow, decimal, interrupt;
-};
-
-// What the code of a window is translated for: constant as long as it is valid.
-struct Window {
-  CodeWindow code;                 // in the translator's own copy of the image
-  std::uint64_t plain_registers;   // of the TIA: writes that only go to the log
-  const void* const* entries;      // by offset in the window: where the blocks start, null where there is none
 };
 
 class Assembler : public Xbyak::CodeGenerator {

@@ -16,7 +16,7 @@ void BlockEmitter::emit() {
     return;
   }
   check_limit();
-  const std::vector<Flags> live = live_flags(block_, as_.window.code);
+  const std::vector<Flags> live = live_flags(block_, as_.window);
   for (std::size_t i = 0; i < block_.instructions.size(); ++i) emit(block_.instructions[i], live[i]);
   if (block_.instructions.back().access != Access::Jump) {
     settle(here());
@@ -181,11 +181,16 @@ void BlockEmitter::emit_jump(const Instruction& instruction) {
   if (instruction.operation == Operation::jsr) return jsr(instruction);
   if (instruction.operation == Operation::rts) return rts(instruction);
   if (instruction.mode == Mode::indirect) return jmp_indirect(instruction);
-  const bool goes_far = !holds(as_.window.code, instruction.target());
-  if (!goes_far) elapsed_ += instruction.cycles;
+  const bool known = may_be_left_to(instruction.target());
+  if (known) elapsed_ += instruction.cycles;
   settle(here());
-  if (goes_far) leave_before(instruction);
-  else jump_to(instruction.target());
+  if (known) jump_to(instruction.target());
+  else leave_before(instruction);
+}
+
+// Code on the cartridge is the same whatever was on the data bus before.
+bool BlockEmitter::may_be_left_to(std::uint16_t target) const {
+  return holds(as_.window.code, target) || is_cartridge(target);
 }
 
 // Both bytes of the pointer must be in RAM.
@@ -222,7 +227,7 @@ void BlockEmitter::jump_to_block(const Instruction& instruction) {
 void BlockEmitter::jsr(const Instruction& instruction) {
   Xbyak::Label outside;
   const Place before = here();
-  if (!holds(as_.window.code, instruction.target()) || !as_.covers(instruction.pc, 3)) {
+  if (!may_be_left_to(instruction.target()) || !as_.covers(instruction.pc, 3)) {
     settle(before);
     leave_before(instruction);
     return;
@@ -240,24 +245,45 @@ void BlockEmitter::jsr(const Instruction& instruction) {
   leave_cold(outside, instruction, before);
 }
 
-// The return address comes from RAM, and leads into the window.
+// The return address comes from RAM, and leads into the window, or at least the cartridge.
 void BlockEmitter::rts(const Instruction& instruction) {
   constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
-  Xbyak::Label outside;
+  Xbyak::Label outside, interpret;
   settle(here());
   as_.movzx(as_.ecx, as_.byte_of(as_.layout.sp));
   as_.lea(as_.edx, as_.ptr[as_.rcx - 0x7F]);
   as_.cmp(as_.edx, 0x7E);
-  as_.ja(outside, kNear);
+  as_.ja(interpret, kNear);
   as_.movzx(as_.eax, as_.word[as_.rbx + as_.rcx + (as_.layout.ram - 0x7F)]);
   as_.lea(as_.edx, as_.ptr[as_.rax + (1 - as_.window.code.first)]);
   as_.test(as_.edx, as_.edx);  // the byte before it is read, too
-  as_.jz(outside, kNear);
+  as_.jz(interpret, kNear);
   find_block(outside);
-  as_.add(as_.cl, 2);
-  as_.mov(as_.byte_of(as_.layout.sp), as_.cl);
+  as_.add(as_.byte_of(as_.layout.sp), 2);
   jump_to_block(instruction);
-  leave_cold(outside, instruction, {0, NzHome::kNumber, CarryHome::kNumber, false});
+  cold([this, instruction, outside, interpret]() mutable {
+    as_.L(outside);
+    leave_to_cartridge(instruction, interpret);
+  });
+  leave_cold(interpret, instruction, {0, NzHome::kNumber, CarryHome::kNumber, false});
+}
+
+// Returns to the address after the one in eax, if both are the cartridge's and reading that one does nothing.
+void BlockEmitter::leave_to_cartridge(const Instruction& instruction, Xbyak::Label& interpret) {
+  constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
+  as_.mov(as_.ecx, as_.eax);
+  as_.shr(as_.ecx, 6);
+  as_.movzx(as_.ecx, as_.cl);
+  as_.cmp(as_.qword[as_.rbx + as_.rcx * 8 + as_.layout.pages], 0);
+  as_.je(interpret, kNear);
+  as_.lea(as_.edx, as_.ptr[as_.rax + 1]);
+  as_.and_(as_.eax, as_.edx);
+  as_.test(as_.ah, 0x10);
+  as_.jz(interpret, kNear);
+  as_.add(as_.byte_of(as_.layout.sp), 2);
+  as_.add(as_.ebp, instruction.cycles);
+  as_.movzx(as_.eax, as_.dx);
+  as_.jmp(as_.way_out, kNear);
 }
 
 }  // namespace racebeam::translator

@@ -51,6 +51,8 @@ class BlockEmitter {
   void emit_branch(const Instruction& instruction);
   void emit_jump(const Instruction& instruction);
   void jsr(const Instruction& instruction);
+  void leave_to_cartridge(const Instruction& instruction, Xbyak::Label& interpret);
+  bool may_be_left_to(std::uint16_t target) const;
   void rts(const Instruction& instruction);
   void jmp_indirect(const Instruction& instruction);
   void find_block(Xbyak::Label& none);

@@ -48,8 +48,15 @@ BlockEmitter::Value BlockEmitter::read_fixed(const Instruction& instruction) {
   return {Value::Kind::kMemory, 0, as_.rdx + (address & 0x3F)};
 }
 
-// Reads the TIA or the RIOT, in line; eax, ecx as call_read wants them.
+// Reads the TIA or the RIOT, in line; eax, ecx as call_read wants them. Not where the cartridge takes part in it: it may
+// have memory there, or switch banks.
 void BlockEmitter::read_device(const Instruction& instruction, const Place& place) {
+  if (as_.window.cartridge_watches()) {
+    remove_penalty(instruction);
+    settle(place);
+    leave_before(instruction);
+    return;
+  }
   as_.lea(as_.edx, as_.ptr[as_.rbp + (place.elapsed + instruction.cycles)]);
   call_read(as_);
   if (place.rom_loaded) load_rom_again();
@@ -232,7 +239,7 @@ void BlockEmitter::write_fixed(const Instruction& instruction, Reg32 value) {
   }
   const unsigned reg = address & 0x3F;
   if (is_tia(address) && (as_.window.plain_registers >> reg & 1) != 0) return write_register(instruction, reg, value);
-  if (is_tia(address) && reg == WSYNC && as_.window.plain_registers != 0) return write_wsync(instruction);
+  if (is_tia(address) && reg == WSYNC && !as_.window.cartridge_watches()) return write_wsync(instruction);
   as_.mov(as_.eax, address);
   call_write(instruction, value, here());
 }

@@ -7,9 +7,8 @@
 namespace racebeam::translator {
 namespace {
 
-// A cartridge that watches the TIA may have memory at its addresses.
 std::uint32_t read_bus(Board* board, std::uint32_t address, std::uint32_t latch, std::int32_t cycle) {
-  return board->read(static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch), cycle);
+  return board->read_device(static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch), cycle);
 }
 
 std::int32_t write_bus(Board* board, std::uint32_t address, std::uint32_t value, std::int32_t cycle) {

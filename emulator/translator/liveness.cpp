@@ -39,17 +39,18 @@ bool reads_carry(Operation operation) {
          operation == Operation::ror;
 }
 
-// A read that may find a hot spot: not known to be in the window, in RAM, or in a device.
-bool may_switch_banks(const Instruction& instruction, const CodeWindow& window) {
-  const bool reads = instruction.access == Access::Read || instruction.access == Access::Modify;
-  const auto known = [&](unsigned count) {
-    const unsigned offset = (instruction.operand - window.first) & 0x3FFFU;
-    return !is_cartridge(instruction.operand) || offset + count <= window.span;
+// A read that may find a hot spot: it is not known to be in the window, in RAM, or in a device that the cartridge leaves
+// alone.
+bool may_switch_banks(const Instruction& instruction, const Window& window) {
+  if (instruction.access != Access::Read && instruction.access != Access::Modify) return false;
+  if (window.cartridge_watches()) return true;
+  const auto in_window = [&](unsigned count) {
+    return is_cartridge(instruction.operand) && ((instruction.operand - window.code.first) & 0x3FFFU) + count <= window.code.span;
   };
   switch (instruction.mode) {
-    case Mode::absolute: return reads && !known(1);
-    case Mode::absolute_x: case Mode::absolute_y: return reads && !(is_cartridge(instruction.operand) && known(256));
-    case Mode::indirect_x: case Mode::indirect_y: return reads;
+    case Mode::absolute: return is_cartridge(instruction.operand) && !in_window(1);
+    case Mode::absolute_x: case Mode::absolute_y: return !in_window(256);
+    case Mode::indirect_x: case Mode::indirect_y: return true;
     default: return false;
   }
 }
@@ -57,12 +58,13 @@ bool may_switch_banks(const Instruction& instruction, const CodeWindow& window) 
 }  // namespace
 
 bool may_write_device(const Instruction& instruction) {
-  if (instruction.access != Access::Write) return false;
+  if (instruction.operation == Operation::pha || instruction.operation == Operation::php) return true;  // the stack may be there
+  if (instruction.access != Access::Write && instruction.access != Access::Modify) return false;
   const bool fixed = instruction.mode == Mode::zero_page || instruction.mode == Mode::absolute;
   return !fixed || !is_ram(instruction.operand);
 }
 
-std::vector<Flags> live_flags(const Block& block, const CodeWindow& window) {
+std::vector<Flags> live_flags(const Block& block, const Window& window) {
   std::vector<Flags> after(block.instructions.size());
   Flags live;
   for (std::size_t i = block.instructions.size(); i-- > 0;) {

@@ -17,7 +17,7 @@ namespace {
 constexpr std::int32_t kMargin = 400;
 
 // Instructions that the interpreter runs at a time where there is nothing to translate: code in RAM, mostly.
-constexpr std::int32_t kElsewhere = 4;
+constexpr std::int32_t kElsewhere = 8;
 
 constexpr std::int32_t kFewestCycles = 2;  // of an instruction
 
