@@ -11,6 +11,7 @@
 #include <span>
 
 #include "cli/actions.hpp"
+#include "cli/bench_session.hpp"
 #include "cli/cpu_clock.hpp"
 #include "cli/options.hpp"
 #include "cli/snapshot_bench.hpp"
@@ -33,6 +34,13 @@ ratios measured in one run (scripts/bench), not times from different days.
 which has the pictures too; and, as the next frame has to draw beside a saved picture, save + one frame +
 restore beside a frame.
 
+--commands reads from standard input what to do, a line each, and answers with a line of JSON; so another program
+can let two machines play the same acts in turns:
+  play A A ...    plays these actions, one act each, timed; a game that is over is reset
+  check A A ...   the same, not timed, with a checksum of what each act led to
+  reset N         times N resets
+  save N          times N snapshots, each taken and restored at once
+
 Example:
   racebeam bench --rom pong.bin --frames 20000 --frame-skip 4 --screen last)";
 
@@ -45,6 +53,7 @@ struct BenchOptions {
   std::string screen = "every";
   bool json = false;
   bool save_restore = false;
+  bool commands = false;
 };
 
 struct Tally {
@@ -183,8 +192,16 @@ void print(const nlohmann::ordered_json& figures) {
   }
 }
 
+void run_commands(const BenchOptions& options, const Cartridge& cartridge) {
+  if (options.screen == "every" && options.machine.settings.frame_skip > 1)
+    throw std::invalid_argument("--commands acts once a frame skip; --screen last or none goes with --frame-skip " +
+                                std::to_string(options.machine.settings.frame_skip));
+  run_bench_session(cartridge, options.machine, options.screen != "none", std::cin, std::cout);
+}
+
 void run(const BenchOptions& options) {
   const Cartridge cartridge = open_cartridge(options.machine);
+  if (options.commands) return run_commands(options, cartridge);
   Bench bench{options, cartridge};
   const Tally tally = bench.run();
   auto figures = report(options, tally, bench.environment());
@@ -211,6 +228,7 @@ void add_bench(CLI::App& app) {
       ->capture_default_str();
   command.add_flag("--audio", settings.sound, "Produce sound too");
   command.add_flag("--save-restore", options->save_restore, "Time snapshots too");
+  command.add_flag("--commands", options->commands, "Do what standard input says, line by line");
   command.add_flag("--json", options->json, "Print the figures as one JSON object");
   command.footer(kFooter);
   command.callback([options] { run(*options); });

@@ -17,24 +17,10 @@ double nanoseconds_each(int times, Action action) {
   return (cpu_seconds() - start) / times * 1e9;
 }
 
-// The copies go to different places, so that it is memory that is measured and not a value kept in registers.
-double time_machine(const Cartridge& cartridge, std::uint32_t system_seed) {
-  SystemGenerator generator{system_seed};
-  Console console{cartridge.image->bytes, cartridge.game->properties_for(cartridge.image->md5), generator};
-  console.reset();
-  for (int frame = 0; frame < kFramesBefore; ++frame) console.step();
-  std::array<State, 64> saved;
-  return nanoseconds_each(1'000'000, [&](std::size_t i) {
-    State& place = saved[i % saved.size()];
-    place = console.state();
-    console.restore(place);
-  });
-}
-
 void time_client(const Cartridge& cartridge, const MachineOptions& options, SnapshotTimes& times) {
   Environment environment = power_on(cartridge, options);
   for (int frame = 0; frame < kFramesBefore; ++frame) environment.act(0);
-  times.client_ns = nanoseconds_each(20'000, [&](std::size_t) { environment.restore(*environment.save()); });
+  times.client_ns = time_client_snapshots(environment, 20'000);
   times.frame_ns = nanoseconds_each(1'000, [&](std::size_t) { environment.act(0); });
   times.round_ns = nanoseconds_each(1'000, [&](std::size_t) {
     const auto saved = environment.save();
@@ -45,10 +31,28 @@ void time_client(const Cartridge& cartridge, const MachineOptions& options, Snap
 
 }  // namespace
 
+// The copies go to different places, so that it is memory that is measured and not a value kept in registers.
+double time_machine_snapshots(const Cartridge& cartridge, const MachineOptions& options, int times) {
+  SystemGenerator generator{options.settings.system_seed};
+  Console console{cartridge.image->bytes, cartridge.game->properties_for(cartridge.image->md5), generator};
+  console.reset();
+  for (int frame = 0; frame < kFramesBefore; ++frame) console.step();
+  std::array<State, 64> saved;
+  return nanoseconds_each(times, [&](std::size_t i) {
+    State& place = saved[i % saved.size()];
+    place = console.state();
+    console.restore(place);
+  });
+}
+
+double time_client_snapshots(Environment& environment, int times) {
+  return nanoseconds_each(times, [&](std::size_t) { environment.restore(*environment.save()); });
+}
+
 SnapshotTimes time_snapshots(const Cartridge& cartridge, const MachineOptions& options) {
   SnapshotTimes times;
   times.machine_bytes = sizeof(State);
-  times.machine_ns = time_machine(cartridge, options.settings.system_seed);
+  times.machine_ns = time_machine_snapshots(cartridge, options, 1'000'000);
   time_client(cartridge, options, times);
   return times;
 }

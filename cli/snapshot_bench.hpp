@@ -16,4 +16,10 @@ struct SnapshotTimes {
 // Plays some frames of the cartridge first, so that the state is one from the middle of a game.
 SnapshotTimes time_snapshots(const Cartridge& cartridge, const MachineOptions& options);
 
+// Nanoseconds to copy the state of a machine in the middle of a game out and back, in the mean of `times`.
+double time_machine_snapshots(const Cartridge& cartridge, const MachineOptions& options, int times);
+
+// The same of Environment::save and restore.
+double time_client_snapshots(Environment& environment, int times);
+
 }  // namespace racebeam
