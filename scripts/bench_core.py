@@ -1,0 +1,201 @@
+"""Measures racebeam beside ALE, game by game, in one run, and checks in the same run that both did the same.
+
+Settings:
+  every    the screen and RAM of every frame
+  last     frame skip 4, the screen of the last frame
+  none     rewards and RAM only (ALE draws all the same: it has no way not to)
+  states   a reset, and a state saved and restored
+
+Each side is a process of its own; both are pinned to one processor and play chunks of the same random legal actions in
+turns, so that whatever else the machine does hits both. Processor time of the acts alone is counted; resets are not.
+A setting begins with two chunks that don't count (caches, code that is translated).
+
+The ratio of a game is the median of its chunks' ratios. Both sides of one chunk did the same work a moment apart, so
+that a ratio is good even when the machine's speed drifts; a disturbance spoils a few chunks, which a median leaves out and
+a mean would not; a best-of would pick, of either side, another scene of the game, or another kind of luck.
+
+What is checked: after each timed chunk frames, rewards, resets, RAM and (where it is looked at) the screen; then the same
+actions once more on new machines, not timed, with a checksum of screen, RAM, reward, end and lives after every act. The first
+difference ends the run: scripts/conformance finds out more.
+"""
+import argparse
+import datetime
+import json
+import pathlib
+import random
+import shlex
+import statistics
+import sys
+import time
+from dataclasses import dataclass
+
+import bench_report
+import bench_sides
+import cartridges
+
+QUICK_GAMES = ["breakout", "pong", "qbert", "seaquest", "space_invaders"]
+CHUNK = 500  # frames
+WARM_UP = 2  # chunks
+ROUNDS, RESETS, SNAPSHOTS = 5, 4, 200
+
+
+@dataclass(frozen=True)
+class Setting:
+    skip: int
+    look: bool
+
+
+SETTINGS = {"every": Setting(1, True), "last": Setting(4, True), "none": Setting(1, False)}
+STATES = "states"
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(prog="scripts/bench core", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--games", nargs="+", metavar="GAME", help="default: all that the reference can play")
+    parser.add_argument("--frames", type=int, metavar="N",
+                        help="frames of a game in a setting, beside those that don't count (default 10000)")
+    parser.add_argument("--settings", nargs="+", choices=[*SETTINGS, STATES], default=[*SETTINGS, STATES])
+    parser.add_argument("--cpu", choices=["auto", "interpreter", "translator"],
+                        help="what runs the instructions (passed on to racebeam bench)")
+    parser.add_argument("--quick", action="store_true",
+                        help="4000 frames of five games only: " + " ".join(QUICK_GAMES))
+    parser.add_argument("--out", type=pathlib.Path, default=cartridges.ROOT / "build/bench/core.json", metavar="FILE",
+                        help="all figures, as JSON (default build/bench/core.json)")
+    parser.add_argument("--write", action="store_true",
+                        help="write tables and picture into docs/performance.md and docs/performance-core.svg")
+    parser.add_argument("--from", dest="source", type=pathlib.Path, metavar="FILE",
+                        help="measure nothing, take the figures from this file")
+    options = parser.parse_args()
+    options.games = options.games or (QUICK_GAMES if options.quick else cartridges.games())
+    options.frames = options.frames or (4000 if options.quick else 10000)
+    if options.frames < CHUNK:
+        parser.error(f"--frames {options.frames}: a chunk has {CHUNK}, and one is the least")
+    return options
+
+
+def draw_chunks(game, legal_actions, chunks, acts):
+    """Like a player's actions: one is held for four acts on average. The same for a game each time."""
+    generator, action = random.Random(game), 0
+    for _ in range(chunks):
+        actions = []
+        for _ in range(acts):
+            if generator.random() < 0.25:
+                action = legal_actions[int(generator.random() * len(legal_actions))]
+            actions.append(action)
+        yield " ".join(map(str, actions))
+
+
+def must_agree(game, where, theirs, ours, keys):
+    for key in keys:
+        if theirs.get(key) != ours.get(key):
+            sys.exit(f"bench: {game} differs from the reference in {where}: {key} {theirs.get(key)} there, "
+                     f"{ours.get(key)} here; scripts/conformance --games {game} shows more")
+
+
+def both_open(reference, game, setting, cpu):
+    opened = reference.open(game, setting.skip, setting.look)
+    return opened, bench_sides.Racebeam(game, setting.skip, setting.look, cpu)
+
+
+def time_chunks(reference, game, name, options):
+    """The chunks' [seconds of ALE, seconds of racebeam, frames], and the actions played."""
+    setting = SETTINGS[name]
+    opened, racebeam = both_open(reference, game, setting, options.cpu)
+    chunks = list(draw_chunks(game, opened["legal_actions"], WARM_UP + options.frames // CHUNK, CHUNK // setting.skip))
+    times = []
+    with racebeam:
+        for number, actions in enumerate(chunks, 1):
+            theirs, ours = reference.ask("play " + actions), racebeam.ask("play " + actions)
+            must_agree(game, f"setting {name}, after chunk {number}", theirs, ours,
+                       ("frames", "reward", "resets", "screen", "ram"))
+            times.append([theirs["seconds"], ours["seconds"], ours["frames"]])
+    return times[WARM_UP:], chunks
+
+
+def check_chunks(reference, game, name, chunks, options):
+    _, racebeam = both_open(reference, game, SETTINGS[name], options.cpu)
+    with racebeam:
+        for number, actions in enumerate(chunks, 1):
+            racebeam.send("check " + actions)
+            theirs, ours = reference.ask("check " + actions), racebeam.answer()
+            must_agree(game, f"setting {name}, within chunk {number}", theirs, ours,
+                       ("digest", "frames", "reward", "resets"))
+
+
+def measure_setting(reference, game, name, options):
+    times, chunks = time_chunks(reference, game, name, options)
+    check_chunks(reference, game, name, chunks, options)
+    ratios = [theirs / ours for theirs, ours, _ in times]
+    low, _, high = statistics.quantiles(ratios, n=4) if len(ratios) > 1 else ratios * 3
+    return {"ale_frames_per_second": statistics.median(frames / theirs for theirs, _, frames in times),
+            "racebeam_frames_per_second": statistics.median(frames / ours for _, ours, frames in times),
+            "ratio": statistics.median(ratios), "quartiles": [low, high],
+            "frames_checked": sum(frames for _, _, frames in times), "chunks": times}
+
+
+def measure_states(reference, game, options):
+    setting = SETTINGS["every"]
+    opened, racebeam = both_open(reference, game, setting, options.cpu)
+    first_actions, after = draw_chunks(game, opened["legal_actions"], 2, CHUNK)
+    resets, saves = [], []
+    with racebeam:
+        both = lambda command: (reference.ask(command), racebeam.ask(command))
+        both("play " + first_actions)
+        for number in range(1, ROUNDS + 1):
+            theirs, ours = both(f"reset {RESETS}")
+            must_agree(game, f"setting {STATES}, after reset {number * RESETS}", theirs, ours, ("screen", "ram"))
+            resets.append((theirs["seconds"], ours["seconds"]))
+        both("play " + first_actions)
+        for _ in range(ROUNDS):
+            theirs, ours = both(f"save {SNAPSHOTS}")
+            saves.append((theirs["seconds"], ours["seconds"], ours["machine_seconds"]))
+        must_agree(game, f"setting {STATES}, after its snapshots", *both("check " + after), ("digest",))
+    median = lambda rows, column: statistics.median(row[column] for row in rows)
+    return {"ale_reset_ms": median(resets, 0) * 1e3, "racebeam_reset_ms": median(resets, 1) * 1e3,
+            "reset_ratio": statistics.median(theirs / ours for theirs, ours in resets),
+            "ale_save_restore_ns": median(saves, 0) * 1e9, "racebeam_save_restore_ns": median(saves, 1) * 1e9,
+            "machine_save_restore_ns": median(saves, 2) * 1e9,
+            "save_restore_ratio": statistics.median(theirs / ours for theirs, ours, _ in saves)}
+
+
+def in_short(results):
+    parts = [f"{name} {results[name]['ratio']:.2f}" for name in SETTINGS if name in results]
+    if STATES in results:
+        states = results[STATES]
+        parts.append(f"reset {states['reset_ratio']:.2f}, save and restore {states['save_restore_ratio']:.0f}")
+    return ", ".join(parts)
+
+
+def measure(options):
+    games, start = {}, time.monotonic()
+    with bench_sides.Reference() as reference:
+        for number, game in enumerate(options.games, 1):
+            games[game] = {name: measure_setting(reference, game, name, options)
+                           for name in SETTINGS if name in options.settings}
+            if STATES in options.settings:
+                games[game][STATES] = measure_states(reference, game, options)
+            print(f"{number}/{len(options.games)} {time.monotonic() - start:.0f} s  {game}: {in_short(games[game])}",
+                  file=sys.stderr, flush=True)
+    return {"command": shlex.join(["scripts/bench", "core", *sys.argv[1:]]),
+            "date": datetime.date.today().isoformat(), "seconds": round(time.monotonic() - start),
+            "machine": bench_report.machine(), "versions": bench_report.versions(bench_sides.RACEBEAM),
+            "frames": options.frames // CHUNK * CHUNK, "chunk_frames": CHUNK, "games": games}
+
+
+def main():
+    options = parse_arguments()
+    try:
+        results = json.loads(options.source.read_text()) if options.source else measure(options)
+    except (LookupError, OSError) as error:
+        sys.exit(f"bench: {error}")
+    if not options.source:
+        options.out.parent.mkdir(parents=True, exist_ok=True)
+        options.out.write_text(json.dumps(results, indent=1) + "\n")
+    print(bench_report.page(results))
+    if options.write:
+        bench_report.write(results)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,126 @@
+"""What scripts/bench core found, as tables in a page, and where it was found."""
+import math
+import os
+import pathlib
+import platform
+import re
+import subprocess
+
+import bench_picture
+import cartridges
+
+PAGE = cartridges.ROOT / "docs/performance.md"
+PICTURE = cartridges.ROOT / "docs/performance-core.svg"
+BEGIN, END = "<!-- scripts/bench core --write: begin -->", "<!-- end -->"
+HEADINGS = {"every": "Screen of every frame", "last": "Frame skip 4, screen of the last", "none": "Rewards and RAM only"}
+
+
+def machine():
+    models = re.findall(r"^model name\s*: (.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.M)
+    system = platform.freedesktop_os_release().get("PRETTY_NAME", platform.system())
+    return {"processor": models[0] if models else platform.machine(), "processors": os.cpu_count(), "system": system}
+
+
+def output(*command):
+    done = subprocess.run(command, capture_output=True, text=True, cwd=cartridges.ROOT)
+    return done.stdout.strip() if done.returncode == 0 else "unknown"
+
+
+def compiler(binary):
+    """As the CMake cache beside the program names it."""
+    cache = pathlib.Path(binary).parent / "CMakeCache.txt"
+    found = re.search(r"^CMAKE_CXX_COMPILER:\w+=(.*)$", cache.read_text(), re.M) if cache.exists() else None
+    return output(found[1], "--version").splitlines()[0] if found else "unknown"
+
+
+def versions(binary):
+    import ale_py
+    return {"racebeam": output(binary, "--version").removeprefix("racebeam "),
+            "commit": output("git", "describe", "--always", "--dirty"),
+            "compiler": compiler(binary), "ale_py": ale_py.__version__, "python": platform.python_version()}
+
+
+def geomean(numbers):
+    return math.exp(sum(map(math.log, numbers)) / len(numbers))
+
+
+def settings_in(results):
+    first = next(iter(results["games"].values()))
+    return [name for name in HEADINGS if name in first]
+
+
+def summary(results):
+    """{setting: (geomean, the worst ratio, whose it is)}; resets and snapshots are settings here."""
+    columns = {HEADINGS[name]: {game: found[name]["ratio"] for game, found in results["games"].items()}
+               for name in settings_in(results)}
+    if all("states" in found for found in results["games"].values()):
+        for key, heading in (("reset_ratio", "Reset"), ("save_restore_ratio", "Save and restore, with pictures")):
+            columns[heading] = {game: found["states"][key] for game, found in results["games"].items()}
+    return {heading: (geomean(ratios.values()), *min((ratio, game) for game, ratio in ratios.items()))
+            for heading, ratios in columns.items()}
+
+
+def table(headings, rows):
+    numbers = "---:|" * (len(headings) - 1)
+    return "\n".join(["| " + " | ".join(headings) + " |", "|---|" + numbers,
+                      *("| " + " | ".join(row) + " |" for row in rows)])
+
+
+def summary_table(results):
+    return table(["", "geomean", "worst", "of"],
+                 [[heading, f"{mean:.2f}", f"{worst:.2f}", game] for heading, (mean, worst, game) in summary(results).items()])
+
+
+def speed_table(results):
+    names = settings_in(results)
+    headings = ["game"]
+    for name in names:
+        headings += [f"{name}: ALE, frames/s", "racebeam", "ratio"]
+    rows = []
+    for game, found in results["games"].items():
+        row = [game]
+        for figures in (found[name] for name in names):
+            row += [f"{figures['ale_frames_per_second']:,.0f}", f"{figures['racebeam_frames_per_second']:,.0f}",
+                    f"{figures['ratio']:.2f}"]
+        rows.append(row)
+    return table(headings, rows)
+
+
+def states_table(results):
+    rows = [[game, f"{s['ale_reset_ms']:.2f}", f"{s['racebeam_reset_ms']:.3f}", f"{s['ale_save_restore_ns']:,.0f}",
+             f"{s['racebeam_save_restore_ns']:,.0f}", f"{s['machine_save_restore_ns']:,.0f}"]
+            for game, s in ((game, found["states"]) for game, found in results["games"].items())]
+    return table(["game", "reset: ALE, ms", "racebeam, ms", "save + restore: ALE, ns", "racebeam, with pictures, ns",
+                  "the machine alone, ns"], rows)
+
+
+def circumstances(results):
+    at, of = results["machine"], results["versions"]
+    return (f"`{results['command']}`, {results['date']}, {results['seconds'] / 60:.0f} minutes. {at['processor']}, "
+            f"{at['processors']} processors, {at['system']}; racebeam {of['racebeam']} ({of['commit']}), {of['compiler']}; "
+            f"ale-py {of['ale_py']}, Python {of['python']}. {len(results['games'])} games, {results['frames']:,} frames of each in "
+            f"each setting, in chunks of {results['chunk_frames']}; every one of them was checked.")
+
+
+def page(results):
+    parts = [circumstances(results), summary_table(results)]
+    if settings_in(results):
+        parts.append(speed_table(results))
+    if all("states" in found for found in results["games"].values()):
+        parts.append(states_table(results))
+    return "\n\n".join(parts)
+
+
+def write(results):
+    """Puts tables and picture into the documents. Raises OSError if the page lacks its markers."""
+    before, begin, rest = PAGE.read_text().partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not (begin and end):
+        raise OSError(f"{PAGE} lacks the lines {BEGIN} and {END}, between which the tables go")
+    picture = ""
+    names = settings_in(results)
+    if names:
+        PICTURE.write_text(bench_picture.draw({game: found[names[0]]["ratio"] for game, found in results["games"].items()},
+                                              HEADINGS[names[0]]))
+        picture = f"![{HEADINGS[names[0]]}: ratio to ALE, by game]({PICTURE.name})\n\n"
+    PAGE.write_text(f"{before}{BEGIN}\n{picture}{page(results)}\n{END}{after}")

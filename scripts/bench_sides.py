@@ -1,0 +1,60 @@
+"""The two processes that are measured beside each other. Both read commands and answer with a line of JSON each."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import cartridges
+
+HERE = pathlib.Path(__file__).resolve().parent
+RACEBEAM = os.environ.get("RACEBEAM_BINARY", str(cartridges.ROOT / "build/release/racebeam"))
+SEED = 123  # as bench_reference.py; both sides play without sticky actions
+
+
+def one_processor():
+    """Both sides run on the same one: what else happens there hits both, and a slower one is slower for both."""
+    os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+
+
+class Side:
+    def __init__(self, name, command):
+        self.name = name
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                                        preexec_fn=one_processor)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.stdin.close()
+        self.process.wait()
+
+    def ask(self, command):
+        self.send(command)
+        return self.answer()
+
+    def send(self, command):
+        self.process.stdin.write(command + "\n")
+        self.process.stdin.flush()
+
+    def answer(self):
+        line = self.process.stdout.readline()
+        if not line:
+            sys.exit(f"bench: {self.name} ended in the middle of the measurement, status {self.process.wait()}")
+        return json.loads(line)
+
+
+class Reference(Side):
+    def __init__(self):
+        super().__init__("the reference", [sys.executable, HERE / "bench_reference.py"])
+
+    def open(self, game, skip, look):
+        return self.ask(f"open {skip} {look:d} {cartridges.image(game)}")
+
+
+class Racebeam(Side):
+    def __init__(self, game, skip, look, cpu=None):
+        super().__init__("racebeam", [
+            RACEBEAM, "bench", "--commands", "--rom", cartridges.image(game), "--seed", str(SEED), "--sticky", "0",
+            "--frame-skip", str(skip), "--screen", "last" if look else "none", *(["--cpu", cpu] if cpu else [])])
