@@ -22,31 +22,21 @@ import argparse
 import datetime
 import json
 import pathlib
-import random
 import shlex
 import statistics
 import sys
 import time
-from dataclasses import dataclass
 
 import bench_report
 import bench_sides
 import cartridges
+from bench_settings import SETTINGS, draw_actions
 
 QUICK_GAMES = ["breakout", "pong", "qbert", "seaquest", "space_invaders"]
 CHUNK = 500  # frames
 WARM_UP = 2  # chunks
-ROUNDS, RESETS, SNAPSHOTS = 5, 4, 200
-
-
-@dataclass(frozen=True)
-class Setting:
-    skip: int
-    look: bool
-
-
-SETTINGS = {"every": Setting(1, True), "last": Setting(4, True), "none": Setting(1, False)}
 STATES = "states"
+ROUNDS, RESETS, SNAPSHOTS = 5, 4, 200  # of which a round has so many
 
 
 def parse_arguments():
@@ -75,15 +65,8 @@ def parse_arguments():
 
 
 def draw_chunks(game, legal_actions, chunks, acts):
-    """Like a player's actions: one is held for four acts on average. The same for a game each time."""
-    generator, action = random.Random(game), 0
-    for _ in range(chunks):
-        actions = []
-        for _ in range(acts):
-            if generator.random() < 0.25:
-                action = legal_actions[int(generator.random() * len(legal_actions))]
-            actions.append(action)
-        yield " ".join(map(str, actions))
+    actions = draw_actions(game, legal_actions, chunks * acts)
+    return [" ".join(map(str, actions[start:start + acts])) for start in range(0, len(actions), acts)]
 
 
 def must_agree(game, where, theirs, ours, keys):
@@ -102,7 +85,7 @@ def time_chunks(reference, game, name, options):
     """The chunks' [seconds of ALE, seconds of racebeam, frames], and the actions played."""
     setting = SETTINGS[name]
     opened, racebeam = both_open(reference, game, setting, options.cpu)
-    chunks = list(draw_chunks(game, opened["legal_actions"], WARM_UP + options.frames // CHUNK, CHUNK // setting.skip))
+    chunks = draw_chunks(game, opened["legal_actions"], WARM_UP + options.frames // CHUNK, CHUNK // setting.skip)
     times = []
     with racebeam:
         for number, actions in enumerate(chunks, 1):

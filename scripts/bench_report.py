@@ -8,11 +8,12 @@ import subprocess
 
 import bench_picture
 import cartridges
+from bench_settings import SETTINGS
 
 PAGE = cartridges.ROOT / "docs/performance.md"
 PICTURE = cartridges.ROOT / "docs/performance-core.svg"
 BEGIN, END = "<!-- scripts/bench core --write: begin -->", "<!-- end -->"
-HEADINGS = {"every": "Screen of every frame", "last": "Frame skip 4, screen of the last", "none": "Rewards and RAM only"}
+HEADINGS = {name: setting.heading for name, setting in SETTINGS.items()}
 
 
 def machine():

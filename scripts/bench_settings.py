@@ -1,0 +1,25 @@
+"""What is measured: the settings in which games are played, and the actions."""
+import random
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Setting:
+    heading: str
+    skip: int   # frames of an act
+    look: bool  # at the screen after each act
+
+
+SETTINGS = {"every": Setting("Screen of every frame", 1, True),
+            "last": Setting("Frame skip 4, screen of the last", 4, True),
+            "none": Setting("Rewards and RAM only", 1, False)}
+
+
+def draw_actions(game, legal_actions, count):
+    """Like a player's: an action is held for four acts on average. A game's are the same each time."""
+    generator, actions, action = random.Random(game), [], 0
+    for _ in range(count):
+        if generator.random() < 0.25:
+            action = legal_actions[int(generator.random() * len(legal_actions))]
+        actions.append(action)
+    return actions
