@@ -34,8 +34,8 @@ ratios measured in one run (scripts/bench), not times from different days.
 which has the pictures too; and, as the next frame has to draw beside a saved picture, save + one frame +
 restore beside a frame.
 
---commands reads from standard input what to do, a line each, and answers with a line of JSON; so another program
-can let two machines play the same acts in turns:
+--commands reads from standard input what to do, a line each, and answers with a line of JSON; so another
+program can let two machines play the same acts in turns:
   play A A ...    plays these actions, one act each, timed; a game that is over is reset
   check A A ...   the same, not timed, with a checksum of what each act led to
   reset N         times N resets
@@ -194,8 +194,9 @@ void print(const nlohmann::ordered_json& figures) {
 
 void run_commands(const BenchOptions& options, const Cartridge& cartridge) {
   if (options.screen == "every" && options.machine.settings.frame_skip > 1)
-    throw std::invalid_argument("--commands acts once a frame skip; --screen last or none goes with --frame-skip " +
-                                std::to_string(options.machine.settings.frame_skip));
+    throw std::invalid_argument(
+        "--commands looks once a frame skip; --screen last or none goes with --frame-skip " +
+        std::to_string(options.machine.settings.frame_skip));
   run_bench_session(cartridge, options.machine, options.screen != "none", std::cin, std::cout);
 }
 

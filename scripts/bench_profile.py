@@ -26,6 +26,7 @@ PARTS = (
     ("the measurement", r"cli/"),
     ("libraries", r""),
 )
+WIDEST = 80  # characters of a function's name
 
 
 def parse_arguments():
@@ -54,10 +55,10 @@ def by_part(counts):
 
 
 def print_table(heading, rows, counts):
-    width = max(len(heading), 24)
+    width = min(max(len(label) for label, _ in rows), WIDEST)
     print(f"\n{heading:<{width}} instructions a frame  share")
     for label, cost in rows:
-        print(f"{label:<{width}} {cost / counts.frames:>20,.0f} {cost / counts.total:>5.1%}")
+        print(f"{label[:width]:<{width}} {cost / counts.frames:>20,.0f} {cost / counts.total:>5.1%}")
 
 
 def main():

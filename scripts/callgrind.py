@@ -51,8 +51,8 @@ def count(binary, game, setting, before, frames, cpu=None, environment=PLAIN):
              "--screen", "last" if setting.look else "none", *(["--cpu", cpu] if cpu else [])],
             input=commands, capture_output=True, text=True, env=os.environ | environment)
         if done.returncode:
-            raise RuntimeError(f"{game}: racebeam under valgrind ended with status {done.returncode}: "
-                               f"{(done.stderr.splitlines() or [''])[-1]}")
+            own = [line for line in done.stderr.splitlines() if not line.startswith("==")]  # not valgrind's
+            raise RuntimeError(f"{game}: racebeam under valgrind ended with status {done.returncode}: {' '.join(own[-1:])}")
         counts = read(out)
     counts.frames = len(actions[first:]) * setting.skip
     return counts
@@ -97,8 +97,8 @@ def read(path):
 
 
 def place(file, own_file, thing, home):
-    """The path in the tree, else the name of the library, else that it is code made at run time."""
+    """The path in the tree, else the program or library it is in, else that it is code made at run time."""
     for candidate in (file, own_file):
         if candidate.startswith(home):
             return os.path.normpath(candidate.removeprefix(home))
-    return MADE_AT_RUN_TIME if thing in ("", "???") else os.path.basename(thing)
+    return MADE_AT_RUN_TIME if thing in ("", "???") else f"{os.path.basename(thing)} (not in the tree)"

@@ -1,4 +1,5 @@
 """Where the tools find cartridge images: our own are built in, others are in RACEBEAM_ROMS, else in ale-py."""
+import importlib.util
 import os
 import pathlib
 
@@ -10,7 +11,12 @@ WITHOUT_RULE = ("combat", "joust", "maze_craze", "warlords")  # the reference ha
 def folder():
     """The folder of images, or None if there is none."""
     given = os.environ.get("RACEBEAM_ROMS")
-    candidates = [pathlib.Path(given)] if given else ROOT.glob(".venv/lib/python*/site-packages/ale_py/roms")
+    if given:
+        candidates = [pathlib.Path(given)]
+    else:
+        here = importlib.util.find_spec("ale_py")
+        candidates = [pathlib.Path(here.origin).parent / "roms"] if here else []
+        candidates += ROOT.glob(".venv/lib/python*/site-packages/ale_py/roms")
     return next((path for path in candidates if path.is_dir()), None)
 
 

@@ -15,6 +15,12 @@ def bench(*words, data=b""):
     return json.loads(printed)
 
 
+def commands(*lines):
+    status, printed, errors = run("bench", "--rom", GAME, "--commands", data="\n".join(lines).encode())
+    assert (status, errors) == (0, []), errors
+    return [json.loads(line) for line in printed.splitlines()]
+
+
 def work(figures):
     return [figures[key] for key in ("frames", "reward", "resets", "last_screen_crc", "last_ram_crc")]
 
@@ -49,6 +55,38 @@ class Bench(unittest.TestCase):
         figures = bench("--frames", "10", "--save-restore")
         self.assertLessEqual(figures["machine_state_bytes"], 2048)
         self.assertGreater(figures["client_save_restore_ns"], figures["machine_save_restore_ns"])
+
+    def test_commands_are_answered_line_by_line(self):
+        play, check, reset, save = commands("play 1 3 3 4", "check 4 4", "reset 2", "save 10")
+        self.assertEqual((play["frames"], play["resets"]), (4, 0))
+        self.assertGreater(play["seconds"], 0)
+        self.assertEqual((check["frames"], set(check) >= {"digest", "reward"}), (2, True))
+        self.assertGreater(reset["seconds"], 0)
+        self.assertGreater(min(save["seconds"], save["machine_seconds"]), 0)
+
+    def test_what_is_checked_is_what_is_played(self):
+        actions = "1 3 3 4 11 11 " * 300  # resets included
+        played, checked = commands("play " + actions)[0], commands("check " + actions, "play 0")
+        for key in ("frames", "reward", "resets"):
+            self.assertEqual(played[key], checked[0][key])
+        self.assertEqual(commands("play " + actions, "play 0")[1]["ram"], checked[1]["ram"])
+
+    def test_the_checksum_is_of_every_act(self):
+        digest = lambda actions, *words: commands("check " + actions, *words)[0]["digest"]
+        self.assertEqual(digest("1 3 3 4"), digest("1 3 3 4"))
+        self.assertNotEqual(digest("1 3 3 4 0"), digest("1 3 3 4"))
+        _, printed, _ = run("bench", "--rom", GAME, "--commands", "--screen", "none", data=b"check 1 3 3 4")
+        self.assertNotEqual(json.loads(printed)["digest"], digest("1 3 3 4"))
+
+    def test_commands_that_are_none_are_refused(self):
+        for line in ("dance 1", "play", "play left", "reset 0", "save 1 2"):
+            with self.subTest(line=line):
+                status, _, errors = run("bench", "--rom", GAME, "--commands", data=line.encode())
+                self.assertEqual((status, len(errors)), (1, 1), errors)
+                self.assertIn(f"not understood: '{line}'; play A..., check A..., reset N and save N are", errors[0])
+        status, _, errors = run("bench", "--rom", GAME, "--commands", "--frame-skip", "4", data=b"play 1")
+        self.assertEqual(status, 1)
+        self.assertIn("--screen last or none goes with --frame-skip 4", errors[0])
 
     def test_the_text_names_the_same_figures(self):
         status, printed, errors = run("bench", "--rom", GAME, "--frames", "60", "--audio")

@@ -1,0 +1,138 @@
+"""scripts/bench core: two sides that do the same are measured, a difference ends the run, and the page gets its tables."""
+
+import glob
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import bench_picture
+import bench_report
+import bench_settings
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+BINARY = os.environ.get("RACEBEAM_BINARY", str(SOURCE / "build/release/racebeam"))
+SKIPPED = 77
+
+# A racebeam whose answer to the third command of a kind has one bit wrong in a field.
+LIAR = """\
+#!{python}
+import json, subprocess, sys
+real = subprocess.Popen([{binary!r}, *sys.argv[1:]], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+asked = 0
+for line in sys.stdin:
+    print(line, end="", file=real.stdin, flush=True)
+    answer = json.loads(real.stdout.readline())
+    asked += line.startswith({command!r})
+    if asked == 3 and {field!r} in answer:
+        answer[{field!r}] ^= 1
+    print(json.dumps(answer), flush=True)
+"""
+
+
+def python_with_reference():
+    for python in (sys.executable, *glob.glob(str(SOURCE / ".venv/bin/python"))):
+        if subprocess.run([python, "-c", "import ale_py, numpy"], capture_output=True).returncode == 0:
+            return python
+    return None
+
+
+PYTHON = python_with_reference()
+
+
+def figures(ratio):
+    setting = {"ale_frames_per_second": 100, "racebeam_frames_per_second": 100 * ratio, "ratio": ratio}
+    return {name: setting for name in bench_settings.SETTINGS}
+
+
+def results(ratios):
+    return {"command": "scripts/bench core", "date": "2026-01-02", "seconds": 60, "frames": 500, "chunk_frames": 500,
+            "machine": {"processor": "P", "processors": 2, "system": "S"},
+            "versions": {"racebeam": "1", "commit": "c", "compiler": "g", "ale_py": "0", "python": "3"},
+            "games": {game: figures(ratio) for game, ratio in ratios.items()}}
+
+
+class Reports(unittest.TestCase):
+    def test_the_summary_has_the_geomean_and_the_worst(self):
+        for mean, worst, game in bench_report.summary(results({"one": 2, "other": 8})).values():
+            self.assertAlmostEqual(mean, 4)
+            self.assertEqual((worst, game), (2, "one"))
+
+    def test_the_picture_has_a_bar_a_game_the_shortest_first(self):
+        picture = bench_picture.draw({"fast": 9.5, "slow": 3.25, "middle": 5}, "Heading")
+        places = [picture.index(f">{words}<") for words in ("slow", "3.25", "middle", "5.00", "fast", "9.50")]
+        self.assertEqual(places, sorted(places))
+        self.assertIn(">10x<", picture)
+        self.assertIn("worst 3.25 (slow)", picture)
+
+    def test_the_tables_go_between_the_markers_of_the_page(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bench_report.PAGE, bench_report.PICTURE = pathlib.Path(folder) / "page.md", pathlib.Path(folder) / "picture.svg"
+            bench_report.PAGE.write_text(f"before\n{bench_report.BEGIN}\nold\n{bench_report.END}\nafter\n")
+            bench_report.write(results({"one": 2}))
+            page = bench_report.PAGE.read_text()
+            self.assertRegex(page, r"(?s)^before\n.*\| one \| 100 \| 200 \| 2\.00 \|.*\nafter\n$")
+            self.assertNotIn("old", page)
+            self.assertTrue(bench_report.PICTURE.exists())
+            bench_report.PAGE.write_text("a page without markers")
+            with self.assertRaisesRegex(OSError, "lacks the lines"):
+                bench_report.write(results({"one": 2}))
+
+
+class Actions(unittest.TestCase):
+    def test_a_game_gets_the_same_actions_each_time_and_others_get_others(self):
+        draw = lambda game: bench_settings.draw_actions(game, range(18), 1000)
+        self.assertEqual(draw("pong"), draw("pong"))
+        self.assertNotEqual(draw("pong"), draw("qbert"))
+        self.assertEqual(set(draw("pong")), set(range(18)))
+
+
+class Measuring(unittest.TestCase):
+    def measure(self, binary, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder) / "core.json"
+            done = subprocess.run([PYTHON, "-B", SOURCE / "scripts/bench_core.py", "--games", "pong", "--frames", "1000",
+                                   "--out", out, *words], capture_output=True, text=True,
+                                  env=os.environ | {"RACEBEAM_BINARY": str(binary)})
+            return done, json.loads(out.read_text()) if out.exists() else None
+
+    def measure_liar(self, command, field, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            liar = pathlib.Path(folder) / "racebeam"
+            liar.write_text(LIAR.format(python=sys.executable, binary=BINARY, command=command, field=field))
+            liar.chmod(0o755)
+            return self.measure(liar, *words)[0]
+
+    def test_every_setting_is_measured(self):
+        done, found = self.measure(BINARY)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        game = found["games"]["pong"]
+        self.assertEqual(list(game), ["every", "last", "none", "states"])
+        for name in bench_settings.SETTINGS:
+            self.assertEqual([frames for _, _, frames in game[name]["chunks"]], [500, 500])
+            self.assertGreater(game[name]["ratio"], 0)
+        self.assertTrue(all(value > 0 for value in game["states"].values()))
+
+    def test_a_difference_ends_the_run_and_is_named(self):
+        for command, field, setting in (("play", "screen", "every"), ("play", "ram", "none"), ("check", "digest", "last"),
+                                        ("play", "reward", "none"), ("reset", "screen", "states")):
+            with self.subTest(command=command, field=field):
+                done = self.measure_liar(command, field, "--settings", setting)
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertRegex(done.stderr, rf"bench: pong differs from the reference in setting {setting}, .*: {field} ")
+
+    def test_a_game_without_an_image_is_named(self):
+        done, _ = self.measure(BINARY, "--games", "pang")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("there is no image of pang", done.stderr)
+
+
+if __name__ == "__main__":
+    if PYTHON is None:
+        print("bench: not tested beside the reference: there is no ale-py here or in .venv; scripts/reference installs it")
+        rest = unittest.main(argv=[sys.argv[0], "Reports", "Actions"], exit=False).result
+        sys.exit(SKIPPED if rest.wasSuccessful() else 1)
+    unittest.main()

@@ -1,0 +1,130 @@
+"""scripts/instructions: what is dearer fails, what is cheaper is told, and what can't be compared is skipped."""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import callgrind
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+TOOL = SOURCE / "scripts/instructions"
+BINARY = os.environ.get("RACEBEAM_BINARY", str(SOURCE / "build/release/racebeam"))
+SKIPPED = 77
+
+CALLGRIND = """\
+positions: line
+events: Ir
+summary: 47
+
+ob=(1) /somewhere/racebeam
+fl=(1) {root}/emulator/tia.cpp
+fn=(1) draw
+10 7
++2 3
+fi=(2) /usr/include/c++/12/array
+* 5
+fe=(1)
+12 1
+cob=(2) ???
+cfi=(3) ???
+cfn=(2) 0x0000000000abc000
+calls=3 0
+12 1000
+fi=(4) {root}/emulator/beam.hpp
+30 2
+ob=(2)
+fl=(3)
+fn=(2)
+0 20
+ob=(3) /lib/libc.so.6
+fl=(5) ./string/memset.S
+fn=(3) memset
+5 9
+"""
+
+
+class Reading(unittest.TestCase):
+    def setUp(self):
+        with tempfile.NamedTemporaryFile("w", delete=False) as file:
+            file.write(CALLGRIND.format(root=SOURCE))
+        self.addCleanup(os.unlink, file.name)
+        self.counts = callgrind.read(pathlib.Path(file.name))
+
+    def test_what_callees_cost_counts_once(self):
+        self.assertEqual(self.counts.total, 47)
+        self.assertEqual(self.counts.functions, {"draw": 18, callgrind.MADE_AT_RUN_TIME: 20, "memset": 9})
+
+    def test_what_is_inlined_counts_for_its_file_and_the_standard_library_for_its_user(self):
+        self.assertEqual(self.counts.files, {"emulator/tia.cpp": 16, "emulator/beam.hpp": 2,
+                                             callgrind.MADE_AT_RUN_TIME: 20, "libc.so.6 (not in the tree)": 9})
+
+
+@unittest.skipUnless(callgrind.available(), "valgrind is missing; scripts/setup installs it")
+class Checking(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = pathlib.Path(cls.folder.name) / "baseline.json"
+        done = cls.run_tool("--rebaseline")
+        if done.returncode == SKIPPED:
+            raise unittest.SkipTest(done.stdout.strip())
+        cls.kept = json.loads(cls.path.read_text())
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @classmethod
+    def run_tool(cls, *words, **environment):
+        return subprocess.run([sys.executable, "-B", TOOL, "--games", "ours", "--binary", BINARY, "--baseline", cls.path, *words],
+                              capture_output=True, text=True, env=os.environ | environment)
+
+    def check_against(self, change, **environment):
+        changed = json.loads(json.dumps(self.kept))
+        change(changed)
+        self.path.write_text(json.dumps(changed))
+        return self.run_tool(**environment)
+
+    def scaled(self, factor):
+        def change(baseline):
+            baseline["auto"]["beamfall"] = round(baseline["auto"]["beamfall"] * factor)
+        return self.check_against(change)
+
+    def test_a_second_count_is_the_same(self):
+        done = self.scaled(1)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(done.stdout.count("+0.0%"), 2, done.stdout)
+
+    def test_five_percent_more_is_a_failure(self):
+        done = self.scaled(1 / 1.06)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, r"beamfall .* \+6\.0%  DEARER")
+        self.assertIn("--rebaseline", done.stdout)
+
+    def test_less_than_that_is_not(self):
+        self.assertEqual(self.scaled(1 / 1.04).returncode, 0)
+
+    def test_five_percent_less_is_told(self):
+        done = self.scaled(1 / 0.94)
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stdout, r"beamfall .* -6\.0%  cheaper")
+
+    def test_a_game_that_the_baseline_lacks_is_a_failure(self):
+        done = self.check_against(lambda baseline: baseline["auto"].pop("updraft"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("NOT IN THE BASELINE", done.stdout)
+
+    def test_another_compiler_or_no_valgrind_is_skipped_and_says_so(self):
+        other = self.check_against(lambda baseline: baseline.update(build="g++ 2.95 Release"))
+        without = self.check_against(lambda baseline: None, PATH="/nowhere")
+        for done, reason in ((other, "counted with 'g++ 2.95 Release'"), (without, "valgrind is missing")):
+            self.assertEqual(done.returncode, SKIPPED, done.stdout + done.stderr)
+            self.assertIn(reason, done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
