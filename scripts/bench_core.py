@@ -15,8 +15,8 @@ that a ratio is good even when the machine's speed drifts; a disturbance spoils 
 a mean would not; a best-of would pick, of either side, another scene of the game, or another kind of luck.
 
 What is checked: after each timed chunk frames, rewards, resets, RAM and (where it is looked at) the screen; then the same
-actions once more on new machines, not timed, with a checksum of screen, RAM, reward, end and lives after every act. The first
-difference ends the run: scripts/conformance finds out more.
+actions once more on new machines, not timed, with a checksum of screen, RAM, reward, end and lives after every act. A game
+that differs has no figures and makes the run fail: scripts/conformance finds out more.
 """
 import argparse
 import datetime
@@ -69,11 +69,15 @@ def draw_chunks(game, legal_actions, chunks, acts):
     return [" ".join(map(str, actions[start:start + acts])) for start in range(0, len(actions), acts)]
 
 
+class Difference(Exception):
+    pass
+
+
 def must_agree(game, where, theirs, ours, keys):
     for key in keys:
         if theirs.get(key) != ours.get(key):
-            sys.exit(f"bench: {game} differs from the reference in {where}: {key} {theirs.get(key)} there, "
-                     f"{ours.get(key)} here; scripts/conformance --games {game} shows more")
+            raise Difference(f"{game} differs from the reference in {where}: {key} {theirs.get(key)} there, "
+                             f"{ours.get(key)} here; scripts/conformance --games {game} shows more")
 
 
 def both_open(reference, game, setting, cpu):
@@ -150,20 +154,29 @@ def in_short(results):
     return ", ".join(parts)
 
 
+def measure_game(reference, game, options):
+    found = {name: measure_setting(reference, game, name, options) for name in SETTINGS if name in options.settings}
+    if STATES in options.settings:
+        found[STATES] = measure_states(reference, game, options)
+    return found
+
+
 def measure(options):
-    games, start = {}, time.monotonic()
+    games, differences, start = {}, [], time.monotonic()
     with bench_sides.Reference() as reference:
         for number, game in enumerate(options.games, 1):
-            games[game] = {name: measure_setting(reference, game, name, options)
-                           for name in SETTINGS if name in options.settings}
-            if STATES in options.settings:
-                games[game][STATES] = measure_states(reference, game, options)
-            print(f"{number}/{len(options.games)} {time.monotonic() - start:.0f} s  {game}: {in_short(games[game])}",
-                  file=sys.stderr, flush=True)
+            try:
+                games[game] = measure_game(reference, game, options)
+                said = f"{game}: {in_short(games[game])}"
+            except Difference as difference:
+                differences.append(str(difference))
+                said = differences[-1]
+            print(f"{number}/{len(options.games)} {time.monotonic() - start:.0f} s  {said}", file=sys.stderr, flush=True)
     return {"command": shlex.join(["scripts/bench", "core", *sys.argv[1:]]),
             "date": datetime.date.today().isoformat(), "seconds": round(time.monotonic() - start),
             "machine": bench_report.machine(), "versions": bench_report.versions(bench_sides.RACEBEAM),
-            "frames": options.frames // CHUNK * CHUNK, "chunk_frames": CHUNK, "games": games}
+            "frames": options.frames // CHUNK * CHUNK, "chunk_frames": CHUNK, "games": games,
+            "differences": differences}
 
 
 def main():
@@ -175,7 +188,10 @@ def main():
     if not options.source:
         options.out.parent.mkdir(parents=True, exist_ok=True)
         options.out.write_text(json.dumps(results, indent=1) + "\n")
-    print(bench_report.page(results))
+    if results["games"]:
+        print(bench_report.page(results))
+    if results["differences"]:
+        sys.exit("bench: " + "\nbench: ".join(results["differences"]))
     if options.write:
         bench_report.write(results)
 
