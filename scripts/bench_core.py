@@ -6,17 +6,19 @@ Settings:
   none     rewards and RAM only (ALE draws all the same: it has no way not to)
   states   a reset, and a state saved and restored
 
-Each side is a process of its own; both are pinned to one processor and play chunks of the same random legal actions in
-turns, so that whatever else the machine does hits both. Processor time of the acts alone is counted; resets are not.
-A setting begins with two chunks that don't count (caches, code that is translated).
+Each side is a process of its own; both are pinned to one processor and play chunks of the same random legal
+actions in turns, so that whatever else the machine does hits both. Processor time of the acts alone is
+counted; resets are not. A setting begins with two chunks that don't count (caches, code that is translated).
 
-The ratio of a game is the median of its chunks' ratios. Both sides of one chunk did the same work a moment apart, so
-that a ratio is good even when the machine's speed drifts; a disturbance spoils a few chunks, which a median leaves out and
-a mean would not; a best-of would pick, of either side, another scene of the game, or another kind of luck.
+The ratio of a game is the median of its chunks' ratios. Both sides of one chunk did the same work a moment
+apart, so that a ratio is good even when the machine's speed drifts; a disturbance spoils a few chunks, which
+a median leaves out and a mean would not; a best-of would pick, of either side, another scene of the game, or
+another kind of luck.
 
-What is checked: after each timed chunk frames, rewards, resets, RAM and (where it is looked at) the screen; then the same
-actions once more on new machines, not timed, with a checksum of screen, RAM, reward, end and lives after every act. A game
-that differs has no figures and makes the run fail: scripts/conformance finds out more.
+What is checked: after each timed chunk frames, rewards, resets, RAM and (where it is looked at) the screen;
+then the same actions once more on new machines, not timed, with a checksum of screen, RAM, reward, end and
+lives after every act. A game that differs has no figures and makes the run fail: scripts/conformance finds
+out more.
 """
 import argparse
 import datetime
@@ -171,7 +173,8 @@ def measure(options):
             except Difference as difference:
                 differences.append(str(difference))
                 said = differences[-1]
-            print(f"{number}/{len(options.games)} {time.monotonic() - start:.0f} s  {said}", file=sys.stderr, flush=True)
+            seconds = time.monotonic() - start
+            print(f"{number}/{len(options.games)} {seconds:.0f} s  {said}", file=sys.stderr, flush=True)
     return {"command": shlex.join(["scripts/bench", "core", *sys.argv[1:]]),
             "date": datetime.date.today().isoformat(), "seconds": round(time.monotonic() - start),
             "machine": bench_report.machine(), "versions": bench_report.versions(bench_sides.RACEBEAM),

@@ -1,8 +1,8 @@
 """Where a frame's time goes: instructions a frame, by part of the machine, counted under valgrind.
 
-Instructions are not time, but they are the same in every run. Random play of all 18 actions; the frames before the
-counted ones warm up what is remembered or translated. The program is built with the preset `profile`, which is
-`release` with the lines of the source (build/profile).
+Instructions are not time, but they are the same in every run. Random play of all 18 actions; the frames
+before the counted ones warm up what is remembered or translated. The program is built with the preset
+`profile`, which is `release` with the lines of the source (build/profile).
 """
 import argparse
 import re
@@ -63,17 +63,17 @@ def print_table(heading, rows, counts):
 
 def main():
     options = parse_arguments()
+    setting = bench_settings.SETTINGS[options.setting]
     if not callgrind.available():
         sys.exit("bench: valgrind is missing; scripts/setup installs it")
     try:
         # As it is measured, with whatever this processor offers.
-        counts = callgrind.count(cartridges.ROOT / "build/profile/racebeam", options.game,
-                                 bench_settings.SETTINGS[options.setting], options.before, options.frames, options.cpu,
-                                 environment={})
+        counts = callgrind.count(cartridges.ROOT / "build/profile/racebeam", options.game, setting,
+                                 options.before, options.frames, options.cpu, environment={})
     except (LookupError, RuntimeError) as error:
         sys.exit(f"bench: {error}")
-    print(f"{options.game}, {bench_settings.SETTINGS[options.setting].heading.lower()}: "
-          f"{counts.a_frame():,.0f} instructions a frame, in the mean of {counts.frames} frames after {options.before}")
+    print(f"{options.game}, {setting.heading.lower()}: {counts.a_frame():,.0f} instructions a frame, "
+          f"in the mean of {counts.frames} frames after {options.before}")
     print_table("part", [row for row in by_part(counts).items() if row[1]], counts)
     if options.files:
         print_table("file", counts.files.most_common(), counts)

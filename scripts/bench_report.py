@@ -68,8 +68,9 @@ def table(headings, rows):
 
 
 def summary_table(results):
-    return table(["", "geomean", "worst", "of"],
-                 [[heading, f"{mean:.2f}", f"{worst:.2f}", game] for heading, (mean, worst, game) in summary(results).items()])
+    rows = [[heading, f"{mean:.2f}", f"{worst:.2f}", game]
+            for heading, (mean, worst, game) in summary(results).items()]
+    return table(["", "geomean", "worst", "of"], rows)
 
 
 def speed_table(results):
@@ -97,10 +98,11 @@ def states_table(results):
 
 def circumstances(results):
     at, of = results["machine"], results["versions"]
-    return (f"`{results['command']}`, {results['date']}, {results['seconds'] / 60:.0f} minutes. {at['processor']}, "
-            f"{at['processors']} processors, {at['system']}; racebeam {of['racebeam']} ({of['commit']}), {of['compiler']}; "
-            f"ale-py {of['ale_py']}, Python {of['python']}. {len(results['games'])} games, {results['frames']:,} frames of each in "
-            f"each setting, in chunks of {results['chunk_frames']}; every one of them was checked.")
+    return (f"`{results['command']}`, {results['date']}, {results['seconds']} seconds.\n"
+            f"{at['processor']}, {at['processors']} processors, {at['system']};\n"
+            f"racebeam {of['racebeam']} ({of['commit']}), {of['compiler']}; ale-py {of['ale_py']}, Python {of['python']}.\n"
+            f"{len(results['games'])} games, {results['frames']:,} frames of each in each setting, "
+            f"in chunks of {results['chunk_frames']}; every one of them was checked.")
 
 
 def page(results):
@@ -121,7 +123,7 @@ def write(results):
     picture = ""
     names = settings_in(results)
     if names:
-        PICTURE.write_text(bench_picture.draw({game: found[names[0]]["ratio"] for game, found in results["games"].items()},
-                                              HEADINGS[names[0]]))
+        ratios = {game: found[names[0]]["ratio"] for game, found in results["games"].items()}
+        PICTURE.write_text(bench_picture.draw(ratios, HEADINGS[names[0]]))
         picture = f"![{HEADINGS[names[0]]}: ratio to ALE, by game]({PICTURE.name})\n\n"
     PAGE.write_text(f"{before}{BEGIN}\n{picture}{page(results)}\n{END}{after}")

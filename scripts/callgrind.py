@@ -1,7 +1,8 @@
 """Counts the instructions of a play under valgrind's callgrind: the same in every run, on a busy machine too.
 
-Counted is the function `measured_act` of `racebeam bench --commands` (cli/bench_session.cpp): neither power-on, nor resets,
-nor the acts that come before. Code that is made while the program runs is counted as any other.
+Counted is the function `measured_act` of `racebeam bench --commands` (cli/bench_session.cpp): neither
+power-on, nor resets, nor the acts that come before. Code that is made while the program runs is counted as
+any other.
 """
 import collections
 import os
@@ -37,8 +38,9 @@ def available():
 
 
 def count(binary, game, setting, before, frames, cpu=None, environment=PLAIN):
-    """Instructions of `frames` frames after `before` frames of random play. Raises LookupError without an image of the
-    game, RuntimeError, with its last words, if the program fails."""
+    """Instructions of `frames` frames after `before` frames of random play.
+
+    Raises LookupError without an image of the game, RuntimeError, with its last words, if the program fails."""
     actions = bench_settings.draw_actions(game, range(18), (before + frames) // setting.skip)
     first = before // setting.skip
     commands = "".join(f"{command} {' '.join(map(str, part))}\n"
@@ -52,7 +54,8 @@ def count(binary, game, setting, before, frames, cpu=None, environment=PLAIN):
             input=commands, capture_output=True, text=True, env=os.environ | environment)
         if done.returncode:
             own = [line for line in done.stderr.splitlines() if not line.startswith("==")]  # not valgrind's
-            raise RuntimeError(f"{game}: racebeam under valgrind ended with status {done.returncode}: {' '.join(own[-1:])}")
+            raise RuntimeError(f"{game}: racebeam under valgrind ended with status {done.returncode}: "
+                               + " ".join(own[-1:]))
         counts = read(out)
     counts.frames = len(actions[first:]) * setting.skip
     return counts
@@ -61,7 +64,8 @@ def count(binary, game, setting, before, frames, cpu=None, environment=PLAIN):
 def read(path):
     """The counts in a file of callgrind's, by source file and by function, without what callees cost.
 
-    What is inlined counts for its own file; from outside the tree (the standard library), for the function it is in.
+    What is inlined counts for its own file; from outside the tree (the standard library), for the function it
+    is in.
     """
     counts = Counts()
     names = {"ob": {}, "fl": {}, "fn": {}}

@@ -1,4 +1,4 @@
-"""scripts/bench core: two sides that do the same are measured, a difference makes the run fail, and the page gets its tables."""
+"""scripts/bench core: sides that do the same are measured, a difference fails, and the page gets its tables."""
 
 import glob
 import json
@@ -49,7 +49,8 @@ def figures(ratio):
 
 
 def results(ratios):
-    return {"command": "scripts/bench core", "date": "2026-01-02", "seconds": 60, "frames": 500, "chunk_frames": 500, "differences": [],
+    return {"command": "scripts/bench core", "date": "2026-01-02", "seconds": 60, "frames": 500,
+            "chunk_frames": 500, "differences": [],
             "machine": {"processor": "P", "processors": 2, "system": "S"},
             "versions": {"racebeam": "1", "commit": "c", "compiler": "g", "ale_py": "0", "python": "3"},
             "games": {game: figures(ratio) for game, ratio in ratios.items()}}
@@ -70,7 +71,8 @@ class Reports(unittest.TestCase):
 
     def test_the_tables_go_between_the_markers_of_the_page(self):
         with tempfile.TemporaryDirectory() as folder:
-            bench_report.PAGE, bench_report.PICTURE = pathlib.Path(folder) / "page.md", pathlib.Path(folder) / "picture.svg"
+            bench_report.PAGE = pathlib.Path(folder) / "page.md"
+            bench_report.PICTURE = pathlib.Path(folder) / "picture.svg"
             bench_report.PAGE.write_text(f"before\n{bench_report.BEGIN}\nold\n{bench_report.END}\nafter\n")
             bench_report.write(results({"one": 2}))
             page = bench_report.PAGE.read_text()
@@ -94,8 +96,8 @@ class Measuring(unittest.TestCase):
     def measure(self, binary, *words):
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder) / "core.json"
-            done = subprocess.run([PYTHON, "-B", SOURCE / "scripts/bench_core.py", "--games", "pong", "--frames", "1000",
-                                   "--out", out, *words], capture_output=True, text=True,
+            done = subprocess.run([PYTHON, "-B", SOURCE / "scripts/bench_core.py", "--games", "pong",
+                                   "--frames", "1000", "--out", out, *words], capture_output=True, text=True,
                                   env=os.environ | {"RACEBEAM_BINARY": str(binary)})
             return done, json.loads(out.read_text()) if out.exists() else None
 
@@ -117,12 +119,14 @@ class Measuring(unittest.TestCase):
         self.assertTrue(all(value > 0 for value in game["states"].values()))
 
     def test_a_difference_makes_the_run_fail_and_is_named(self):
-        for command, field, setting in (("play", "screen", "every"), ("play", "ram", "none"), ("check", "digest", "last"),
-                                        ("play", "reward", "none"), ("reset", "screen", "states")):
+        for command, field, setting in (("play", "screen", "every"), ("play", "ram", "none"),
+                                        ("check", "digest", "last"), ("play", "reward", "none"),
+                                        ("reset", "screen", "states")):
             with self.subTest(command=command, field=field):
                 done = self.measure_liar(command, field, "--settings", setting)
                 self.assertEqual(done.returncode, 1, done.stderr)
-                self.assertRegex(done.stderr, rf"bench: pong differs from the reference in setting {setting}, .*: {field} ")
+                self.assertRegex(
+                    done.stderr, rf"bench: pong differs from the reference in setting {setting}, .*: {field} ")
 
     def test_a_game_without_an_image_is_named(self):
         done, _ = self.measure(BINARY, "--games", "pang")
@@ -132,7 +136,8 @@ class Measuring(unittest.TestCase):
 
 if __name__ == "__main__":
     if PYTHON is None:
-        print("bench: not tested beside the reference: there is no ale-py here or in .venv; scripts/reference installs it")
+        print("bench: not tested beside the reference: there is no ale-py here or in .venv "
+              "(scripts/reference installs it)")
         rest = unittest.main(argv=[sys.argv[0], "Reports", "Actions"], exit=False).result
         sys.exit(SKIPPED if rest.wasSuccessful() else 1)
     unittest.main()

@@ -80,8 +80,8 @@ class Checking(unittest.TestCase):
 
     @classmethod
     def run_tool(cls, *words, **environment):
-        return subprocess.run([sys.executable, "-B", TOOL, "--games", "ours", "--binary", BINARY, "--baseline", cls.path, *words],
-                              capture_output=True, text=True, env=os.environ | environment)
+        return subprocess.run([sys.executable, "-B", TOOL, "--games", "ours", "--binary", BINARY,
+                               "--baseline", cls.path, *words], capture_output=True, text=True, env=os.environ | environment)
 
     def check_against(self, change, **environment):
         changed = json.loads(json.dumps(self.kept))
