@@ -118,7 +118,8 @@ std::string_view ClassicSession::data_line() {
     text_ += ':';
   }
   if (send_screen_) {
-    (options_.run_length ? append_run_length : append_hex)(text_, environment_.screen());
+    const auto screen = environment_.screen();
+    options_.run_length ? append_run_length(text_, screen) : append_hex(text_, screen);
     text_ += ':';
   }
   if (send_episode_) text_ += (environment_.game_over() ? "1," : "0,") + std::to_string(reward_) + ':';

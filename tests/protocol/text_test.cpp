@@ -2,6 +2,7 @@
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <limits>
 #include <random>
 #include <vector>
@@ -12,9 +13,9 @@ namespace {
 
 using Pixels = std::vector<std::uint8_t>;
 
-std::string run_length(const Pixels& pixels) {
+std::string run_length(const Pixels& pixels, Simd form = simd()) {
   std::string text;
-  append_run_length(text, pixels);
+  append_run_length(text, pixels, form);
   return text;
 }
 
@@ -122,5 +123,62 @@ TEST_CASE("Random pictures give the text that the slow way gives") {
     Pixels pixels;
     while (pixels.size() < 5000) pixels.insert(pixels.end(), 1 + random() % (picture + 1) * 3, random() % 4);
     CHECK(run_length(pixels) == run_length_slowly(pixels));
+    CHECK(run_length(pixels, Simd::kPlain) == run_length_slowly(pixels));
+  }
+}
+
+// As screens are: rows that repeat, rows of one colour, rows that take turns, a rest that is no row.
+Pixels random_rows(std::mt19937& random) {
+  std::vector<Pixels> kinds;
+  for (int kind = 0; kind < 6; ++kind) {
+    Pixels row;
+    while (row.size() < 160) row.insert(row.end(), 1 + random() % (1U << random() % 9), std::uint8_t(random() % 3));
+    row.resize(160);
+    kinds.push_back(row);
+  }
+  Pixels pixels;
+  for (auto rows = random() % 260; rows > 0; --rows) {
+    const Pixels& row = kinds[random() % 8 % kinds.size()];
+    for (auto times = 1 + random() % (1U << random() % 5); times > 0; --times)
+      pixels.insert(pixels.end(), row.begin(), row.end());
+  }
+  pixels.insert(pixels.end(), random() % 160, static_cast<std::uint8_t>(random() % 3));
+  return pixels;
+}
+
+TEST_CASE("Rows that repeat give the text that the slow way gives") {
+  std::mt19937 random(5);
+  for (int picture = 0; picture < 500; ++picture) {
+    const Pixels pixels = random_rows(random);
+    const std::string expected = run_length_slowly(pixels);
+    CHECK(run_length(pixels) == expected);
+    CHECK(run_length(pixels, Simd::kPlain) == expected);
+  }
+}
+
+TEST_CASE("Text is added to what is there, also when it is long") {
+  std::string text = "x";
+  Pixels pixels(33600);
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint8_t>(i);
+  append_run_length(text, pixels);
+  CHECK(text.substr(0, 1) == "x");
+  CHECK(text.substr(1) == run_length_slowly(pixels));
+}
+
+TEST_CASE("Hexadecimal is the same in every form, whatever the length") {
+  std::mt19937 random(9);
+  for (std::size_t size = 0; size < 200; ++size) {
+    Pixels bytes(size);
+    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    std::string best, plain, printed;
+    append_hex(best, bytes);
+    append_hex(plain, bytes, Simd::kPlain);
+    for (const std::uint8_t byte : bytes) {
+      char digits[3];
+      std::snprintf(digits, sizeof digits, "%02X", byte);
+      printed += digits;
+    }
+    CHECK(best == printed);
+    CHECK(plain == printed);
   }
 }
