@@ -30,8 +30,8 @@ constexpr auto kFooter =
 The checksums of the last screen and of RAM show that different settings did the same work. Compare
 ratios measured in one run (scripts/bench), not times from different days.
 
---save-restore times, in nanoseconds: the machine's state alone, copied out and back; a client's snapshot,
-which has the pictures too; and, as the next frame has to draw beside a saved picture, save + one frame +
+--save-restore times, in nanoseconds: the machine's state alone, copied out and back; its hash, and its
+comparison with another, as planners need them; a client's snapshot, which has the pictures too; and, as the next frame has to draw beside a saved picture, save + one frame +
 restore beside a frame.
 
 --commands reads from standard input what to do, a line each, and answers with a line of JSON; so another
@@ -171,6 +171,8 @@ nlohmann::ordered_json report(const BenchOptions& options, const Tally& tally,
 void add_snapshots(nlohmann::ordered_json& figures, const SnapshotTimes& times) {
   figures["machine_state_bytes"] = times.machine_bytes;
   figures["machine_save_restore_ns"] = times.machine_ns;
+  figures["state_hash_ns"] = times.hash_ns;
+  figures["state_compare_ns"] = times.compare_ns;
   figures["client_save_restore_ns"] = times.client_ns;
   figures["client_save_frame_restore_ns"] = times.round_ns;
   figures["client_frame_ns"] = times.frame_ns;

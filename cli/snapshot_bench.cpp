@@ -17,6 +17,15 @@ double nanoseconds_each(int times, Action action) {
   return (cpu_seconds() - start) / times * 1e9;
 }
 
+void time_equality(const Cartridge& cartridge, const MachineOptions& options, SnapshotTimes& times) {
+  Environment one = power_on(cartridge, options), other = power_on(cartridge, options);
+  other.restore(*one.save());
+  std::uint64_t sum = 0;
+  times.hash_ns = nanoseconds_each(1'000'000, [&](std::size_t) { sum += one.state_hash(); });
+  times.compare_ns = nanoseconds_each(1'000'000, [&](std::size_t) { sum += one.same_state(other); });
+  [[maybe_unused]] volatile std::uint64_t used = sum;
+}
+
 void time_client(const Cartridge& cartridge, const MachineOptions& options, SnapshotTimes& times) {
   Environment environment = power_on(cartridge, options);
   for (int frame = 0; frame < kFramesBefore; ++frame) environment.act(0);
@@ -53,6 +62,7 @@ SnapshotTimes time_snapshots(const Cartridge& cartridge, const MachineOptions& o
   SnapshotTimes times;
   times.machine_bytes = sizeof(State);
   times.machine_ns = time_machine_snapshots(cartridge, options, 1'000'000);
+  time_equality(cartridge, options, times);
   time_client(cartridge, options, times);
   return times;
 }

@@ -8,6 +8,8 @@ namespace racebeam {
 struct SnapshotTimes {
   std::size_t machine_bytes = 0;  // the machine's state
   double machine_ns = 0;          // to copy it out and put it back
+  double hash_ns = 0;             // Environment::state_hash
+  double compare_ns = 0;          // Environment::same_state, of two that are
   double client_ns = 0;           // Environment::save and restore, with the pictures
   double round_ns = 0;  // save, one frame, restore: the frame has to make room for a picture of its own
   double frame_ns = 0;  // such a frame without a snapshot

@@ -50,6 +50,18 @@ void Board::map_memory() {
   set_format_limits();
 }
 
+// What a cartridge shows depends on its banks alone, and they are mostly the same. RAM is always where it was.
+void Board::restore(const State& other) {
+  const bool same_banks = state.cartridge.bank == other.cartridge.bank;
+  state = other;
+  if (!same_banks) {
+    slot.scheme.map(slot);
+    code = {};
+  }
+  tia.forget();
+  set_format_limits();
+}
+
 void Board::set_format_limits() {
   const int limit = video.pal ? kLineLimitPal : kLineLimit;
   overlong_cycle_ = state.tia.origin / 3 + kLineCycles * (limit + 1);

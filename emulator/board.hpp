@@ -70,7 +70,8 @@ class Board {
   bool exact() const { return exact_; }
   void set_format_limits();  // after `video` or the frame's origin have changed
 
-  void map_memory();  // everything that is derived from the state: after a reset or a restored state
+  void map_memory();               // everything that is derived from the state: after a reset
+  void restore(const State& other);  // goes on from there
 
  private:
   friend translator::Layout;

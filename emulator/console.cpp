@@ -185,9 +185,8 @@ void Console::restore(const State& state, std::span<const std::uint8_t> cartridg
                                 " bytes of cartridge RAM; the cartridge that runs has " +
                                 std::to_string(board.cartridge_ram.size()));
   }
-  board.state = state;
+  board.restore(state);
   std::ranges::copy(cartridge_ram, board.cartridge_ram.begin());
-  board.map_memory();
 }
 
 Format Console::format() const { return impl_->format; }

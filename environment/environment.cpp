@@ -188,6 +188,11 @@ const Settings& Environment::settings() const { return impl_->settings; }
 std::shared_ptr<const Environment::Saved> Environment::save(bool with_random) const {
   return impl_->save(with_random);
 }
+std::uint64_t Environment::state_hash() const { return racebeam::state_hash(impl_->parts()); }
+bool Environment::same_state(const Environment& other) const {
+  return impl_->identity == other.impl_->identity && racebeam::same_state(impl_->parts(), other.impl_->parts());
+}
+
 void Environment::restore(const Saved& saved) { impl_->restore(saved); }
 void Environment::restore_classic(const Saved& saved) { impl_->restore_classic(saved); }
 

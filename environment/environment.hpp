@@ -84,6 +84,15 @@ class Environment {
   std::shared_ptr<const Saved> save(bool with_random = false) const;
   void restore(const Saved& saved);
 
+  // For planners, who meet the same state by different ways: two environments of the same image, game and
+  // settings that are in the same state, and are given the same actions, show the same for ever, unless an
+  // episode's limit of frames comes between. Looked at are the machine with the cartridge's RAM, paddles, mode,
+  // difficulty, the actions held and the rule's variables; left out are what tells of the way and not of the
+  // place: pictures, sound, counters of frames, the last act's rewards. Nor are generators looked at: with
+  // sticky actions two equal states may go on differently. Less than 0.2 microseconds; Saved has the same.
+  std::uint64_t state_hash() const;  // see state_hash.hpp
+  bool same_state(const Environment& other) const;
+
   // The classic server's LOAD_STATE: like restore, but screen and RAM answered stay those from before it
   // until the next frame, and stored sticky actions stay (classic-protocol.md, section 4).
   void restore_classic(const Saved& saved);

@@ -69,6 +69,8 @@ struct Environment::Impl {
   void restore(const Saved& saved);
   void restore_classic(const Saved& saved);
 
+  StateParts parts() const { return {console.state(), play, rule.tally(), console.cartridge_ram()}; }
+
   std::span<const std::uint8_t> screen();
 };
 

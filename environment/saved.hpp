@@ -14,6 +14,7 @@
 #include "emulator/state.hpp"
 #include "environment/environment.hpp"
 #include "environment/play.hpp"
+#include "environment/same_state.hpp"
 #include "games/rule.hpp"
 
 namespace racebeam {
@@ -48,6 +49,15 @@ class Environment::Saved {
   Pictures pictures;      // shared with it until it draws again
   int height = 0;         // rows of them that are shown
   std::optional<std::mt19937> random;
+
+  // As Environment::state_hash() and same_state(). A state of another image is never the same.
+  std::uint64_t state_hash() const { return racebeam::state_hash(parts()); }
+  bool same_state(const Saved& other) const {
+    return identity == other.identity && racebeam::same_state(parts(), other.parts());
+  }
+
+ private:
+  StateParts parts() const { return {values.machine, values.play, values.tally, cartridge_ram}; }
 };
 
 static_assert(std::is_trivially_copyable_v<Environment::Saved::Values>);

@@ -153,8 +153,7 @@ struct Bench {
 
   // Puts another moment's machine in place; the pictures stay.
   void restore(const State& saved) {
-    state = saved;
-    board.map_memory();
+    board.restore(saved);
   }
 
   void run(int instructions) {

@@ -1,0 +1,24 @@
+// When two machines will do the same from now on: Environment::state_hash() and same_state().
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "emulator/state.hpp"
+#include "environment/play.hpp"
+#include "games/rule.hpp"
+
+namespace racebeam {
+
+// Where the parts are that count. Of `play` not all does.
+struct StateParts {
+  const State& machine;
+  const Play& play;
+  const Tally& tally;
+  std::span<const std::uint8_t> cartridge_ram;
+};
+
+std::uint64_t state_hash(const StateParts& parts);
+bool same_state(const StateParts& a, const StateParts& b);
+
+}  // namespace racebeam
