@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "emulator/palette.hpp"
+#include "environment/area_resize.hpp"
 #include "environment/environment.hpp"
 
 namespace racebeam {
@@ -14,29 +16,11 @@ namespace racebeam {
 constexpr int kSmallSide = 84;
 constexpr std::size_t kSmallSize = std::size_t{kSmallSide} * kSmallSide;
 
-// Area averaging of a plane of bytes, row-major. Made once, it resizes without allocating.
-class AreaResize {
- public:
-  AreaResize(int width, int height, int to_width, int to_height);
-
-  // in: height x width bytes; out: to_height x to_width bytes.
-  void operator()(std::span<const std::uint8_t> in, std::span<std::uint8_t> out);
-
- private:
-  // One axis: target t is the sum of `taps` source cells from first[t] on, with weights[t * taps] and so on.
-  struct Axis {
-    Axis(int cells, int targets);
-
-    std::size_t taps;
-    std::vector<std::size_t> first;
-    std::vector<float> weights;
-  };
-  void reduce(const std::uint8_t* row);  // into reduced_
-
-  std::size_t width_;
-  Axis columns_, rows_;
-  std::vector<float> reduced_, sum_;
-};
+// The grey of a picture of palette indices, or, of each pixel, the brighter grey of two. All spans are equally
+// long, and a whole number of rows of 160.
+void make_grey(std::span<const std::uint8_t> screen, const GreyTable& table, std::span<std::uint8_t> grey);
+void make_brighter_grey(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
+                        const GreyTable& table, std::span<std::uint8_t> grey);
 
 // The last `depth` screens of an environment, made small, oldest first; those that are not there yet are
 // zero.

@@ -8,17 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "environment/autoreset.hpp"
 #include "protocol/player.hpp"
 #include "protocol/work.hpp"
 
 namespace racebeam {
 
-// What becomes of a machine whose episode is over, as in Gymnasium.
-enum class Autoreset {
-  kNextStep,  // its next step resets, whatever the action
-  kSameStep,  // it is reset at once; the last observation is told beside the new one
-  kDisabled   // nothing moves until `restart`
-};
 std::optional<Autoreset> autoreset_of(std::string_view name);
 std::string_view name_of(Autoreset autoreset);
 

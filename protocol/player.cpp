@@ -6,13 +6,12 @@ namespace racebeam {
 
 Player::Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields)
     : machine_(cartridge.image, cartridge.game, settings.machine),
-      noop_max_(settings.noop_max),
-      noop_random_(settings.machine.random_seed),
+      noops_(settings.machine.random_seed, settings.noop_max),
       view_({}, machine_.height()) {
   for (const int action : actions_of(settings.action_set, *cartridge.game)) allowed_ |= 1U << action;
   if (settings.mode) machine_.set_mode(*settings.mode);
   if (settings.difficulty) machine_.set_difficulty(*settings.difficulty);
-  if (settings.mode || settings.difficulty || noop_max_ > 0) reset();
+  if (settings.mode || settings.difficulty || settings.noop_max > 0) reset();
   observe(std::move(fields));
   begin_request();
 }
@@ -39,25 +38,12 @@ void Player::act(const Action& action) {
 
 void Player::reset() {
   machine_.reset_game();
-  for (int noops = draw_noops(); noops > 0; --noops) {
+  for (int noops = noops_.draw(); noops > 0; --noops) {
     machine_.act_for(1, 0);
     if (machine_.game_over()) machine_.reset_game();
   }
   look_at_ends();
   view_.began(machine_);
-}
-
-// As the reference's vector environment draws (spec: environment.md, section 15), so that the same seed gives
-// the same episodes.
-int Player::draw_noops() {
-  if (noop_max_ == 0) return 0;
-  const auto choices = static_cast<std::uint32_t>(noop_max_);
-  const std::uint32_t uneven = -choices % choices;  // 2^32 mod choices
-  std::uint64_t product;
-  do {
-    product = std::uint64_t{static_cast<std::uint32_t>(noop_random_())} * choices;
-  } while (static_cast<std::uint32_t>(product) < uneven);
-  return static_cast<int>(product >> 32);
 }
 
 Place Player::place(bool with_random) const {

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "environment/noops.hpp"
 #include "games/catalogue.hpp"
 #include "protocol/action.hpp"
 #include "protocol/field.hpp"
@@ -44,13 +44,11 @@ class Player {
   void append_view(std::string& out) { view_.append(out, machine_, outcome_); }
 
  private:
-  int draw_noops();
   void look_at_ends();
 
   Environment machine_;
   std::uint32_t allowed_ = 0;  // bit n: action n
-  int noop_max_;
-  std::mt19937 noop_random_;  // of its own, as in the reference; no part of a state
+  Noops noops_;  // with a generator of its own, as in the reference; no part of a state
   Outcome outcome_;
   mutable View view_;
 };
