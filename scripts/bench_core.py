@@ -46,7 +46,7 @@ def parse_arguments():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--games", nargs="+", metavar="GAME", help="default: all that the reference can play")
     parser.add_argument("--frames", type=int, metavar="N",
-                        help="frames of a game in a setting, beside those that don't count (default 10000)")
+                        help="frames of a game in a setting, beside those that don't count (default 8000)")
     parser.add_argument("--settings", nargs="+", choices=[*SETTINGS, STATES], default=[*SETTINGS, STATES])
     parser.add_argument("--cpu", choices=["auto", "interpreter", "translator"],
                         help="what runs the instructions (passed on to racebeam bench)")
@@ -60,7 +60,7 @@ def parse_arguments():
                         help="measure nothing, take the figures from this file")
     options = parser.parse_args()
     options.games = options.games or (QUICK_GAMES if options.quick else cartridges.games())
-    options.frames = options.frames or (4000 if options.quick else 10000)
+    options.frames = options.frames or (4000 if options.quick else 8000)
     if options.frames < CHUNK:
         parser.error(f"--frames {options.frames}: a chunk has {CHUNK}, and one is the least")
     return options
