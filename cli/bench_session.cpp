@@ -5,7 +5,9 @@
 #include <array>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -107,7 +109,10 @@ class BenchSession {
   std::uint32_t digest_of_act(std::uint32_t digest, int reward) const {
     const auto word = static_cast<std::uint32_t>(reward);
     const auto byte = [word](int shift) { return static_cast<std::uint8_t>(word >> shift); };
-    const std::array<std::uint8_t, 6> rest = {byte(0), byte(8), byte(16), byte(24),
+    const std::array<std::uint8_t, 6> rest = {byte(0),
+                                              byte(8),
+                                              byte(16),
+                                              byte(24),
                                               static_cast<std::uint8_t>(environment_.game_over()),
                                               static_cast<std::uint8_t>(environment_.lives())};
     if (look_) digest = crc32_of(digest, environment_.screen());
