@@ -72,18 +72,23 @@ std::uint64_t Board::plain_registers() const {
 }
 
 void Board::open_frame() {
-  const auto now = static_cast<std::uint32_t>(state.cycle);
   const std::int32_t phase = (3 * state.cycle - state.tia.origin) % kLineClocks;
-  state.riot.timer_set -= now;
-  state.riot.late_read -= now;
-  state.frame.dump_release -= now;
-  state.frame.vsync_finish -= 3 * now;
-  state.frame.cartridge_clock -= now;
-  state.tia.hmove_clock -= 3 * now;
-  state.cycle = 0;
+  turn_back_clocks(state.cycle);
   state.tia.origin = -phase;
   tia.begin_frame();
   set_format_limits();
+}
+
+// All that is counted from the frame's start, but its origin.
+void Board::turn_back_clocks(std::int32_t cycles) {
+  const auto passed = static_cast<std::uint32_t>(cycles);
+  state.riot.timer_set -= passed;
+  state.riot.late_read -= passed;
+  state.frame.dump_release -= passed;
+  state.frame.vsync_finish -= 3 * passed;
+  state.frame.cartridge_clock -= passed;
+  state.tia.hmove_clock -= 3 * passed;
+  state.cycle -= cycles;
 }
 
 void Board::begin_step(Picture& picture, WriteLog& scratch, bool exact) {

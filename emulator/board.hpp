@@ -61,6 +61,7 @@ class Board {
   translator::Context translated;
 
   void open_frame();  // tia.md section 2, step action 1, with the pictures exchanged already
+  void turn_back_clocks(std::int32_t cycles);
   // A step: begin_step(), then what the CPU does, then end_step(), which leaves the picture drawn as far as the
   // reference has drawn it. If needs_exact_step(), what the reference draws ahead of the beam can be seen: then the
   // same is to be done again, from the state before the step, with `exact` set.

@@ -8,6 +8,8 @@
 
 #include "emulator/board.hpp"
 #include "emulator/cpu.hpp"
+#include "emulator/motion.hpp"
+#include "emulator/state_check.hpp"
 #include "emulator/translator/translator.hpp"
 
 namespace racebeam {
@@ -15,6 +17,7 @@ namespace {
 
 constexpr int kInstructionsPerStep = 25000;
 constexpr int kDetectionSteps = 60;
+constexpr std::int32_t kEndlessTurn = kEndlessCycle / 2 / (2 * kLineCycles) * (2 * kLineCycles);  // an even number of lines
 constexpr int kDefaultHeight = 210, kTallHeight = 250;  // the latter for PAL and SECAM
 
 bool is_pal(Format format) { return format == Format::kPal || format == Format::kPal60; }
@@ -45,6 +48,7 @@ struct Console::Impl {
   void blank(std::shared_ptr<Picture>& picture);
   Picture& canvas();
   Format detect_format();
+  void check_ram_size(std::span<const std::uint8_t> cartridge_ram) const;
 };
 
 // console.md, section 1.
@@ -107,6 +111,7 @@ void Console::Impl::step() {
     board.tia.grey(picture, state().cycle);
     frame.greyed = 1;
   }
+  if (state().cycle >= kEndlessCycle) board.turn_back_clocks(kEndlessTurn);
 }
 
 void Console::Impl::run_step(Picture& picture) {
@@ -160,6 +165,13 @@ Format Console::Impl::detect_format() {
   return long_frames >= 15 ? Format::kPal : Format::kNtsc;
 }
 
+void Console::Impl::check_ram_size(std::span<const std::uint8_t> cartridge_ram) const {
+  if (cartridge_ram.size() == board.cartridge_ram.size()) return;
+  throw std::invalid_argument("the state has " + std::to_string(cartridge_ram.size()) +
+                              " bytes of cartridge RAM; the cartridge that runs has " +
+                              std::to_string(board.cartridge_ram.size()));
+}
+
 Console::Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on,
                  CpuKind cpu)
     : impl_(std::make_unique<Impl>(std::move(rom), properties, power_on, cpu)) {
@@ -178,13 +190,14 @@ const State& Console::state() const { return impl_->board.state; }
 
 std::span<const std::uint8_t> Console::cartridge_ram() const { return impl_->board.cartridge_ram; }
 
+void Console::check(const State& state, std::span<const std::uint8_t> cartridge_ram) const {
+  impl_->check_ram_size(cartridge_ram);
+  check_state(state, impl_->board.video, impl_->board.slot);
+}
+
 void Console::restore(const State& state, std::span<const std::uint8_t> cartridge_ram) {
+  impl_->check_ram_size(cartridge_ram);
   Board& board = impl_->board;
-  if (cartridge_ram.size() != board.cartridge_ram.size()) {
-    throw std::invalid_argument("the state has " + std::to_string(cartridge_ram.size()) +
-                                " bytes of cartridge RAM; the cartridge that runs has " +
-                                std::to_string(board.cartridge_ram.size()));
-  }
   board.restore(state);
   std::ranges::copy(cartridge_ram, board.cartridge_ram.begin());
 }

@@ -41,6 +41,10 @@ class Console {
   // std::invalid_argument, and changes nothing, when `cartridge_ram` is not as large as this console's.
   void restore(const State& state, std::span<const std::uint8_t> cartridge_ram = {});
 
+  // Throws std::invalid_argument, naming the field, when this machine can't be in `state`. What passes can be restored
+  // and run, whoever wrote it.
+  void check(const State& state, std::span<const std::uint8_t> cartridge_ram = {}) const;
+
   Format format() const;          // kNtsc, kPal, kPal60 or kSecam: detected, or from the properties
   bool has_paddles() const;       // either port
   int height() const;             // rows given out: the picture's height, at least 200

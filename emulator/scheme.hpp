@@ -2,6 +2,8 @@
 // only where its pages are hidden: hot spots and write ports (spec: cartridges.md).
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -34,6 +36,11 @@ struct Acts {
   void (*map)(Slot&);    // shows what the banks select
   std::uint8_t (*read)(Slot&, std::uint16_t address, std::int32_t cycle);  // of a hidden page, or seen at the TIA
   Delivery (*write)(Slot&, std::uint16_t address, std::uint8_t value);  // of any cartridge address, or seen at the TIA
+
+  // Can the cartridge be in `state`, which comes from elsewhere? Whatever indexes or selects something has to be
+  // looked at; bytes behind the scheme's RAM are not its business.
+  bool (*admits)(const Slot&, const CartridgeState& state);
+
   void (*power_on)(Slot&) = nullptr;  // what is not zero before the first reset
 };
 
@@ -42,7 +49,7 @@ struct Scheme : Acts {
   unsigned image;          // bytes of an image, at least
   unsigned hotspot;        // Atari's family: offset in 4K of the first hot spot, number of banks, initial bank
   std::uint8_t banks, initial;
-  unsigned ram;            // bytes on the cartridge
+  unsigned ram;            // bytes on the cartridge, or of its registers
   bool random_ram;         // filled at every reset
   bool watches_tia;        // takes part in accesses to the TIA's addresses
 };
@@ -50,6 +57,12 @@ struct Scheme : Acts {
 // RAM of at most this size is part of the state; larger RAM lies in a block of its own, so that the state of the many
 // cartridges that have little stays small.
 constexpr std::size_t kRamInState = std::tuple_size_v<decltype(CartridgeState::ram)>;
+
+// From window `first` on, a scheme has none: for Acts::admits.
+inline bool banks_unused(const CartridgeState& state, std::size_t first) {
+  return std::all_of(state.bank.begin() + static_cast<std::ptrdiff_t>(first), state.bank.end(),
+                     [](std::uint8_t bank) { return bank == 0; });
+}
 
 // The scheme of an image by its size and signatures, or the one that is asked for by name. Throws
 // std::invalid_argument when none fits, no scheme has that name, or the image is too small for it.

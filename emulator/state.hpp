@@ -99,6 +99,9 @@ struct CartridgeState {
   std::array<std::uint8_t, 256> ram{};  // on-board RAM, or registers; larger RAM lies beside the state (scheme.hpp)
 };
 
+// No frame lasts so long but that of a program that has gone astray; between two steps, T is below this.
+constexpr std::int32_t kEndlessCycle = 1 << 29;
+
 struct State {
   std::int32_t cycle = 0;    // T: CPU cycles since the frame started
   std::uint32_t drawn = 0;   // draws taken from the power-on generator

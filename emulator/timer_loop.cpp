@@ -38,7 +38,7 @@ Range looping_counts(const std::uint8_t* branch) {
 std::int32_t sure_timer_turns(const std::uint8_t* branch, const RiotState& riot, std::int32_t next_read,
                               std::int32_t period) {
   const Range range = looping_counts(branch);
-  const std::int64_t elapsed = static_cast<std::uint32_t>(next_read - 1 - static_cast<std::int32_t>(riot.timer_set));
+  const std::int64_t elapsed = static_cast<std::uint32_t>(next_read) - 1 - riot.timer_set;
   const std::int64_t count = riot.timer - 1 - (elapsed >> riot.shift);  // as riot.hpp has it
   if (count < range.least || count > range.most) return 0;
   const std::int64_t ends = std::int64_t{riot.timer - range.least} << riot.shift;

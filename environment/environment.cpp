@@ -194,6 +194,7 @@ bool Environment::same_state(const Environment& other) const {
 }
 
 void Environment::restore(const Saved& saved) { impl_->restore(saved); }
+void Environment::check(const Saved& saved) const { impl_->check_values(saved); }
 void Environment::restore_classic(const Saved& saved) { impl_->restore_classic(saved); }
 
 }  // namespace racebeam

@@ -93,6 +93,10 @@ class Environment {
   std::uint64_t state_hash() const;  // see state_hash.hpp
   bool same_state(const Environment& other) const;
 
+  // Throws std::invalid_argument, naming what is wrong, when acts and resets can't have led to `saved`, which is of
+  // this image and game but comes from elsewhere. What passes may play nonsense, but does no harm.
+  void check(const Saved& saved) const;
+
   // The classic server's LOAD_STATE: like restore, but screen and RAM answered stay those from before it
   // until the next frame, and stored sticky actions stay (classic-protocol.md, section 4).
   void restore_classic(const Saved& saved);

@@ -65,7 +65,8 @@ struct Environment::Impl {
 
   // save.cpp
   std::shared_ptr<const Saved> save(bool with_random) const;
-  void check(const Saved& saved) const;
+  void check(const Saved& saved) const;  // of this image, game and console?
+  void check_values(const Saved& saved) const;
   void restore(const Saved& saved);
   void restore_classic(const Saved& saved);
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "environment/impl.hpp"
+#include "environment/saved_check.hpp"
 
 namespace racebeam {
 namespace {
@@ -65,6 +66,14 @@ void Environment::Impl::check(const Saved& saved) const {
   if (saved.properties == properties && saved.height == console.height()) return;
   throw std::invalid_argument(
       "the state is of a console with another picture or other controllers than the one that runs");
+}
+
+void Environment::Impl::check_values(const Saved& saved) const {
+  const Saved::Values& values = saved.values;
+  console.check(values.machine, saved.cartridge_ram);
+  check_play(values.play, *game);
+  check_tally(values.tally, *game);
+  check_sound(values.sound);
 }
 
 // The reference copies RAM after frames only, and keeps pictures, sound and sticky actions out of its states.

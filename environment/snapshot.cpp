@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "environment/saved.hpp"
+#include "environment/saved_check.hpp"
 
 namespace racebeam {
 namespace {
@@ -66,12 +66,13 @@ T take(std::span<const std::uint8_t>& bytes) {
 GeneratorWords words_of(const std::mt19937& generator) {
   std::stringstream text;
   text << generator;
-  GeneratorWords words;
+  GeneratorWords words{};
   for (std::uint32_t& word : words) text >> word;
   return words;
 }
 
 std::mt19937 generator_of(const GeneratorWords& words) {
+  check_generator(std::span(words).first<std::mt19937::state_size>(), words.back());
   std::stringstream text;
   for (const std::uint32_t word : words) text << word << ' ';
   std::mt19937 generator;
@@ -99,7 +100,7 @@ void check(const Prefix& prefix, std::size_t size, const Environment& environmen
     refuse("the state's pictures have " + std::to_string(prefix.height) +
            " rows; those of the console that runs have " + std::to_string(environment.height()));
   }
-  if (size != prefix.size_of_rest()) refuse("the state contradicts itself about its size");
+  if (prefix.has_random > 1 || size != prefix.size_of_rest()) refuse("the state contradicts itself about its size");
 }
 
 void append_pixels(std::vector<std::uint8_t>& bytes, const Picture& picture, std::size_t size) {
@@ -163,6 +164,7 @@ std::shared_ptr<const Environment::Saved> from_bytes(std::span<const std::uint8_
   saved->pictures.current = take_picture(bytes, prefix.picture_size());
   saved->pictures.previous = take_picture(bytes, prefix.picture_size());
   if (prefix.has_random != 0) saved->random = generator_of(take<GeneratorWords>(bytes));
+  environment.check(*saved);
   return saved;
 }
 

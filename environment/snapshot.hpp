@@ -21,7 +21,8 @@ constexpr std::uint32_t kSnapshotVersion = 2;
 std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved);
 
 // Throws std::invalid_argument when `bytes` are no state, were cut or altered, are of another version of this
-// program, or of another image or game than those of `environment`.
+// program, or of another image or game than those of `environment`, or when a value in them is none that the
+// machine can have. Whoever wrote the bytes: the state that is returned can be restored and run.
 std::shared_ptr<const Environment::Saved> from_bytes(std::span<const std::uint8_t> bytes,
                                                      const Environment& environment);
 

@@ -33,6 +33,10 @@ inline void touch(Slot& slot, std::uint16_t address) {
   map(slot);
 }
 
+inline bool admits(const Slot& slot, const CartridgeState& state) {
+  return state.bank[0] < slot.scheme.banks && banks_unused(state, 1);
+}
+
 inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {
   touch(slot, address);
   return bank(slot)[address & 0xFFF];

@@ -7,6 +7,7 @@
 // (spec: cartridges.md, section 8)
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -145,6 +146,19 @@ inline void set_register(Chip& chip, std::uint16_t address, std::uint8_t value) 
     case 6: chip.random = 1; break;
     default: break;
   }
+}
+
+inline bool admits(const Slot& slot, const CartridgeState& state) {
+  Chip chip;
+  std::memcpy(&chip, state.ram.data(), sizeof chip);
+  for (unsigned i = 0; i < kFetchers; ++i) {
+    const Fetcher& fetcher = chip.fetcher[i];
+    if (fetcher.counter >= kDisplaySize || (fetcher.flag != 0 && fetcher.flag != 0xFF)) return false;
+    if (fetcher.music > (i >= kFirstMusic ? 1 : 0)) return false;
+  }
+  const bool is_fraction = chip.fraction > -1 && chip.fraction < 1;
+  const bool is_filled_up = std::ranges::all_of(chip.spare, [](std::uint8_t byte) { return byte == 0; });
+  return atari::admits(slot, state) && is_fraction && is_filled_up;
 }
 
 inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t cycle) {

@@ -63,6 +63,10 @@ inline void touch(Slot& slot, std::uint16_t address) {
   else if (place >= 0x1000 && place < 0x1C00) lock(slot, false);
 }
 
+inline bool admits(const Slot&, const CartridgeState& state) {
+  return state.bank[kLock] <= 1 && banks_unused(state, kLock + 1);
+}
+
 inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {
   if ((address & 0x1000) == 0) return 0;
   touch(slot, address);

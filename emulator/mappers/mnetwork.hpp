@@ -8,7 +8,7 @@
 namespace racebeam::mnetwork {
 
 constexpr unsigned kSlice = 2048, kLastSlice = 7;
-constexpr unsigned kLowRam = 1024, kHighRam = 256;
+constexpr unsigned kLowRam = 1024, kHighRam = 256, kHighRamBanks = 4;
 
 inline const std::uint8_t* slice(const Slot& slot, unsigned number) { return slot.rom.data() + kSlice * number; }
 
@@ -31,6 +31,10 @@ inline void touch(Slot& slot, std::uint16_t address) {
   if (hotspot >= 12) return;
   slot.state.bank[hotspot / 8] = hotspot % 8;
   map(slot);
+}
+
+inline bool admits(const Slot&, const CartridgeState& state) {
+  return state.bank[0] <= kLastSlice && state.bank[1] < kHighRamBanks && banks_unused(state, 2);
 }
 
 inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {

@@ -29,6 +29,11 @@ inline void touch(Slot& slot, std::uint16_t address) {
   slot.map.show(kSlice * (hotspot / 8), slice(slot, hotspot / 8), kSlice);
 }
 
+inline bool admits(const Slot&, const CartridgeState& state) {
+  const auto& bank = state.bank;
+  return bank[0] < 8 && bank[1] < 8 && bank[2] < 8 && bank[3] == 7 && banks_unused(state, 4);
+}
+
 inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {
   touch(slot, address);
   return slice(slot, 3)[address & (kSlice - 1)];

@@ -25,29 +25,33 @@ namespace {
 
 std::uint8_t no_hidden_page(Slot&, std::uint16_t, std::int32_t) { return 0; }
 
+bool no_banks(const Slot&, const CartridgeState& state) { return banks_unused(state, 0); }
+
 // F4SC's hot spots react to reads only.
 Delivery write_f4sc(Slot& slot, std::uint16_t address, std::uint8_t value) { return atari::write_ram(slot, address, value); }
 
 // clang-format off
 constexpr Delivery (*kIgnore)(Slot&, std::uint16_t, std::uint8_t) = atari::ignore_write;
 
-//                            reset                   map                  read            write
-constexpr Acts kPlain      = {atari::reset,           atari::map_plain,    no_hidden_page, kIgnore};
-constexpr Acts kAtari      = {atari::reset,           atari::map,          atari::read,    atari::write};
-constexpr Acts kF4sc       = {atari::reset,           atari::map,          atari::read,    write_f4sc};
-constexpr Acts kE0         = {parker::reset,          parker::map,         parker::read,   parker::write};
-constexpr Acts kE7         = {mnetwork::reset,        mnetwork::map,       mnetwork::read, mnetwork::write};
-constexpr Acts kFe         = {activision::reset,      activision::map,     no_hidden_page, kIgnore};
-constexpr Acts kDpc        = {dpc::reset,             dpc::map,            dpc::read,      dpc::write, dpc::power_on};
-constexpr Acts k3f         = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write};
-constexpr Acts k3e         = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e};
-constexpr Acts kUa         = {atari::reset,           ua::map,             ua::read,       ua::write};
-constexpr Acts kCv         = {commavid::reset_empty,  commavid::map,       no_hidden_page, commavid::write};
-constexpr Acts kCvFilled   = {commavid::reset_filled, commavid::map,       no_hidden_page, commavid::write};
-constexpr Acts kAr         = {starpath::reset,        starpath::map,       starpath::read, starpath::write};
-constexpr Acts kMb         = {atari::reset,           atari::map,          dynacom::read,  dynacom::write};
-constexpr Acts kMc         = {megacart::reset,        megacart::map,       megacart::read, megacart::write};
-constexpr Acts kUnmapped   = {unmapped::reset,        unmapped::map,       no_hidden_page, kIgnore};
+//                          reset                   map                  read            write                  admits
+constexpr Acts kPlain    = {atari::reset,           atari::map_plain,    no_hidden_page, kIgnore,               atari::admits};
+constexpr Acts kAtari    = {atari::reset,           atari::map,          atari::read,    atari::write,          atari::admits};
+constexpr Acts kF4sc     = {atari::reset,           atari::map,          atari::read,    write_f4sc,            atari::admits};
+constexpr Acts kE0       = {parker::reset,          parker::map,         parker::read,   parker::write,         parker::admits};
+constexpr Acts kE7       = {mnetwork::reset,        mnetwork::map,       mnetwork::read, mnetwork::write,       mnetwork::admits};
+constexpr Acts kFe       = {activision::reset,      activision::map,     no_hidden_page, kIgnore,               no_banks};
+constexpr Acts kDpc      = {dpc::reset,             dpc::map,            dpc::read,      dpc::write,            dpc::admits, dpc::power_on};
+constexpr Acts k3f       = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write,    tigervision::admits};
+constexpr Acts k3e       = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e, tigervision::admits_3e};
+constexpr Acts kUa       = {atari::reset,           ua::map,             ua::read,       ua::write,             atari::admits};
+constexpr Acts kCv       = {commavid::reset_empty,  commavid::map,       no_hidden_page, commavid::write,       no_banks};
+constexpr Acts kCvFilled = {commavid::reset_filled, commavid::map,       no_hidden_page, commavid::write,       no_banks};
+constexpr Acts kAr       = {starpath::reset,        starpath::map,       starpath::read, starpath::write,       starpath::admits};
+constexpr Acts kMb       = {atari::reset,           atari::map,          dynacom::read,  dynacom::write,        atari::admits};
+constexpr Acts kMc       = {megacart::reset,        megacart::map,       megacart::read, megacart::write,       megacart::admits};
+constexpr Acts kUnmapped = {unmapped::reset,        unmapped::map,       no_hidden_page, kIgnore,               no_banks};
+
+constexpr unsigned kChip = sizeof(dpc::Chip);
 
 constexpr Scheme kSchemes[] = {
     // acts      name          image  hotspot banks init  ram  random  TIA
@@ -64,7 +68,7 @@ constexpr Scheme kSchemes[] = {
     {kE0,       "E0",           8192, 0,        0, 0,     0, false, false},
     {kE7,       "E7",          16384, 0,        0, 0,  2048, true,  false},
     {kFe,       "FE",           8192, 0,        0, 0,     0, false, false},
-    {kDpc,      "DPC",         10240, 0xFF8,    2, 1,     0, false, false},
+    {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false, false},
     {k3f,       "3F",           2048, 0,        0, 0,     0, false, true},
     {k3e,       "3E",           2048, 0,        0, 0, 32768, true,  true},
     {kUa,       "UA",           8192, 0,        2, 0,     0, false, true},

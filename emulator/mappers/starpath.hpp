@@ -102,6 +102,10 @@ inline void touch(Slot& slot, std::uint16_t address) {
   }
 }
 
+inline bool admits(const Slot&, const CartridgeState& state) {
+  return state.bank[kPending] <= 1 && banks_unused(state, kPending + 1);
+}
+
 inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {
   if ((address & 0x1FFF) == kLoader && bank_shown(slot, true) == kBios) load(slot);
   touch(slot, address);

@@ -28,6 +28,10 @@ inline void map(Slot& slot) {
   show_low_page(slot, bank);
 }
 
+inline bool admits(const Slot& slot, const CartridgeState& state) {
+  return state.bank[0] < banks(slot) && banks_unused(state, 1);
+}
+
 inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t value) {
   if ((address & 0x0FFF) >= 0x40) return Delivery::kToTia;
   slot.state.bank[0] = static_cast<std::uint8_t>(value % banks(slot));
@@ -53,6 +57,11 @@ inline void select_3e(Slot& slot, bool ram, std::uint8_t value) {
   slot.state.bank[ram ? 1 : 0] = static_cast<std::uint8_t>(value % (ram ? kRamBanks : banks(slot)));
   slot.state.bank[2] = ram;
   map_3e(slot);
+}
+
+inline bool admits_3e(const Slot& slot, const CartridgeState& state) {
+  const auto& bank = state.bank;
+  return bank[0] < banks(slot) && bank[1] < kRamBanks && bank[2] <= 1 && banks_unused(state, 3);
 }
 
 inline Delivery write_3e(Slot& slot, std::uint16_t address, std::uint8_t value) {

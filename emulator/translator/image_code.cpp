@@ -1,7 +1,6 @@
 #include "emulator/translator/image_code.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "emulator/board.hpp"
 #include "emulator/translator/block_emitter.hpp"
@@ -18,19 +17,22 @@ constexpr std::size_t kRoomForBatch = 1U << 16;  // less than this is not begun 
 
 void set_code_capacity(std::size_t bytes) { code_capacity = bytes; }
 
-std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom) {
+std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom, std::uint64_t plain_registers) {
   static std::mutex mutex;
-  static std::map<Rom, std::weak_ptr<ImageCode>> images;
+  static std::vector<std::weak_ptr<ImageCode>> all;
   const std::lock_guard lock(mutex);
-  std::erase_if(images, [](const auto& image) { return image.second.expired(); });
-  auto code = images[rom].lock();
-  if (code && !code->is_full()) return code;
-  code = std::make_shared<ImageCode>(rom, code_capacity);
-  images[rom] = code;
+  std::erase_if(all, [](const auto& one) { return one.expired(); });
+  for (const auto& one : all) {
+    const auto code = one.lock();
+    if (code && !code->is_full() && code->plain_registers_ == plain_registers && code->rom_ == rom) return code;
+  }
+  auto code = std::make_shared<ImageCode>(rom, plain_registers, code_capacity);
+  all.push_back(code);
   return code;
 }
 
-ImageCode::ImageCode(const Rom& rom, std::size_t capacity) : rom_(rom), memory_(std::max(capacity, 2 * kRoomForBatch)) {}
+ImageCode::ImageCode(const Rom& rom, std::uint64_t plain_registers, std::size_t capacity)
+    : rom_(rom), plain_registers_(plain_registers), memory_(std::max(capacity, 2 * kRoomForBatch)) {}
 
 View* ImageCode::view(const CodeWindow& window, const Rom& rom) {
   const std::less<> before;
@@ -73,13 +75,13 @@ void ImageCode::make_gates(const Layout& layout) {
   enter_ = reinterpret_cast<Enter>(reinterpret_cast<std::uintptr_t>(enter));
 }
 
-const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout, std::uint64_t plain_registers) {
+const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout) {
   const std::lock_guard lock(mutex_);
   if (const void* entry = view.entry(pc)) return entry;
   if (memory_.left() < kRoomForBatch) full_ = true;
   if (full_) return nullptr;
   if (enter_ == nullptr) make_gates(layout);
-  const Window window{view.code, plain_registers, view.entries.data()};
+  const Window window{view.code, plain_registers_, view.entries.data()};
   Assembler assembler(memory_.writable(), memory_.left(), layout, window, way_out_);
   const std::vector<Block> blocks = discover(view.code, pc, view.known);
   try {

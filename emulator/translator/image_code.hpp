@@ -36,17 +36,17 @@ struct View {
 
 class ImageCode {
  public:
-  // Of an image like this one, made when it is first asked for. Throws std::system_error where executable memory is
-  // refused.
-  static std::shared_ptr<ImageCode> of(const Rom& rom);
+  // Of an image like this one, made when it is first asked for. plain_registers: of Board, for its cartridge scheme; two
+  // machines can run one image under different schemes. Throws std::system_error where executable memory is refused.
+  static std::shared_ptr<ImageCode> of(const Rom& rom, std::uint64_t plain_registers);
 
-  ImageCode(const Rom& rom, std::size_t capacity);
+  ImageCode(const Rom& rom, std::uint64_t plain_registers, std::size_t capacity);
 
   // The view through this window of a machine's memory. Null if it shows something else than this image.
   View* view(const CodeWindow& window, const Rom& rom);
 
   // Translates what can be reached from `pc`, which must be in the view. Null if there is no room.
-  const void* translate(View& view, std::uint16_t pc, const Layout& layout, std::uint64_t plain_registers);
+  const void* translate(View& view, std::uint16_t pc, const Layout& layout);
 
   // Runs from `entry` on; returns the new PC, with kInterpretNext or not.
   using Enter = std::uint32_t (*)(const void* entry, Board* board, WriteLog* log);
@@ -58,6 +58,7 @@ class ImageCode {
   void make_gates(const Layout& layout);
 
   const Rom rom_;
+  const std::uint64_t plain_registers_;
   std::mutex mutex_;
   CodeMemory memory_;
   std::vector<std::unique_ptr<View>> views_;

@@ -56,7 +56,7 @@ const std::string& refusal() {
 
 struct Translator::Impl {
   explicit Impl(Board& board)
-      : code(translator::ImageCode::of(board.slot.rom)), layout(board), plain_registers(board.plain_registers()) {}
+      : code(translator::ImageCode::of(board.slot.rom, board.plain_registers())), layout(board) {}
 
   // The windows that were looked into last: a bank switch finds its way back without asking the image.
   struct Seen {
@@ -70,7 +70,6 @@ struct Translator::Impl {
 
   std::shared_ptr<translator::ImageCode> code;
   const translator::Layout layout;
-  const std::uint64_t plain_registers;
   std::array<Seen, 16> seen{};
   std::size_t next_seen = 0;
   Seen current;
@@ -96,7 +95,7 @@ const void* Translator::Impl::entry(Board& board) {
   if (view == nullptr) return nullptr;
   if (const void* known = view->entry(board.state.cpu.PC)) return known;
   if (!translator::holds(view->code, board.state.cpu.PC) || code->is_full()) return nullptr;
-  return code->translate(*view, board.state.cpu.PC, layout, plain_registers);
+  return code->translate(*view, board.state.cpu.PC, layout);
 }
 
 // True if the interpreter must do the next instruction.

@@ -1,0 +1,36 @@
+// Sentences about fields of a state that comes from elsewhere.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace racebeam {
+
+[[noreturn]] inline void refuse_field(const char* what, std::int64_t value, const std::string& accepted) {
+  throw std::invalid_argument("the state is none that this machine can be in: " + std::string(what) + " is " +
+                              std::to_string(value) + "; it must be " + accepted);
+}
+
+inline void check_range(const char* what, std::int64_t value, std::int64_t least, std::int64_t most) {
+  if (value >= least && value <= most) return;
+  refuse_field(what, value,
+               least == most ? std::to_string(least)
+                             : "from " + std::to_string(least) + " to " + std::to_string(most));
+}
+
+inline void check_flag(const char* what, std::int64_t value) { check_range(what, value, 0, 1); }
+
+// Bits that nothing ever sets.
+inline void check_clear(const char* what, unsigned value, unsigned unused) {
+  if ((value & unused) != 0) refuse_field(what, value, "without the bits " + std::to_string(unused));
+}
+
+// Bytes that are only there to fill.
+template <class Bytes>
+void check_zeros(const char* what, const Bytes& bytes) {
+  for (const std::uint8_t byte : bytes) check_range(what, byte, 0, 0);
+}
+
+}  // namespace racebeam

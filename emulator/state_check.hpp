@@ -1,0 +1,15 @@
+// Is this a state that a machine can be in? Asked of states that come from elsewhere: what passes may play
+// nonsense, but runs within bounds, like any other.
+#pragma once
+
+#include "emulator/beam.hpp"
+#include "emulator/scheme.hpp"
+#include "emulator/state.hpp"
+
+namespace racebeam {
+
+// Throws std::invalid_argument, with a sentence that names the field, its value and what is accepted. `video`
+// and `slot` are those of the console that is to go on with `state`.
+void check_state(const State& state, const Video& video, const Slot& slot);
+
+}  // namespace racebeam

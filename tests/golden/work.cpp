@@ -1,0 +1,69 @@
+#include "tests/golden/work.hpp"
+
+#include <zlib.h>
+
+#include <cstdio>
+#include <random>
+#include <span>
+
+namespace racebeam::test {
+namespace {
+
+// What the acts of one line showed.
+struct Fold {
+  std::uint32_t screen = 0, ram = 0, audio = 0;
+  long reward = 0;
+  int ends = 0;
+
+  void add(const Environment& environment, int gained) {
+    add(screen, environment.screen());
+    add(ram, environment.ram());
+    add(audio, environment.audio());
+    reward += gained;
+    ends += environment.game_over() ? 1 : 0;
+  }
+
+ private:
+  static void add(std::uint32_t& sum, std::span<const std::uint8_t> bytes) {
+    sum = static_cast<std::uint32_t>(crc32(sum, bytes.data(), static_cast<uInt>(bytes.size())));
+  }
+};
+
+std::string line(int acts, const Fold& fold, int lives) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%6d %08x %08x %08x %6ld %5d %4d\n", acts, fold.screen, fold.ram,
+                fold.audio, fold.reward, lives, fold.ends);
+  return text;
+}
+
+Environment switched_on(const Work& work) {
+  Environment environment(work.image, work.game, work.settings);
+  if (work.mode == environment.mode() && work.difficulty == environment.difficulty()) return environment;
+  environment.set_mode(work.mode);
+  environment.set_difficulty(work.difficulty);
+  environment.reset_game();
+  return environment;
+}
+
+}  // namespace
+
+const std::string kColumns = "  acts   screen      ram    audio reward lives ends\n";
+
+std::string played(const Work& work) {
+  Environment environment = switched_on(work);
+  std::mt19937 random(1);
+  const auto& legal = work.game->legal_actions;
+  std::string text;
+  Fold fold;
+  for (int act = 1; act <= work.acts; ++act) {
+    const int reward = environment.act(legal[random() % legal.size()]);
+    fold.add(environment, reward);
+    if (environment.game_over()) environment.reset_game();
+    if (act % work.acts_a_line != 0) continue;
+    text += line(act, fold, environment.lives());
+    fold = {};
+  }
+  return text;
+}
+
+}  // namespace racebeam::test
