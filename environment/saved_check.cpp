@@ -37,7 +37,8 @@ void check_play(const Play& play, const Game& game) {
   check_range("the frame number", play.frames, 0, kMaxInt);
   check_range("the frame number of the episode", play.episode_frames, 0, kMaxInt);
   check_offered("the mode", play.mode, game.modes);
-  check_offered("the difficulty", play.difficulty, game.difficulties);
+  if (play.difficulty != 0)
+    check_offered("the difficulty", play.difficulty, game.difficulties);  // starts with 0
   check_flag("the flag of an old RAM", play.ram_is_stale);
 }
 
