@@ -46,17 +46,16 @@ std::vector<NamedSettings> all_settings() {
 }
 
 // Television standards and controllers, for programs that are no game.
-std::shared_ptr<const Game> program_game(int number) {
+std::shared_ptr<const Game> program_game(std::string_view scheme, int number) {
   static constexpr std::array kProperties = {"", "format = \"PAL\"", "format = \"SECAM\"",
                                              "left = \"paddles\"\nystart = 40"};
-  const std::string text = "title = \"Program\"\n[[image]]\n" +
-                           std::string(kProperties[static_cast<std::size_t>(number) % kProperties.size()]) +
-                           "\n";
+  const std::string text = "title = \"Program\"\n[[image]]\nscheme = \"" + std::string(scheme) + "\"\n" +
+                           kProperties[static_cast<std::size_t>(number) % kProperties.size()] + "\n";
   return std::make_shared<const Game>(parse_game(text, "program", "program.toml"));
 }
 
-Work program(const std::string& name, std::shared_ptr<const Image> image, int number) {
-  return {name, std::move(image), program_game(number), settings(0, 1), 0, 0, kProgramActs, kProgramActs};
+Work program(const std::string& name, std::shared_ptr<const Image> image, std::string_view scheme, int number) {
+  return {name, std::move(image), program_game(scheme, number), settings(0, 1), 0, 0, kProgramActs, kProgramActs};
 }
 
 }  // namespace
@@ -77,11 +76,11 @@ std::vector<Work> works_of(const std::string& name) {
 }
 
 std::vector<Work> works_of_programs() {
-  std::vector<Work> works = {program("functional", load_image(RACEBEAM_FUNCTIONAL_PROGRAM), 0)};
+  std::vector<Work> works = {program("functional", load_image(RACEBEAM_FUNCTIONAL_PROGRAM), "4K", 0)};
   for (const std::string_view scheme : random_schemes())
     for (int i = 0; i < kImagesAScheme; ++i)
       works.push_back(program(std::string(scheme) + " " + std::to_string(i),
-                              random_image(scheme, static_cast<unsigned>(i)), i));
+                              random_image(scheme, static_cast<unsigned>(i)), scheme, i));
   return works;
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "emulator/opcodes.hpp"
-#include "emulator/scheme.hpp"
 #include "games/digest.hpp"
 
 namespace racebeam::test {
@@ -15,31 +14,54 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::size_t kBank = 4096;
+constexpr unsigned kCartridge = 4096, kStarpathLoad = 8448, kStarpathPages = 24;
+
+struct Range {
+  unsigned first, size;
+};
 
 struct Recipe {
   std::string_view scheme;
-  std::size_t size;
-  bool on_board_ram;       // the first 256 bytes of each bank are left alike
-  Bytes signature;         // by which the scheme is recognised; twice
-  unsigned hotspot, last;  // addresses that change banks
+  std::size_t size;           // of the image
+  unsigned unit;              // each so many bytes hold the program once; it runs in the last one that the CPU sees
+  std::vector<Range> lively;  // addresses that do something
+  Bytes first{};              // instructions that the program begins with
 };
 
 const std::vector<Recipe>& recipes() {
   static const std::vector<Recipe> all = {
-      {"2K", 2048, false, {}, 0x1000, 0x1FFF},
-      {"4K", 4096, false, {}, 0x1000, 0x1FFF},
-      {"F8", 8192, false, {}, 0x1FF8, 0x1FF9},
-      {"F8SC", 8192, true, {}, 0x1FF8, 0x1FF9},
-      {"F6", 16384, false, {}, 0x1FF6, 0x1FF9},
-      {"F6SC", 16384, true, {}, 0x1FF6, 0x1FF9},
-      {"F4", 32768, false, {}, 0x1FF4, 0x1FFB},
-      {"F4SC", 32768, true, {}, 0x1FF4, 0x1FFB},
-      {"E0", 8192, false, {0x8D, 0xE0, 0x1F}, 0x1FE0, 0x1FF7},
-      {"FE", 8192, false, {0x20, 0x00, 0xD0, 0xC6, 0xC5}, 0xD000, 0xFFFF},
-      {"3F", 8192, false, {0x85, 0x3F}, 0x0000, 0x003F},
+      {"2K", 2048, 2048, {{0x1000, 0x1000}}},
+      {"4K", 4096, 4096, {{0x1000, 0x1000}}},
+      {"F8", 8192, 4096, {{0x1FF8, 2}}},
+      {"F8 swapped", 8192, 4096, {{0x1FF8, 2}}},
+      {"F8SC", 8192, 4096, {{0x1FF8, 2}, {0x1000, 0x100}}},
+      {"F6", 16384, 4096, {{0x1FF6, 4}}},
+      {"F6SC", 16384, 4096, {{0x1FF6, 4}, {0x1000, 0x100}}},
+      {"F4", 32768, 4096, {{0x1FF4, 8}}},
+      {"F4SC", 32768, 4096, {{0x1FF4, 8}, {0x1000, 0x100}}},
+      {"FASC", 12288, 4096, {{0x1FF8, 3}, {0x1000, 0x200}}},
+      {"E0", 8192, 4096, {{0x1FE0, 24}}},
+      {"E7", 16384, 2048, {{0x1FE0, 12}, {0x1FE7, 1}, {0x1000, 0x800}, {0x1800, 0x200}}},
+      {"FE", 8192, 4096, {{0xD000, 0x3000}}},
+      {"DPC", 10496, 4096, {{0x1FF8, 2}, {0x1000, 0x40}, {0x1040, 0x40}, {0x1058, 8}}},
+      {"3F", 8192, 2048, {{0x0000, 0x40}, {0x1000, 0x40}}},
+      {"3E", 16384, 2048, {{0x003E, 2}, {0x103E, 2}, {0x1000, 0x800}}},
+      {"UA", 8192, 4096, {{0x0220, 1}, {0x0240, 1}}},
+      {"CV", 2048, 2048, {{0x1000, 0x800}}},
+      {"CV 4K", 4096, 2048, {{0x1000, 0x800}}},
+      {"AR", kStarpathLoad, 2048, {{0x1000, 0x100}, {0x1FF8, 1}, {0x1850, 1}}},
+      {"MB", 65536, 4096, {{0x1FF0, 1}}},
+      // The window that the program runs in shows ROM.
+      {"MC", 131072, 1024, {{0x003C, 3}, {0x1000, 0xC00}, {0x1FFC, 2}}, {0xA9, 0x90, 0x85, 0x3F}},
   };
   return all;
+}
+
+const Recipe& recipe_of(std::string_view scheme) {
+  const auto recipe = std::ranges::find(recipes(), scheme, &Recipe::scheme);
+  if (recipe == recipes().end())
+    throw std::invalid_argument("no random image of scheme " + std::string(scheme));
+  return *recipe;
 }
 
 bool jams(unsigned opcode) { return (opcode & 0x1F) == 0x12 || (opcode & 0x9F) == 0x02; }
@@ -52,33 +74,32 @@ bool jumps(unsigned opcode) {
 bool branches(unsigned opcode) { return (opcode & 0x1F) == 0x10; }
 
 // A frame of straight code, again and again: writes to the TIA, loops that wait, touched hot spots, and any
-// instruction that there is but jumps. All banks have the same instructions, with other values, so that code
+// instruction that there is but jumps. All units have the same instructions, with other values, so that code
 // that changes the bank goes on in the other one; none lies across a border of two windows.
 class Writer {
  public:
-  Writer(const Recipe& recipe, unsigned seed)
-      : recipe_(recipe), random_(seed), bank_(std::min(recipe.size, kBank)) {}
+  Writer(const Recipe& recipe, unsigned seed) : recipe_(recipe), random_(seed) {}
 
   Bytes write() {
     while (bytes_.size() < kBegin) bytes_.push_back(static_cast<std::uint8_t>(below(256)));
-    while (bytes_.size() < bank_ - kTail) instruction();
+    for (const std::uint8_t byte : recipe_.first) bytes_.push_back(byte);
+    while (bytes_.size() < recipe_.unit - kTail) instruction();
     put({0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0xA9, 0x00, 0x85,
          0x00});  // VSYNC on, two lines, off
-    put({0x4C, kBegin & 0xFF, 0xF0 | kBegin >> 8});
-    bytes_.resize(bank_);
-    for (std::size_t i = 0; i < 2; ++i)
-      std::ranges::copy(recipe_.signature, bytes_.end() - 0x60 + 16 * static_cast<int>(i));
-    for (std::size_t vector = bank_ - 4; vector < bank_; vector += 2) {
-      bytes_[vector] = kBegin & 0xFF;
-      bytes_[vector + 1] = 0xF0 | kBegin >> 8;
+    put({0x4C, begin() & 0xFF, begin() >> 8});
+    bytes_.resize(recipe_.unit);
+    for (std::size_t vector = recipe_.unit - 4; vector < recipe_.unit; vector += 2) {
+      bytes_[vector] = static_cast<std::uint8_t>(begin() & 0xFF);
+      bytes_[vector + 1] = static_cast<std::uint8_t>(begin() >> 8);
     }
-    return with_all_banks();
+    return recipe_.scheme == "AR" ? starpath_load() : units(recipe_.size);
   }
 
  private:
-  static constexpr unsigned kBegin = 0x100, kTail = 0xA0, kWindow = 1024;
+  static constexpr unsigned kBegin = 0x200, kTail = 0x60, kWindow = 1024;
 
   unsigned below(unsigned limit) { return static_cast<unsigned>(random_() % limit); }
+  unsigned begin() const { return 0xF000 + kCartridge - recipe_.unit + kBegin; }
 
   void put(std::initializer_list<unsigned> instruction) {
     while (bytes_.size() / kWindow != (bytes_.size() + instruction.size() - 1) / kWindow)
@@ -110,7 +131,8 @@ class Writer {
   }
 
   void touch_hotspot() {
-    const unsigned address = recipe_.hotspot + below(recipe_.last - recipe_.hotspot + 1);
+    const Range& range = recipe_.lively[below(static_cast<unsigned>(recipe_.lively.size()))];
+    const unsigned address = range.first + below(range.size);
     put({below(2) == 0 ? 0xADU : 0x8DU, address & 0xFF, address >> 8});
   }
 
@@ -126,19 +148,34 @@ class Writer {
       put({opcode, operand, below(256)});
   }
 
-  Bytes with_all_banks() {
+  Bytes units(std::size_t size) {
     Bytes all;
-    while (all.size() < recipe_.size) {
-      if (recipe_.on_board_ram) std::fill_n(bytes_.begin(), 256, std::uint8_t{0xEA});
+    while (all.size() < size) {
       all.insert(all.end(), bytes_.begin(), bytes_.end());
       for (const std::size_t at : values_) bytes_[at] = static_cast<std::uint8_t>(below(256));
     }
+    all.resize(size);
     return all;
+  }
+
+  // Load 0 fills the three banks of RAM; it is started with the last of them in the upper half (cartridges.md,
+  // section 9).
+  Bytes starpath_load() {
+    constexpr unsigned kConfiguration = 0x0D, kPagesABank = 8;
+    Bytes load = units(kStarpathPages * 256);
+    load.resize(kStarpathLoad);
+    const auto header = load.end() - 256;
+    header[0] = static_cast<std::uint8_t>(begin() & 0xFF);
+    header[1] = static_cast<std::uint8_t>(begin() >> 8);
+    header[2] = kConfiguration;
+    header[3] = kStarpathPages;
+    for (unsigned page = 0; page < kStarpathPages; ++page)
+      header[16 + page] = static_cast<std::uint8_t>(page / kPagesABank | page % kPagesABank << 2);
+    return load;
   }
 
   const Recipe& recipe_;
   std::mt19937 random_;
-  std::size_t bank_;
   Bytes bytes_;
   std::vector<std::size_t> values_;  // places of what is written to the TIA
 };
@@ -155,17 +192,20 @@ std::span<const std::string_view> random_schemes() {
 }
 
 std::shared_ptr<const Image> random_image(std::string_view scheme, unsigned seed) {
-  const auto recipe = std::ranges::find(recipes(), scheme, &Recipe::scheme);
-  if (recipe == recipes().end())
-    throw std::invalid_argument("no random image of scheme " + std::string(scheme));
-  Bytes bytes = Writer(*recipe, seed).write();
-  if (scheme_name(bytes) != scheme)
-    throw std::logic_error("a random image is not of scheme " + std::string(scheme));
+  Bytes bytes = Writer(recipe_of(scheme), seed).write();
   auto image = std::make_shared<Image>();
   image->md5 = md5_of(bytes);
   image->bytes = std::make_shared<const Bytes>(std::move(bytes));
   image->stem = "random";
   return image;
+}
+
+std::shared_ptr<const Game> random_game(std::string_view scheme) {
+  Game game = game_without_rule("random");
+  GameImage any{};
+  any.properties.scheme = recipe_of(scheme).scheme;
+  game.images = {any};
+  return std::make_shared<const Game>(std::move(game));
 }
 
 }  // namespace racebeam::test

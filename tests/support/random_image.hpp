@@ -6,14 +6,19 @@
 #include <string>
 #include <string_view>
 
+#include "games/game.hpp"
 #include "games/image.hpp"
 
 namespace racebeam::test {
 
-// The schemes that there are random images of.
+// The schemes that there are random images of: all that have code to run.
 std::span<const std::string_view> random_schemes();
 
-// The same seed gives the same image, on every machine. Throws std::invalid_argument for another scheme.
+// The same seed gives the same image, on every machine. Its bytes don't tell the scheme: it has to be asked for.
+// Throws std::invalid_argument for another scheme.
 std::shared_ptr<const Image> random_image(std::string_view scheme, unsigned seed);
+
+// A game without a rule that asks for `scheme`, whatever the image.
+std::shared_ptr<const Game> random_game(std::string_view scheme);
 
 }  // namespace racebeam::test
