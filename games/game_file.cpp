@@ -113,7 +113,7 @@ void read_facts(const TomlSource& source, const Section& section, const toml::ta
 void read_reset(const Section& section, const toml::table& table, RuleCompiler& compiler) {
   for (const auto& [key, node] : table) {
     const std::int32_t initial = *section.number(key.str());
-    section.guard(node, key.str(), [&] { compiler.reset_to(key.str(), initial); });
+    section.guard(node, key.str(), [&, name = key.str()] { compiler.reset_to(name, initial); });
   }
 }
 

@@ -109,7 +109,7 @@ class FlatMachine {
   // The first thing that differs; empty if nothing does.
   std::string run_vector(const Vector& vector, int cycles) {
     put(vector.before);
-    run(board(), 1);
+    racebeam::interpret(board(), 1);
     const CpuState& cpu = bench_.cpu;
     const VectorState& after = vector.after;
     const auto differs = [](const char* what, int here, int there) {
