@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <future>
 #include <iterator>
+#include <map>
 #include <sstream>
 
 #include "games/digest.hpp"
@@ -63,11 +65,38 @@ bool compare(const std::string& game, bool rebaseline) {
   return same_lines(game, read_file(file_of(game)), shown);
 }
 
+struct SignatureOptions {
+  bool lines = false, images = false;
+  CpuKind cpu = CpuKind::kAuto;
+  int at_once = 1;
+};
+
+std::vector<Work> works_of_signature(const std::vector<std::string>& games, const SignatureOptions& options) {
+  std::vector<Work> all = works_of_programs();
+  const auto add = [&all](std::vector<Work> works) { all.insert(all.end(), works.begin(), works.end()); };
+  for (const std::string& game : games) add(works_of(game));
+  if (options.images) add(works_of_images());
+  for (Work& work : all) work.settings.cpu = options.cpu;
+  return all;
+}
+
+// The same work in so many threads at once, on machines of their own. What all of them showed.
+std::string reported_at_once(const std::vector<Work>& works, int threads) {
+  std::vector<std::future<std::string>> reports;
+  for (int i = 0; i < threads; ++i)
+    reports.push_back(std::async(std::launch::async, [&works] { return report(works); }));
+  const std::string first = reports.front().get();
+  bool same = true;
+  for (std::size_t i = 1; i < reports.size(); ++i)
+    same = same_lines("thread " + std::to_string(i), first, reports[i].get()) && same;
+  if (!same) throw std::runtime_error("threads that did the same showed different things");
+  return first;
+}
+
 // One digest of all that is played; the lines themselves say where two compilers part.
-void print_signature(const std::vector<std::string>& games, bool lines) {
-  std::string text = report(works_of_programs());
-  for (const std::string& game : games) text += golden_text(game);
-  if (lines) std::fputs(text.c_str(), stdout);
+void print_signature(const std::vector<std::string>& games, const SignatureOptions& options) {
+  const std::string text = reported_at_once(works_of_signature(games, options), options.at_once);
+  if (options.lines) std::fputs(text.c_str(), stdout);
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   std::printf("%s\n", md5_of(bytes).c_str());
 }
@@ -75,16 +104,24 @@ void print_signature(const std::vector<std::string>& games, bool lines) {
 int run(int argc, char** argv) {
   CLI::App app("Compares what our own games show with tests/golden/GAME.txt");
   std::vector<std::string> games = {"beamfall", "updraft"};
-  bool rebaseline = false, signature = false, lines = false;
+  bool rebaseline = false, signature = false;
+  SignatureOptions options;
+  const std::map<std::string, CpuKind> cpus = {
+      {"auto", CpuKind::kAuto}, {"interpreter", CpuKind::kInterpreter}, {"translator", CpuKind::kTranslator}};
   app.add_option("GAME", games, "Games that are built in")->check(CLI::IsMember(games));
   app.add_flag("--rebaseline", rebaseline, "Write the files instead");
   app.add_flag("--signature", signature,
                "Print one digest of all games and of programs in every cartridge scheme");
-  app.add_flag("--lines", lines, "With --signature: print what it is the digest of, too")
-      ->needs("--signature");
+  const auto with_signature = [](CLI::Option* option) { option->needs("--signature"); };
+  with_signature(app.add_flag("--lines", options.lines, "Print what it is the digest of, too"));
+  with_signature(app.add_flag("--images", options.images, "Of all games whose cartridge image is here, too"));
+  with_signature(app.add_option("--cpu", options.cpu, "What runs the instructions")
+                     ->transform(CLI::CheckedTransformer(cpus)));
+  with_signature(app.add_option("--at-once", options.at_once, "So many threads do it at once, and must agree")
+                     ->check(CLI::Range(1, 64)));
   CLI11_PARSE(app, argc, argv);
   if (signature) {
-    print_signature(games, lines);
+    print_signature(games, options);
     return 0;
   }
   bool same = true;

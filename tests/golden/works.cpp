@@ -6,12 +6,14 @@
 #include "games/digest.hpp"
 #include "games/game_file.hpp"
 #include "tests/support/random_image.hpp"
+#include "tests/support/roms.hpp"
 
 namespace racebeam::test {
 namespace {
 
 constexpr int kActs = 1500, kActsALine = 250;
 constexpr int kProgramActs = 120, kImagesAScheme = 4;
+constexpr int kImageActs = 150;
 
 struct NamedSettings {
   const char* name;
@@ -81,6 +83,21 @@ std::vector<Work> works_of_programs() {
     for (int i = 0; i < kImagesAScheme; ++i)
       works.push_back(program(std::string(scheme) + " " + std::to_string(i),
                               random_image(scheme, static_cast<unsigned>(i)), scheme, i));
+  return works;
+}
+
+std::vector<Work> works_of_images() {
+  std::vector<Work> works;
+  for (const CatalogueEntry& entry : catalogue()) {
+    const auto game = find_game(entry.name);
+    const auto image = entry.built_in ? nullptr : find_rom_of(*game);
+    if (!image) continue;
+    Settings first = settings(0.25F, 4), last = settings(0.25F, 1);
+    last.color_averaging = true;
+    works.push_back({game->name, image, game, first, game->default_mode, 0, kImageActs, kImageActs});
+    works.push_back({game->name + ", last mode and difficulty", image, game, last, game->modes.back(),
+                     game->difficulties.back(), kImageActs, kImageActs});
+  }
   return works;
 }
 

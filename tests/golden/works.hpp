@@ -15,4 +15,7 @@ std::vector<Work> works_of(const std::string& game);
 // that checks the processor (tests/emulator/functional.asm).
 std::vector<Work> works_of_programs();
 
+// Every game whose image is here (tests/support/roms.hpp), in its first mode and its last; our own are not among them.
+std::vector<Work> works_of_images();
+
 }  // namespace racebeam::test
