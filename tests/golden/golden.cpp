@@ -14,9 +14,9 @@
 namespace racebeam::test {
 namespace {
 
-std::string report(const std::vector<Work>& works) {
+std::string report(const std::vector<Work>& works, bool states = false) {
   std::string text;
-  for (const Work& work : works) text += "\n[" + work.name + "]\n" + kColumns + played(work);
+  for (const Work& work : works) text += "\n[" + work.name + "]\n" + kColumns + played(work, states);
   return text;
 }
 
@@ -66,7 +66,7 @@ bool compare(const std::string& game, bool rebaseline) {
 }
 
 struct SignatureOptions {
-  bool lines = false, images = false;
+  bool lines = false, images = false, states = false;
   CpuKind cpu = CpuKind::kAuto;
   int at_once = 1;
 };
@@ -81,10 +81,10 @@ std::vector<Work> works_of_signature(const std::vector<std::string>& games, cons
 }
 
 // The same work in so many threads at once, on machines of their own. What all of them showed.
-std::string reported_at_once(const std::vector<Work>& works, int threads) {
+std::string reported_at_once(const std::vector<Work>& works, int threads, bool states) {
   std::vector<std::future<std::string>> reports;
   for (int i = 0; i < threads; ++i)
-    reports.push_back(std::async(std::launch::async, [&works] { return report(works); }));
+    reports.push_back(std::async(std::launch::async, [&works, states] { return report(works, states); }));
   const std::string first = reports.front().get();
   bool same = true;
   for (std::size_t i = 1; i < reports.size(); ++i)
@@ -95,7 +95,7 @@ std::string reported_at_once(const std::vector<Work>& works, int threads) {
 
 // One digest of all that is played; the lines themselves say where two compilers part.
 void print_signature(const std::vector<std::string>& games, const SignatureOptions& options) {
-  const std::string text = reported_at_once(works_of_signature(games, options), options.at_once);
+  const std::string text = reported_at_once(works_of_signature(games, options), options.at_once, options.states);
   if (options.lines) std::fputs(text.c_str(), stdout);
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   std::printf("%s\n", md5_of(bytes).c_str());
@@ -115,6 +115,7 @@ int run(int argc, char** argv) {
   const auto with_signature = [](CLI::Option* option) { option->needs("--signature"); };
   with_signature(app.add_flag("--lines", options.lines, "Print what it is the digest of, too"));
   with_signature(app.add_flag("--images", options.images, "Of all games whose cartridge image is here, too"));
+  with_signature(app.add_flag("--states", options.states, "And of the bytes of the state that each ends in"));
   with_signature(app.add_option("--cpu", options.cpu, "What runs the instructions")
                      ->transform(CLI::CheckedTransformer(cpus)));
   with_signature(app.add_option("--at-once", options.at_once, "So many threads do it at once, and must agree")

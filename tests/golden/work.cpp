@@ -6,6 +6,8 @@
 #include <random>
 #include <span>
 
+#include "environment/snapshot.hpp"
+
 namespace racebeam::test {
 namespace {
 
@@ -36,6 +38,13 @@ std::string line(int acts, const Fold& fold, int lives) {
   return text;
 }
 
+std::string state_sum(const Environment& environment) {
+  const auto bytes = to_bytes(*environment.save(true));
+  char text[16];
+  std::snprintf(text, sizeof text, "%08lx\n", crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
+  return text;
+}
+
 Environment switched_on(const Work& work) {
   Environment environment(work.image, work.game, work.settings);
   if (work.mode == environment.mode() && work.difficulty == environment.difficulty()) return environment;
@@ -49,7 +58,7 @@ Environment switched_on(const Work& work) {
 
 const std::string kColumns = "  acts   screen      ram    audio reward lives ends\n";
 
-std::string played(const Work& work) {
+std::string played(const Work& work, bool with_state) {
   Environment environment = switched_on(work);
   std::mt19937 random(1);
   const auto& legal = work.game->legal_actions;
@@ -63,6 +72,7 @@ std::string played(const Work& work) {
     text += line(act, fold, environment.lives());
     fold = {};
   }
+  if (with_state) text += "state " + state_sum(environment);
   return text;
 }
 

@@ -23,7 +23,7 @@ extern const std::string kColumns;
 
 // Plays, and gives a line for every `acts_a_line` acts: the number of acts so far, CRC-32 of all screens,
 // RAMs and blocks of sound of these acts, the sum of rewards, the lives after the last, and how many episodes
-// ended.
-std::string played(const Work& work);
+// ended. with_state: and a last line with the CRC-32 of the state at the end, in its portable form.
+std::string played(const Work& work, bool with_state = false);
 
 }  // namespace racebeam::test
