@@ -88,7 +88,9 @@ class Bench {
         repeat_(screen_ == Screen::kEvery ? options.machine.settings.frame_skip : 1),
         limit_(options.frames),
         actions_(choose_actions(options, *cartridge.game)),
-        environment_(power_on(cartridge, frame_by_frame(options.machine, screen_))) {}
+        environment_(power_on(cartridge, frame_by_frame(options.machine, screen_))) {
+    if (screen_ == Screen::kNone) environment_.set_drawing(Drawing::kNone);
+  }
 
   Tally run() {
     while (tally_.frames < limit_) {

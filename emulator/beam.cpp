@@ -45,8 +45,9 @@ void Beam::begin_frame() {
   tia_.pixel = 0;
 }
 
-void Beam::aim(Picture& picture) {
+void Beam::aim(Picture& picture, Pixels pixels) {
   picture_ = &picture;
+  pixels_ = pixels;
   look_afresh();
 }
 
@@ -100,14 +101,14 @@ void Beam::draw_span(int begin, int clocks) {
 
 void Beam::draw_visible(std::uint8_t* row, int first, int last) {
   if (tia_.vblank) {
-    std::memset(row + first, 0, static_cast<std::size_t>(last - first));
+    if (draws_pixels()) std::memset(row + first, 0, static_cast<std::size_t>(last - first));
     return;
   }
   const bool score = (tia_.enabled & object_bit(kPlayfield)) != 0 && (tia_.ctrlpf & 2) != 0;
   seen_ |= tia_.enabled | kLit | (score ? kScoreSeen : 0);
   collide(first, last);
-  draw_pixels(line_, tia_, row, first, last);
-  if (exact_spans_) spill(row, first, last);
+  if (draws_pixels()) draw_pixels(line_, tia_, row, first, last);
+  if (exact_spans()) spill(row, first, last);
 }
 
 void Beam::collide(int first, int last) {
@@ -129,8 +130,8 @@ void Beam::spill(std::uint8_t* row, int first, int last) {
 // on, past its end: seen only when drawing stops there.
 void Beam::blank_comb(std::uint8_t* row, int begin, int end, int first, int last) {
   int blank_to = first + kCombEnd - begin;
-  if (!exact_spans_) blank_to = std::min(blank_to, last);
-  if (blank_to > first) std::memset(row + first, 0, static_cast<std::size_t>(blank_to - first));
+  if (!exact_spans()) blank_to = std::min(blank_to, last);
+  if (blank_to > first && draws_pixels()) std::memset(row + first, 0, static_cast<std::size_t>(blank_to - first));
   if (end >= kCombEnd) tia_.comb_armed = 0;
 }
 

@@ -14,6 +14,13 @@ namespace racebeam {
 constexpr int kLineClocks = 228;
 constexpr int kBlankClocks = 68;  // of each line, before its first pixel
 
+// What a step does for the picture.
+enum class Pixels : std::uint8_t {
+  kNone,   // its pixels are not wanted: they stay as they were
+  kDrawn,
+  kExact,  // step by step as the reference draws, pixels beyond a span's end included (tia.md, "Provisional pixels")
+};
+
 // How a console makes its picture; constant once its format is known.
 struct Video {
   int ystart = 34;           // first line drawn
@@ -27,7 +34,7 @@ class Beam {
   Beam(TiaState& state, const Video& video) : tia_(state), video_(video) {}
 
   void begin_frame();                            // cursor to the window's start
-  void aim(Picture& picture);                    // where pixels go
+  void aim(Picture& picture, Pixels pixels);   // where pixels go
 
   // Everything derived from the registers is made anew: after a reset or a restored state.
   void forget();
@@ -61,9 +68,8 @@ class Beam {
   Collisions meetings() const { return meetings_; }
   void clear_collisions() { tia_.collisions = meetings_ = 0; }
 
-  // Step by step as the reference draws, pixels beyond the end of a span included (tia.md, "Provisional pixels").
-  void set_exact_spans(bool on) { exact_spans_ = on; }
-  bool exact_spans() const { return exact_spans_; }
+  bool exact_spans() const { return pixels_ == Pixels::kExact; }
+  bool draws_pixels() const { return pixels_ != Pixels::kNone; }
 
   std::int32_t start() const { return start_; }  // the window, in colour clocks
   std::int32_t end() const { return end_; }
@@ -87,7 +93,7 @@ class Beam {
   std::uint8_t stale_ = 0xFF;   // masks to make anew
   std::uint16_t seen_ = 0;
   Collisions meetings_ = 0;
-  bool exact_spans_ = false;
+  Pixels pixels_ = Pixels::kDrawn;
 };
 
 }  // namespace racebeam

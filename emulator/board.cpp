@@ -91,14 +91,14 @@ void Board::turn_back_clocks(std::int32_t cycles) {
   state.cycle -= cycles;
 }
 
-void Board::begin_step(Picture& picture, WriteLog& scratch, bool exact) {
+void Board::begin_step(Picture& picture, WriteLog& scratch, Pixels pixels) {
   log = &scratch;
   log->begin(state.cycle);
   last_access_ = kNever;
-  exact_ = exact;
+  exact_ = pixels == Pixels::kExact;
   fetched_latches_ = false;
-  plain_registers_ = exact ? 0 : plain_registers();
-  tia.begin_step(picture, scratch, exact);
+  plain_registers_ = exact_ ? 0 : plain_registers();
+  tia.begin_step(picture, scratch, pixels);
 }
 
 void Board::end_step() { tia.catch_up(last_access_); }

@@ -64,8 +64,8 @@ class Board {
   void turn_back_clocks(std::int32_t cycles);
   // A step: begin_step(), then what the CPU does, then end_step(), which leaves the picture drawn as far as the
   // reference has drawn it. If needs_exact_step(), what the reference draws ahead of the beam can be seen: then the
-  // same is to be done again, from the state before the step, with `exact` set.
-  void begin_step(Picture& picture, WriteLog& scratch, bool exact = false);
+  // same is to be done again, from the state before the step, with Pixels::kExact.
+  void begin_step(Picture& picture, WriteLog& scratch, Pixels pixels = Pixels::kDrawn);
   void end_step();
   bool needs_exact_step() const;
   bool exact() const { return exact_; }

@@ -6,50 +6,19 @@
 #include <string>
 #include <utility>
 
-#include "emulator/board.hpp"
+#include "emulator/console_impl.hpp"
 #include "emulator/cpu.hpp"
-#include "emulator/motion.hpp"
 #include "emulator/state_check.hpp"
-#include "emulator/translator/translator.hpp"
 
 namespace racebeam {
 namespace {
 
-constexpr int kInstructionsPerStep = 25000;
 constexpr int kDetectionSteps = 60;
-constexpr std::int32_t kEndlessTurn = kEndlessCycle / 2 / (2 * kLineCycles) * (2 * kLineCycles);  // an even number of lines
 constexpr int kDefaultHeight = 210, kTallHeight = 250;  // the latter for PAL and SECAM
 
 bool is_pal(Format format) { return format == Format::kPal || format == Format::kPal60; }
 
 }  // namespace
-
-struct Console::Impl {
-  Impl(std::shared_ptr<const Rom> rom, const Properties& given, PowerOn& source, CpuKind kind)
-      : properties(given), power_on(source), board(std::move(rom), given), format(given.format),
-        translator(Translator::make(board, kind)) {}
-
-  Properties properties;
-  PowerOn& power_on;
-  Board board;
-  Format format;
-  Pictures pictures;
-  const std::unique_ptr<Translator> translator;  // null: the interpreter runs all
-
-  State& state() { return board.state; }
-  std::size_t picture_size() const { return static_cast<std::size_t>(height()) * kLinePixels; }
-  int height() const { return std::max(board.video.height, 200); }
-
-  void power_up();
-  void set_timer();
-  void reset();
-  void step();
-  void run_step(Picture& picture);
-  void blank(std::shared_ptr<Picture>& picture);
-  Picture& canvas();
-  Format detect_format();
-  void check_ram_size(std::span<const std::uint8_t> cartridge_ram) const;
-};
 
 // console.md, section 1.
 void Console::Impl::power_up() {
@@ -92,51 +61,6 @@ void Console::Impl::reset() {
   reset_cpu(board);
 }
 
-// tia.md, section 2.
-void Console::Impl::step() {
-  FrameState& frame = state().frame;
-  if (!frame.open) {
-    std::swap(pictures.current, pictures.previous);
-    board.open_frame();
-    frame.greyed = 0;
-  }
-  frame.open = 1;
-  Picture& picture = canvas();
-  run_step(picture);
-  state().cpu.latch = state().riot.ram.back();  // RAM is looked at over the bus after each step (console.md, section 4)
-  if (!frame.open) {
-    frame.lines = (3 * state().cycle - state().tia.origin) / kLineClocks;
-    frame.greyed = 0;
-  } else if (!frame.greyed) {
-    board.tia.grey(picture, state().cycle);
-    frame.greyed = 1;
-  }
-  if (state().cycle >= kEndlessCycle) board.turn_back_clocks(kEndlessTurn);
-}
-
-void Console::Impl::run_step(Picture& picture) {
-  thread_local WriteLog log;
-  const State at_begin = state();
-  const std::vector<std::uint8_t> ram_at_begin = board.cartridge_ram;  // mostly there is none
-  const auto repeat = [&](bool exact) {
-    state() = at_begin;
-    board.cartridge_ram = ram_at_begin;
-    board.map_memory();
-    board.begin_step(picture, log, exact);
-    interpret(board, kInstructionsPerStep);
-  };
-  board.begin_step(picture, log);
-  if (translator == nullptr) {
-    interpret(board, kInstructionsPerStep);
-  } else if (!translator->run(board, kInstructionsPerStep)) {
-    repeat(false);
-  }
-  board.end_step();
-  if (!board.needs_exact_step()) return;
-  repeat(true);
-  board.end_step();
-}
-
 // A black picture; one that a snapshot holds too is left as it is.
 void Console::Impl::blank(std::shared_ptr<Picture>& picture) {
   if (!picture || picture.use_count() > 1) {
@@ -144,22 +68,27 @@ void Console::Impl::blank(std::shared_ptr<Picture>& picture) {
     return;
   }
   std::atomic_thread_fence(std::memory_order_acquire);
+  picture->is_undrawn = false;
   picture->pixel.fill(0);
   picture->forget_lines();
 }
 
-// The picture that is drawn on: the console's own, not one that a snapshot holds too.
-Picture& Console::Impl::canvas() {
-  if (pictures.current.use_count() > 1) pictures.current = std::make_shared<Picture>(*pictures.current);
-  std::atomic_thread_fence(std::memory_order_acquire);  // a snapshot may have been let go in another thread
-  return *pictures.current;
+// The console's own buffers are kept for the frames to come, if nobody else holds them.
+void Console::Impl::take(const Pictures& others) {
+  const auto displace = [](std::shared_ptr<Picture>& own, const std::shared_ptr<Picture>& other,
+                           std::shared_ptr<Picture>& kept) {
+    if (own != other && own.use_count() == 1) kept = std::move(own);
+    own = other;
+  };
+  displace(pictures.current, others.current, spare.current);
+  displace(pictures.previous, others.previous, spare.previous);
 }
 
 Format Console::Impl::detect_format() {
   reset();
   int long_frames = 0;
   for (int i = 0; i < kDetectionSteps; ++i) {
-    step();
+    step(false);
     if (i >= 30 && (3 * state().cycle - state().tia.origin) / kLineClocks > 285) ++long_frames;
   }
   return long_frames >= 15 ? Format::kPal : Format::kNtsc;
@@ -181,7 +110,7 @@ Console::Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Pro
 Console::~Console() = default;
 
 void Console::reset() { impl_->reset(); }
-void Console::step() { impl_->step(); }
+void Console::step(bool draw) { impl_->step(draw); }
 
 Inputs& Console::inputs() { return impl_->state().inputs; }
 Sound& Console::sound() { return impl_->board.sound; }
@@ -210,15 +139,22 @@ bool Console::has_paddles() const {
 }
 
 std::span<const std::uint8_t> Console::picture() const {
+  impl_->draw_now(impl_->pictures.current);
   return std::span(impl_->pictures.current->pixel).first(impl_->picture_size());
 }
 
 std::span<const std::uint8_t> Console::previous_picture() const {
+  impl_->draw_now(impl_->pictures.previous);
   return std::span(impl_->pictures.previous->pixel).first(impl_->picture_size());
 }
 
 const Pictures& Console::pictures() const { return impl_->pictures; }
-void Console::restore_pictures(const Pictures& pictures) { impl_->pictures = pictures; }
+void Console::restore_pictures(const Pictures& pictures) { impl_->take(pictures); }
+
+std::shared_ptr<const Picture> Console::drawn(std::shared_ptr<Picture> picture) const {
+  impl_->draw_now(picture);
+  return picture;
+}
 
 std::span<const std::uint8_t, 128> Console::ram() const { return impl_->board.state.riot.ram; }
 

@@ -27,7 +27,10 @@ class Console {
   ~Console();
 
   void reset();  // system reset, console.md section 2
-  void step();   // runs until a frame closes (tia.md section 2)
+
+  // Runs until a frame closes (tia.md section 2). draw: its picture will be looked at. Without, all is the same and
+  // picture() too, but it must then run the frame again: what will mostly not be looked at costs less.
+  void step(bool draw = true);
 
   Inputs& inputs();               // what is pressed from now on
   Sound& sound();
@@ -51,10 +54,14 @@ class Console {
   std::span<const std::uint8_t> picture() const;           // height() x 160 palette indices, drawn last
   std::span<const std::uint8_t> previous_picture() const;  // the picture before it
 
-  // Both buffers with their order, for a snapshot. They are shared until the console draws on one of them again, so
-  // that taking and putting back cost nothing. What is put back must come from a console with the same properties.
+  // Both buffers with their order, for a snapshot; undrawn ones as they are. They are shared until the console draws on
+  // one of them again, so that taking and putting back cost nothing. What is put back must come from a console with the
+  // same image and properties.
   const Pictures& pictures() const;
   void restore_pictures(const Pictures& pictures);
+
+  // A picture of such a snapshot with its pixels: the same, or a copy that has been drawn.
+  std::shared_ptr<const Picture> drawn(std::shared_ptr<Picture> picture) const;
 
   std::span<const std::uint8_t, 128> ram() const;  // $80-$FF
   void set_ram(int index, std::uint8_t value);

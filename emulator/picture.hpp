@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "emulator/line.hpp"
 #include "emulator/line_key.hpp"
@@ -22,9 +23,16 @@ struct LineRecord {
   std::uint8_t count = kInvalid;   // of events
   std::uint8_t comb_armed;         // what the line left
   std::uint8_t enabled;            // the same; of a line that is kLit
+  std::uint8_t has_pixels;         // the buffer's row is this line; else only the rest is known
   std::array<std::uint32_t, 17> event;  // the writes: TiaWrite, with cycles from the line's first on; read by fours
 };
 static_assert(sizeof(LineRecord) == 128);
+
+// A machine before a step that opens a frame, and has told the TIA so.
+struct FrameStart {
+  State state;
+  std::vector<std::uint8_t> cartridge_ram;
+};
 
 struct Picture {
   static constexpr int kRows = 320;  // the window, and what a reset may shift it down by (tia.md, section 2)
@@ -33,6 +41,10 @@ struct Picture {
   alignas(64) std::array<std::uint8_t, static_cast<std::size_t>(kRows) * kLinePixels> pixel{};
   std::array<LineRecord, kRecordedRows> line;
   std::array<std::uint32_t, 4> beyond_last_event{};  // of the last record
+
+  // The last frame on this buffer was run without its pixels. From here it can be run again, and then fills them all.
+  FrameStart undrawn;
+  bool is_undrawn = false;
 
   // The pixels were written by somebody else.
   void forget_lines() {

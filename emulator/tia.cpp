@@ -75,9 +75,8 @@ void Tia::begin_frame() {
   for (std::uint8_t& color : tia_.color) color = static_cast<std::uint8_t>((color & 0xFE) | loss);
 }
 
-void Tia::begin_step(Picture& picture, WriteLog& log, bool exact) {
-  beam_.aim(picture);
-  beam_.set_exact_spans(exact);
+void Tia::begin_step(Picture& picture, WriteLog& log, Pixels pixels) {
+  beam_.aim(picture, pixels);
   log_ = &log;
   played_ = log.next;
   recorded_ = nullptr;
@@ -181,9 +180,11 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   LineRecord* const first = &beam_.record();
   LineRecord* const last = first + std::min(beam_.lines_to_end(), beam_.rows_to_end_of_records());
   LineRecord* record = first;
+  const bool pixels_wanted = beam_.draws_pixels();
   bool enough = false;
   for (; record != last; ++record, origin += kLineOfWrites) {
-    if (record->count == LineRecord::kInvalid || !look_the_same(tia_, record->start, record->view)) break;
+    if (record->count == LineRecord::kInvalid || record->has_pixels < pixels_wanted) break;
+    if (!look_the_same(tia_, record->start, record->view)) break;
     const std::uint32_t* next = played_ + record->count;
     if (*next - origin < kBeyondLine || !meets_the_same(played_, origin, *record)) {
       const bool can_meet = (record->meetings & asked) != 0 || (record->view.seen & kClears) != 0;
@@ -244,6 +245,7 @@ void Tia::close_record() {
   recorded_->meetings = beam_.meetings();
   recorded_->comb_armed = tia_.comb_armed;
   recorded_->enabled = tia_.enabled;
+  recorded_->has_pixels = beam_.draws_pixels();
   recorded_->count = count_;
   recorded_ = nullptr;
 }

@@ -17,14 +17,15 @@ class Tia {
 
   void begin_frame();  // the cursor, and the colour loss of PAL (tia.md, section 12)
 
-  // Pixels go to `picture`, writes come in `log`. Exact: the picture shows what the reference has drawn ahead of the
-  // beam at every access; then each write must be played, and each read touched, before the next.
-  void begin_step(Picture& picture, WriteLog& log, bool exact);
+  // Pixels go to `picture`, writes come in `log`. Pixels::kExact: the picture shows what the reference has drawn ahead
+  // of the beam at every access; then each write must be played, and each read touched, before the next.
+  void begin_step(Picture& picture, WriteLog& log, Pixels pixels);
   void play_log(std::int32_t cycle) { play_log(cycle, kWholePicture); }  // all that was written up to `cycle`
   void empty_log(std::int32_t cycle);    // the same, and makes room; its cycles count from `cycle` from now on
   void touch(std::int32_t cycle);        // an access that changes nothing: draws up to it
   void catch_up(std::int32_t cycle);     // plays all, and draws up to `cycle`
   void find_collisions(std::int32_t cycle, Collisions asked);  // these latches stand as they do at `cycle`
+  bool drew_all() const { return tia_.cursor >= beam_.end(); }  // of the window
   bool stopped_inside(std::int32_t cycle) const;  // would a picture that stops here show what was drawn ahead?
   void forget() { beam_.forget(); }      // the registers were replaced as a whole
   void grey(Picture& picture, std::int32_t cycle) const;  // rows not drawn when a step ended open

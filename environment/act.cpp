@@ -25,7 +25,7 @@ int Environment::Impl::act(const Presses& asked, int frames) {
   for (int n = frames; n > 0; --n) {
     sticky.draw(random, asked, play.held);
     if (over()) continue;
-    run_frame(legal.replace(play.held));
+    run_frame(legal.replace(play.held), n <= drawn_frames || each_frame);
     count_frame();
     reward_a += rule.reward();
     reward_b += rule.reward_b();
@@ -36,14 +36,14 @@ int Environment::Impl::act(const Presses& asked, int frames) {
   return play.rewards[0];
 }
 
-void Environment::Impl::run_frame(const Presses& presses) {
+void Environment::Impl::run_frame(const Presses& presses, bool draw) {
   hands.press(console.inputs(), presses, play.difficulty, play.paddles);
-  step_console();
+  step_console(draw);
   rule.step(memory());
 }
 
-void Environment::Impl::step_console() {
-  console.step();
+void Environment::Impl::step_console(bool draw) {
+  console.step(draw);
   play.ram_is_stale = 0;
   blend_is_due = true;
 }

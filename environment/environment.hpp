@@ -18,6 +18,10 @@
 namespace racebeam {
 
 struct Sound;
+struct Picture;
+
+// Which frames of an act are drawn as they run.
+enum class Drawing { kEvery, kLastTwo, kLast, kNone };
 
 constexpr int kScreenWidth = 160;
 constexpr int kRamSize = 128;
@@ -45,6 +49,11 @@ class Environment {
 
   // The same for a number of frames that is not the settings': no-ops at the start of an episode.
   int act_for(int frames, int a);
+
+  // Says which screens will be looked at. It changes nothing but the speed: one that was not drawn is drawn when it is
+  // asked for, which costs more. kLast unless told; kLastTwo with colour averaging, kEvery while somebody watches.
+  // Who takes previous_screen() as well wants kLastTwo, who takes rewards and RAM alone wants kNone.
+  void set_drawing(Drawing drawing);
 
   // Called after each frame of an act, not for those of a reset; nothing: no longer. For recordings.
   void watch(std::function<void()> each_frame);
@@ -82,6 +91,9 @@ class Environment {
   // exactly. with_random: the sticky-action generator too.
   class Saved;
   std::shared_ptr<const Saved> save(bool with_random = false) const;
+
+  // A picture of a state that is one of this environment's image and game, with its pixels.
+  std::shared_ptr<const Picture> drawn(const std::shared_ptr<Picture>& picture) const;
   void restore(const Saved& saved);
 
   // For planners, who meet the same state by different ways: two environments of the same image, game and

@@ -39,6 +39,7 @@ struct Environment::Impl {
   Play play;
   std::array<std::uint8_t, kAudioSize> audio{};
   std::function<void()> each_frame;  // empty: nobody watches
+  int drawn_frames;                  // the last of each act
 
   // With colour averaging, the screen is made when it is first asked for.
   const Blend* const blend;  // null: no averaging
@@ -49,8 +50,8 @@ struct Environment::Impl {
   int act(const Presses& asked) { return act(asked, frames_of_act()); }
   int act(const Presses& asked, int frames);
   int frames_of_act();
-  void run_frame(const Presses& presses);  // and the rule after it
-  void step_console();                     // without the rule
+  void run_frame(const Presses& presses, bool draw);  // and the rule after it
+  void step_console(bool draw);                       // without the rule
   void count_frame();
   bool truncated() const;
   bool over() const { return rule.terminal() || truncated(); }

@@ -31,7 +31,7 @@ void Environment::Impl::reset() {
 void Environment::Impl::run_frames(int action, int count) {
   Presses presses;
   presses.a.action = action;
-  for (int n = 0; n < count; ++n) run_frame(presses);
+  for (int n = 0; n < count; ++n) run_frame(presses, false);
 }
 
 void Environment::Impl::soft_reset() {
@@ -42,7 +42,7 @@ void Environment::Impl::soft_reset() {
 // Only the frame after it is seen by the rule, and counts.
 void Environment::Impl::select(int frames) {
   Hands::press_select(console.inputs(), play.difficulty);
-  for (int n = 0; n < frames; ++n) step_console();
+  for (int n = 0; n < frames; ++n) step_console(false);
   run_frames(kNoop, 1);
   count_frame();
 }

@@ -117,7 +117,8 @@ std::shared_ptr<Picture> take_picture(std::span<const std::uint8_t>& bytes, std:
 
 }  // namespace
 
-std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved) {
+std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved, const Environment& environment) {
+  check_identity(saved.identity, Identity(environment.image(), environment.game()));
   Prefix prefix{};
   prefix.identity = saved.identity;
   prefix.height = saved.height;
@@ -129,8 +130,8 @@ std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved) {
   append(bytes, prefix);
   append(bytes, saved.values);
   bytes.insert(bytes.end(), saved.cartridge_ram.begin(), saved.cartridge_ram.end());
-  append_pixels(bytes, *saved.pictures.current, prefix.picture_size());
-  append_pixels(bytes, *saved.pictures.previous, prefix.picture_size());
+  append_pixels(bytes, *environment.drawn(saved.pictures.current), prefix.picture_size());
+  append_pixels(bytes, *environment.drawn(saved.pictures.previous), prefix.picture_size());
   if (saved.random) append(bytes, words_of(*saved.random));
 
   Header header{{},

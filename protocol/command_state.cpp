@@ -96,7 +96,7 @@ void run_states(Session& session, Words) {
 }
 
 void run_export(Session& session, Words arguments) {
-  const auto bytes = to_bytes(*find_state(session, arguments[0]).machine);
+  const auto bytes = to_bytes(*find_state(session, arguments[0]).machine, session.player->machine());
   session.out += "ok";
   append_pair(session.out, "state", arguments[0]);
   append_pair(session.out, "bytes", static_cast<std::int64_t>(bytes.size()));

@@ -120,7 +120,7 @@ struct Bench {
     if (board.needs_exact_step()) {
       state = at_begin_;
       board.map_memory();
-      board.begin_step(picture(), whole_->log, true);
+      board.begin_step(picture(), whole_->log, Pixels::kExact);
       for (const auto& action : step_) action(*this);
       board.end_step();
     }

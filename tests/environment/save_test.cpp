@@ -45,13 +45,13 @@ void check_identity_of_states(const std::shared_ptr<const Image>& image,
     running.restore(*saved);
     REQUIRE(observe(running) == seen);
     REQUIRE(play(running, 4, 1000u + static_cast<unsigned>(i)) == future);
-    other.restore(*from_bytes(to_bytes(*saved), other));
+    other.restore(*from_bytes(to_bytes(*saved, running), other));
     REQUIRE(observe(other) == seen);
     REQUIRE(play(other, 4, 1000u + static_cast<unsigned>(i)) == future);
     running.restore(*saved);
   }
   Environment fresh(image, game, settings);
-  const auto bytes = to_bytes(*running.save(true));
+  const auto bytes = to_bytes(*running.save(true), running);
   const Future future = play(running, 300, 1);
   fresh.restore(*from_bytes(bytes, fresh));
   REQUIRE(play(fresh, 300, 1) == future);

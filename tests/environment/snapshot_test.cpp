@@ -22,7 +22,7 @@ Environment counter(const std::string& name = "steered") {
 Bytes some_state(bool with_random = false) {
   Environment environment = counter();
   for (int i = 0; i < 10; ++i) environment.act(i);
-  return to_bytes(*environment.save(with_random));
+  return to_bytes(*environment.save(with_random), environment);
 }
 
 TEST_CASE("Bytes of a state give the same bytes again") {
@@ -30,17 +30,17 @@ TEST_CASE("Bytes of a state give the same bytes again") {
   for (const bool with_random : {false, true}) {
     const Bytes bytes = some_state(with_random);
     const auto saved = from_bytes(bytes, environment);
-    CHECK(to_bytes(*saved) == bytes);
+    CHECK(to_bytes(*saved, environment) == bytes);
     CHECK(saved->random.has_value() == with_random);
     environment.restore(*saved);
-    CHECK(to_bytes(*environment.save(with_random)) == bytes);
+    CHECK(to_bytes(*environment.save(with_random), environment) == bytes);
   }
 }
 
 TEST_CASE("A state carries its generator through bytes") {
   Environment first = counter(), second = counter();
   for (int i = 0; i < 700; ++i) first.act(i % 18);  // past one turn of the generator's 624 words
-  second.restore(*from_bytes(to_bytes(*first.save(true)), second));
+  second.restore(*from_bytes(to_bytes(*first.save(true), first), second));
   CHECK(*second.save(true)->random == *first.save(true)->random);
 }
 
@@ -65,14 +65,14 @@ TEST_CASE("A state has the cartridge's RAM, in memory and as bytes") {
   for (int i = 0; i < 10; ++i) environment.act(0);
   const auto saved = environment.save();
   const int count = environment.ram()[0];
-  const Bytes bytes = to_bytes(*saved);
+  const Bytes bytes = to_bytes(*saved, environment);
   for (int i = 0; i < 5; ++i) environment.act(0);
   REQUIRE(int{environment.ram()[0]} == count + 5);
 
   Environment other(image_with_ram(), test::game(), {});
   for (Environment* restored : {&environment, &other}) {
     restored->restore(*from_bytes(bytes, *restored));
-    CHECK(to_bytes(*restored->save()) == bytes);
+    CHECK(to_bytes(*restored->save(), *restored) == bytes);
     for (int i = 0; i < 5; ++i) restored->act(0);
     CHECK(int{restored->ram()[0]} == count + 5);
   }

@@ -1,0 +1,48 @@
+// The inside of a Console. Its parts are in console.cpp and step.cpp.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "emulator/board.hpp"
+#include "emulator/console.hpp"
+#include "emulator/translator/translator.hpp"
+
+namespace racebeam {
+
+struct Console::Impl {
+  Impl(std::shared_ptr<const Rom> rom, const Properties& given, PowerOn& source, CpuKind kind)
+      : properties(given), power_on(source), board(std::move(rom), given), format(given.format),
+        translator(Translator::make(board, kind)) {}
+
+  Properties properties;
+  PowerOn& power_on;
+  Board board;
+  Format format;
+  Pictures pictures;
+  Pictures spare;  // buffers of the console's own that a snapshot's have displaced, or null
+  const std::unique_ptr<Translator> translator;  // null: the interpreter runs all
+
+  State& state() { return board.state; }
+  std::size_t picture_size() const { return static_cast<std::size_t>(height()) * kLinePixels; }
+  int height() const { return std::max(board.video.height, 200); }
+
+  void power_up();
+  void set_timer();
+  void reset();
+  void blank(std::shared_ptr<Picture>& picture);
+  Format detect_format();
+  void take(const Pictures& others);
+  void check_ram_size(std::span<const std::uint8_t> cartridge_ram) const;
+
+  // step.cpp
+  void step(bool draw);
+  bool step_over(const FrameStart& start, bool draw);
+  bool run_step(Picture& picture, const FrameStart& start, Pixels pixels);
+  void go_back(const FrameStart& start);
+  void draw_now(std::shared_ptr<Picture>& picture);
+  Picture& canvas();
+};
+
+}  // namespace racebeam

@@ -1,0 +1,115 @@
+// Running a frame, with its pixels or without (spec: tia.md, section 2). A frame whose pixels nobody has asked for
+// leaves its start in the picture, and is run again when somebody asks.
+#include <atomic>
+
+#include "emulator/console_impl.hpp"
+#include "emulator/cpu.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr int kInstructionsPerStep = 25000;
+constexpr std::int32_t kEndlessTurn = kEndlessCycle / 2 / (2 * kLineCycles) * (2 * kLineCycles);  // an even number of lines
+
+// Nobody else holds it. A snapshot may have been let go in another thread.
+bool is_own(const std::shared_ptr<Picture>& picture) {
+  if (!picture || picture.use_count() > 1) return false;
+  std::atomic_thread_fence(std::memory_order_acquire);
+  return true;
+}
+
+}  // namespace
+
+void Console::Impl::step(bool draw) {
+  FrameState& frame = state().frame;
+  const bool opens = !frame.open;
+  if (opens) {
+    std::swap(pictures.current, pictures.previous);
+    board.open_frame();
+    frame.greyed = 0;
+    frame.open = 1;
+  }
+  const FrameStart start{state(), board.cartridge_ram};
+  const bool keeps_old_pixels = draw && !pictures.current->is_undrawn && is_own(pictures.current);
+  if (!opens || keeps_old_pixels || !step_over(start, draw)) {
+    draw_now(pictures.current);
+    run_step(canvas(), start, Pixels::kDrawn);
+  }
+  state().cpu.latch = state().riot.ram.back();  // RAM is looked at over the bus after each step (console.md, section 4)
+  if (!frame.open) {
+    frame.lines = (3 * state().cycle - state().tia.origin) / kLineClocks;
+    frame.greyed = 0;
+  } else if (!frame.greyed) {
+    board.tia.grey(*pictures.current, state().cycle);
+    frame.greyed = 1;
+  }
+  if (state().cycle >= kEndlessCycle) board.turn_back_clocks(kEndlessTurn);
+}
+
+// Runs a frame without a look at what its picture shows so far. It must fill the whole window: false if it does not, or
+// does not close, and the machine stands at its start again.
+bool Console::Impl::step_over(const FrameStart& start, bool draw) {
+  std::shared_ptr<Picture>& current = pictures.current;
+  if (!spare.current) std::swap(spare.current, spare.previous);
+  std::shared_ptr<Picture>& place = is_own(current) ? current : spare.current;
+  if (!is_own(place)) place = std::make_shared<Picture>();
+  const bool closes = run_step(*place, start, draw ? Pixels::kDrawn : Pixels::kNone) && !state().frame.open;
+  if (!closes || !board.tia.drew_all()) {
+    go_back(start);
+    return false;
+  }
+  place->is_undrawn = !draw;
+  if (!draw) place->undrawn = start;
+  if (&place != &current) current = std::exchange(place, nullptr);
+  return true;
+}
+
+// From `start` on. What the reference draws ahead of the beam is seen in few steps: such a one is run once more, access
+// by access; but false, and all is left as it is, if its pixels are not wanted.
+bool Console::Impl::run_step(Picture& picture, const FrameStart& start, Pixels pixels) {
+  thread_local WriteLog log;
+  const auto repeat = [&](Pixels how) {
+    go_back(start);
+    board.begin_step(picture, log, how);
+    interpret(board, kInstructionsPerStep);
+  };
+  board.begin_step(picture, log, pixels);
+  if (translator == nullptr) {
+    interpret(board, kInstructionsPerStep);
+  } else if (!translator->run(board, kInstructionsPerStep)) {
+    repeat(pixels);
+  }
+  board.end_step();
+  if (!board.needs_exact_step()) return true;
+  if (pixels == Pixels::kNone) return false;
+  repeat(Pixels::kExact);
+  board.end_step();
+  return true;
+}
+
+void Console::Impl::go_back(const FrameStart& start) {
+  state() = start.state;
+  board.cartridge_ram = start.cartridge_ram;
+  board.map_memory();
+}
+
+// Gives a picture its pixels. The machine is the same afterwards.
+void Console::Impl::draw_now(std::shared_ptr<Picture>& picture) {
+  if (!picture->is_undrawn) return;
+  if (!is_own(picture)) picture = std::make_shared<Picture>(*picture);
+  const FrameStart now{state(), board.cartridge_ram};
+  const Sound sound = board.sound;
+  go_back(picture->undrawn);
+  run_step(*picture, picture->undrawn, Pixels::kDrawn);
+  picture->is_undrawn = false;
+  go_back(now);
+  board.sound = sound;
+}
+
+// The picture that is drawn on: the console's own, not one that a snapshot holds too.
+Picture& Console::Impl::canvas() {
+  if (!is_own(pictures.current)) pictures.current = std::make_shared<Picture>(*pictures.current);
+  return *pictures.current;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,131 @@
+// Frames that are run without their pixels: whoever looks later sees what would have been drawn, and the machine is the
+// same in any case. On generated programs whose frames change from one to the next, are short, long or without an end.
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <random>
+
+#include "emulator/console.hpp"
+#include "emulator/registers.hpp"
+
+namespace racebeam::test {
+namespace {
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  int below(int limit) { return static_cast<int>(engine_() % static_cast<unsigned>(limit)); }
+  bool percent(int chance) { return below(100) < chance; }
+  std::uint8_t byte() { return static_cast<std::uint8_t>(engine_()); }
+
+ private:
+  std::mt19937 engine_;
+};
+
+// A frame as games make them: VSYNC, then groups of lines that begin with some writes. Values are constants, or bytes of
+// RAM that change from frame to frame; what collision registers say is written too.
+class Program {
+ public:
+  explicit Program(unsigned seed) : random_(seed) {
+    put({0xA9, 0x02, 0x85, VSYNC, 0x85, WSYNC, 0x85, WSYNC, 0x85, WSYNC, 0xA9, 0x00, 0x85, VSYNC});
+    put({0xE6, 0x90, 0xA5, 0x90, 0x29, random_.percent(50) ? std::uint8_t{3} : std::uint8_t{31}, 0x85, 0x91});
+    const int lines = random_.percent(70) ? 262 : random_.below(340);
+    for (int line = 0; line < lines && code_.size() < 3900;) line += add_group();
+    if (random_.percent(10)) put({0xE6, 0x92, 0xD0, 0xFE, 0xE6, 0x92});  // stands still, from one frame on
+    put({0x4C, 0x00, 0xF0});
+    code_.resize(4096, 0xEA);
+    code_[0xFFC] = 0x00;
+    code_[0xFFD] = 0xF0;
+  }
+
+  const std::vector<std::uint8_t>& code() const { return code_; }
+
+ private:
+  void put(std::initializer_list<std::uint8_t> bytes) { code_.insert(code_.end(), bytes); }
+
+  int add_group() {
+    for (int writes = random_.below(8); writes > 0; --writes) add_write();
+    const int lines = 1 + random_.below(20);
+    put({0xA2, static_cast<std::uint8_t>(lines), 0x85, WSYNC});
+    const bool on_each = random_.percent(50);
+    const auto start = code_.size() - 2;
+    if (on_each) add_write();
+    put({0xCA, 0xD0, static_cast<std::uint8_t>(start - (code_.size() + 3))});
+    return lines;
+  }
+
+  void add_write() {
+    switch (random_.below(4)) {
+      case 0: put({0xA5, static_cast<std::uint8_t>(random_.below(8))}); break;  // a collision register
+      case 1: put({0xA5, 0x91}); break;
+      default: put({0xA9, random_.byte()}); break;
+    }
+    put({0x85, static_cast<std::uint8_t>(VBLANK + (random_.percent(95) ? 3 + random_.below(CXCLR - 3) : 0))});
+  }
+
+  Random random_;
+  std::vector<std::uint8_t> code_;
+};
+
+struct Machine {
+  Machine(const std::shared_ptr<const std::vector<std::uint8_t>>& rom, const Properties& properties)
+      : console(rom, properties, power_on) {}
+  SystemGenerator power_on{1};
+  Console console;
+};
+
+bool same(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) { return std::ranges::equal(a, b); }
+
+void compare(Console& drawn, Console& other, Random& random) {
+  REQUIRE(std::memcmp(&drawn.state(), &other.state(), sizeof(State)) == 0);
+  REQUIRE(std::memcmp(&drawn.sound(), &other.sound(), sizeof(Sound)) == 0);
+  if (random.percent(20)) REQUIRE(same(drawn.picture(), other.picture()));
+  if (random.percent(20)) REQUIRE(same(drawn.previous_picture(), other.previous_picture()));
+  REQUIRE(std::memcmp(&drawn.state(), &other.state(), sizeof(State)) == 0);
+}
+
+struct Snapshot {
+  explicit Snapshot(const Console& console) : state(console.state()), pictures(console.pictures()) {}
+  void restore_to(Console& console) const {
+    console.restore(state);
+    console.restore_pictures(pictures);
+  }
+  State state;
+  Pictures pictures;
+};
+
+void play(unsigned seed, int frames) {
+  Random random(seed);
+  const auto rom = std::make_shared<const std::vector<std::uint8_t>>(Program(seed).code());
+  Properties properties;
+  properties.format = random.percent(80) ? Format::kNtsc : Format::kPal;
+  Machine drawn(rom, properties), other(rom, properties);
+  std::vector<std::pair<Snapshot, Snapshot>> saved;
+  const int often = random.below(101);
+  for (int frame = 0; frame < frames; ++frame) {
+    INFO("frame " << frame);
+    drawn.console.step();
+    other.console.step(random.percent(often));
+    compare(drawn.console, other.console, random);
+    if (random.percent(10)) saved.emplace_back(drawn.console, other.console);
+    if (!saved.empty() && random.percent(10)) {
+      const auto& [of_drawn, of_other] = saved[static_cast<std::size_t>(random.below(static_cast<int>(saved.size())))];
+      of_drawn.restore_to(drawn.console);
+      of_other.restore_to(other.console);
+      compare(drawn.console, other.console, random);
+      if (random.percent(30)) {
+        REQUIRE(same(drawn.console.pictures().current->pixel, other.console.drawn(of_other.pictures.current)->pixel));
+      }
+    }
+    if (saved.size() > 4) saved.erase(saved.begin());
+  }
+}
+
+TEST_CASE("A frame that was not drawn is drawn when somebody looks") {
+  for (unsigned seed = 1; seed <= 400; ++seed) {
+    INFO("seed " << seed);
+    play(seed, 60);
+  }
+}
+
+}  // namespace
+}  // namespace racebeam::test
