@@ -93,7 +93,7 @@ void Beam::draw_span(int begin, int clocks) {
   const int first = std::max(visible - kBlankClocks, 0);
   const int last = std::max(end_clock - kBlankClocks, first);
   std::uint8_t* row = picture_->pixel.data() + tia_.pixel - first;
-  if (has_record()) record().count = LineRecord::kInvalid;
+  if (has_record()) record().known = LineRecord::kNothing;
   if (last > first) draw_visible(row, first, last);
   if (tia_.comb_armed && visible < kCombEnd) blank_comb(row, visible, end_clock, first, last);
   tia_.pixel += last - first;
@@ -112,6 +112,8 @@ void Beam::draw_visible(std::uint8_t* row, int first, int last) {
 }
 
 void Beam::collide(int first, int last) {
+  if (lost_track_) stale_ |= line_.outdated(tia_);
+  lost_track_ = false;
   if (stale_ != 0) line_.refresh(tia_, stale_);
   stale_ = 0;
   meetings_ |= racebeam::meetings(line_, first, last, meetings_);

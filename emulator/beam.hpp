@@ -45,6 +45,8 @@ class Beam {
   // A register of these objects (bit n: Object n) has changed.
   void changed(std::uint8_t objects) { stale_ |= objects; }
 
+  void lose_track() { lost_track_ = true; }  // they have changed, and nobody said which
+
   // Line by line, for lines that are drawn as a whole.
   bool at_line_start() const { return tia_.left == kLineClocks && tia_.cursor >= start(); }
   std::int32_t line_end() const { return tia_.cursor + tia_.left; }
@@ -91,6 +93,7 @@ class Beam {
   std::int32_t start_ = 0, end_ = 0;
   Line line_;
   std::uint8_t stale_ = 0xFF;   // masks to make anew
+  bool lost_track_ = false;
   std::uint16_t seen_ = 0;
   Collisions meetings_ = 0;
   Pixels pixels_ = Pixels::kDrawn;

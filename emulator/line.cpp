@@ -138,6 +138,20 @@ constexpr auto kPairOfLatch = make_pair_of_latch();
 
 }  // namespace
 
+std::uint8_t Line::outdated(const TiaRegisters& tia) const {
+  const auto differ = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) != 0; };
+  unsigned objects = 0;
+  for (unsigned i = 0; i < 2; ++i) {
+    if (differ(tia.player[i], shown.player[i])) objects |= 1U << (kP0 + i) | 1U << (kM0 + i);  // NUSIZx is both's
+    if (differ(tia.missile[i], shown.missile[i])) objects |= 1U << (kM0 + i);
+  }
+  if (tia.cosmic_shape != shown.cosmic_shape) objects |= bit(kM0);
+  if (differ(tia.ball, shown.ball)) objects |= bit(kBall);
+  if (differ(tia.pf, shown.pf) || tia.reflect != shown.reflect) objects |= bit(kPlayfield);
+  if (tia.ctrlpf != shown.ctrlpf) objects |= bit(kBall) | bit(kPlayfield);
+  return static_cast<std::uint8_t>(objects);
+}
+
 void Line::refresh(const TiaState& tia, std::uint8_t objects) {
   const auto set = [this](Object object, const PixelMask& pixels) {
     mask[object] = pixels;
@@ -152,6 +166,7 @@ void Line::refresh(const TiaState& tia, std::uint8_t objects) {
   if (objects & bit(kBall)) set(kBall, ball_mask(tia));
   if (objects & bit(kPlayfield)) set(kPlayfield, playfield_mask(tia));
   set_layers(*this, tia);
+  shown = tia;
 }
 
 void draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {

@@ -23,7 +23,9 @@ struct Line {
   std::array<PixelMask, kObjects> mask;  // by Object
   std::array<Layer, 3> layer;            // what hides what: from the back to the front
   std::uint8_t covered = 0;              // bit n: mask n has pixels
+  TiaRegisters shown;                    // what the masks were made from
 
+  std::uint8_t outdated(const TiaRegisters& tia) const;     // objects whose registers are others than those
   void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew, and the layers
 };
 

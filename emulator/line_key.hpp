@@ -15,9 +15,7 @@
 #include <array>
 #include <cstdint>
 
-#include "emulator/inlining.hpp"
 #include "emulator/state.hpp"
-#include "emulator/vectors.hpp"
 
 namespace racebeam {
 
@@ -47,18 +45,5 @@ extern const std::array<LineEffect, 64> kLineEffects;
 
 extern const std::array<TiaRegisters, 512> kSeenBytes;     // $FF for each byte that counts, by LineView::seen but kClears
 extern const std::array<TiaRegisters, 256> kControlBytes;  // and by LineView::control
-
-// Do the two differ in nothing that the line looks at?
-RACEBEAM_INLINE bool look_the_same(const TiaRegisters& a, const TiaRegisters& b, LineView view) {
-  const TiaRegisters &seen = kSeenBytes[view.seen & 0x1FF], &control = kControlBytes[view.control];
-  TwoWords difference{};
-  for (std::size_t at = 0; at < sizeof(TiaRegisters); at += sizeof(TwoWords)) {
-    const auto part = [at](const TiaRegisters& registers) {
-      return load<TwoWords>(reinterpret_cast<const std::uint8_t*>(&registers) + at);
-    };
-    difference |= (part(a) ^ part(b)) & (part(seen) | part(control));
-  }
-  return is_zero(difference);
-}
 
 }  // namespace racebeam

@@ -41,7 +41,7 @@ struct Recalling {
 constexpr std::uint32_t kBeyondLine = TiaWrite(kLineCycles + 1, 0, 0).packed();
 constexpr std::uint32_t kLineOfWrites = TiaWrite(kLineCycles, 0, 0).packed();
 
-// A write that comes this much later than RESPx, or sooner, may wait for the old copy of the player.
+// A write that comes no later than this after RESPx may wait for the old copy of the player.
 constexpr std::uint32_t kWaitOfRespx = TiaWrite(4, 0, 0).packed() - 1;
 
 constexpr std::array<std::uint32_t, 8> kFirstOfFour = {~0U, ~0U, ~0U, ~0U, 0, 0, 0, 0};
@@ -176,40 +176,55 @@ bool Tia::take_lines(Collisions asked) {
 // nothing asked for has met on that.
 bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   if (recorded_ != nullptr || !beam_.has_record()) return false;
-  RegisterEffects effects(tia_, frame_, video_, Recalling{beam_});
+  const LineRecord::Known wanted = beam_.draws_pixels() ? LineRecord::kPixels : LineRecord::kMeetings;
+  RegisterVectors registers(tia_);
+  std::int32_t cursor = tia_.cursor;
   LineRecord* const first = &beam_.record();
   LineRecord* const last = first + std::min(beam_.lines_to_end(), beam_.rows_to_end_of_records());
   LineRecord* record = first;
-  const bool pixels_wanted = beam_.draws_pixels();
   bool enough = false;
-  for (; record != last; ++record, origin += kLineOfWrites) {
-    if (record->count == LineRecord::kInvalid || record->has_pixels < pixels_wanted) break;
-    if (!look_the_same(tia_, record->start, record->view)) break;
+  for (; record != last; ++record, origin += kLineOfWrites, cursor += kLineClocks) {
+    if (record->known < wanted) break;
+    const bool starts = record->summed_up && registers.start(*record);
+    if (!starts && !registers.look_like(*record)) break;
     const std::uint32_t* next = played_ + record->count;
     if (*next - origin < kBeyondLine || !meets_the_same(played_, origin, *record)) {
       const bool can_meet = (record->meetings & asked) != 0 || (record->view.seen & kClears) != 0;
       enough = asked != kWholePicture && !can_meet && begins_the_same(played_, log_->next, origin, *record);
       break;
     }
-    effects.play(played_, next, log_->base);
+    if (starts) {
+      registers.pass(*record);
+      if (record->view.seen & kMoves) tia_.hmove_clock = static_cast<std::uint32_t>(cursor + 3 * record->hmove_cycle);
+      if (record->view.seen & kClears) beam_.clear_collisions();
+    } else {
+      registers.write(tia_);
+      play_recalled(next, *record);
+      registers.read(tia_);
+    }
     played_ = next;
-    tia_.enabled = record->view.seen & kLit ? record->enabled : enabled_objects(tia_);
     tia_.collisions |= record->meetings;
-    tia_.comb_armed = record->comb_armed;
-    beam_.end_line();
   }
+  registers.write(tia_);
+  beam_.lose_track();
   beam_.pass_lines(static_cast<int>(record - first));
   return enough;
+}
+
+// The line is there, but its registers came from elsewhere.
+void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
+  RegisterEffects(tia_, frame_, video_, Recalling{beam_}).play(played_, next, log_->base);
+  tia_.enabled = enabled_objects(tia_);
+  tia_.comb_armed = record.end.comb_armed;
+  beam_.end_line();
+  if (!record.summed_up) record.sum_up(video_.pal);
 }
 
 // Draws the cursor's line up to the last write, or to its end if the next one lies beyond: then it returns true.
 bool Tia::draw_line(std::uint32_t origin) {
   if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr) {
     recorded_ = &beam_.record();
-    recorded_->count = LineRecord::kInvalid;  // until the line is whole
-    recorded_->start = tia_.registers();
-    recorded_->view = {};
-    count_ = 0;
+    recorded_->open(tia_.registers());
     beam_.look_afresh();
   }
   if (!record_writes(origin)) return false;
@@ -223,17 +238,10 @@ bool Tia::draw_line(std::uint32_t origin) {
 bool Tia::record_writes(std::uint32_t origin) {
   const std::uint32_t* at = played_;
   for (; *at - origin < kBeyondLine && at != log_->next; ++at) {
-    const TiaWrite write(*at - origin);
-    const LineEffect effect = kLineEffects[write.reg()];
-    if (recorded_ == nullptr || count_ == recorded_->event.size() || write.cycle() > effect.last_cycle) {
+    if (recorded_ == nullptr || !recorded_->add(TiaWrite(*at - origin), at[1] - *at > kWaitOfRespx)) {
       recorded_ = nullptr;
       break;
     }
-    recorded_->event[count_++] = write.packed();
-    LineView& view = recorded_->view;
-    view.seen |= effect.seen;
-    const bool waits = write.reg() == RESP0 || write.reg() == RESP1;
-    if (!waits || at[1] - *at <= kWaitOfRespx) view.control |= effect.control;
   }
   play(at);
   return *at - origin >= kBeyondLine;
@@ -243,10 +251,8 @@ void Tia::close_record() {
   if (recorded_ == nullptr) return;
   recorded_->view.seen |= beam_.seen();
   recorded_->meetings = beam_.meetings();
-  recorded_->comb_armed = tia_.comb_armed;
-  recorded_->enabled = tia_.enabled;
-  recorded_->has_pixels = beam_.draws_pixels();
-  recorded_->count = count_;
+  recorded_->known = beam_.draws_pixels() ? LineRecord::kPixels : LineRecord::kMeetings;
+  recorded_->end = tia_.registers();
   recorded_ = nullptr;
 }
 

@@ -41,6 +41,7 @@ class Tia {
   std::uint32_t line_origin() const;
   bool take_lines(Collisions asked);
   bool recall_lines(std::uint32_t& origin, Collisions asked);
+  void play_recalled(const std::uint32_t* next, LineRecord& record);
   bool draw_line(std::uint32_t origin);
   bool record_writes(std::uint32_t origin);
   void close_record();
@@ -52,7 +53,6 @@ class Tia {
   WriteLog* log_ = nullptr;
   const std::uint32_t* played_ = nullptr;  // of its entries, up to here
   LineRecord* recorded_ = nullptr;  // the cursor's line, as far as it has been drawn
-  std::uint8_t count_ = 0;          // of its events so far
   std::int32_t reached_ = 0;  // the beam as the reference has it: ours may be behind, with the same registers
 };
 

@@ -1,0 +1,167 @@
+#include "emulator/line_record.hpp"
+
+#include "emulator/motion.hpp"
+#include "emulator/objects.hpp"
+#include "emulator/registers.hpp"
+#include "emulator/write_log.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::uint8_t kAll = 0xFF;
+
+// Bytes that a line may change without a write, and what that depends on: the end of a line latches REFLECT and lets
+// players be shown again; missile 0 in its Cosmic Ark mode moves.
+constexpr TiaRegisters make_always() {
+  TiaRegisters mask{};
+  mask.ctrlpf = mask.reflect = mask.enabled = mask.cosmic = kAll;
+  mask.player[0].skip = mask.player[1].skip = kAll;
+  return mask;
+}
+
+// Which bytes a write sets to a value that is always the same for the same writes before it and bytes that count.
+constexpr TiaRegisters make_written(unsigned reg) {
+  TiaRegisters mask{};
+  auto& [p0, p1] = mask.player;
+  auto& [m0, m1] = mask.missile;
+  BallState& ball = mask.ball;
+  const auto cosmic_shape = [&mask] { mask.cosmic_shape = static_cast<CosmicShape>(kAll); };
+  switch (reg) {
+    case VBLANK: mask.vblank = kAll; break;
+    case NUSIZ0: p0.nusiz = kAll; cosmic_shape(); break;
+    case NUSIZ1: p1.nusiz = kAll; break;
+    case COLUP0: case COLUP1: case COLUPF: case COLUBK: mask.color[reg - COLUP0] = kAll; break;
+    case CTRLPF: mask.ctrlpf = kAll; break;
+    case REFP0: p0.refp = kAll; break;
+    case REFP1: p1.refp = kAll; break;
+    case PF0: case PF1: case PF2: mask.pf[reg - PF0] = kAll; break;
+    case RESP0: p0.position = kAll; break;
+    case RESP1: p1.position = kAll; break;
+    case RESM0: m0.position = kAll; cosmic_shape(); break;
+    case RESM1: m1.position = kAll; break;
+    case RESBL: ball.position = kAll; break;
+    case GRP0: p0.grp = p1.old_grp = kAll; break;
+    case GRP1: p1.grp = p0.old_grp = ball.old_enabled = kAll; break;
+    case ENAM0: m0.enabled = kAll; break;
+    case ENAM1: m1.enabled = kAll; break;
+    case ENABL: ball.enabled = kAll; break;
+    case HMP0: p0.motion = kAll; break;
+    case HMP1: p1.motion = kAll; break;
+    case HMM0: m0.motion = kAll; break;
+    case HMM1: m1.motion = kAll; break;
+    case HMBL: ball.motion = kAll; break;
+    case VDELP0: p0.vdel = kAll; break;
+    case VDELP1: p1.vdel = kAll; break;
+    case VDELBL: ball.vdel = kAll; break;
+    case RESMP0: m0.locked = kAll; cosmic_shape(); break;
+    case RESMP1: m1.locked = kAll; break;
+    case HMOVE: cosmic_shape(); break;
+    case HMCLR: p0.motion = p1.motion = m0.motion = m1.motion = ball.motion = kAll; break;
+    default: break;
+  }
+  return mask;
+}
+
+constexpr auto kWrittenBytes = [] {
+  std::array<TiaRegisters, 64> table{};
+  for (unsigned reg = 0; reg < 64; ++reg) table[reg] = make_written(reg);
+  return table;
+}();
+
+constexpr TiaRegisters kAlways = make_always();
+constexpr TiaRegisters kMotions = make_written(HMCLR);
+
+void add_bytes(TiaRegisters& mask, const TiaRegisters& more) {
+  RegisterVectors sum(mask);
+  const RegisterVectors other(more);
+  for (std::size_t i = 0; i < sum.part.size(); ++i) sum.part[i] |= other.part[i];
+  sum.write(mask);
+}
+
+void clear_but(TiaRegisters& registers, const TiaRegisters& mask) {
+  RegisterVectors bytes(registers);
+  const RegisterVectors kept(mask);
+  for (std::size_t i = 0; i < bytes.part.size(); ++i) bytes.part[i] &= kept.part[i];
+  bytes.write(registers);
+}
+
+}  // namespace
+
+void LineRecord::open(const TiaRegisters& registers) {
+  known = kNothing;  // until the line is whole
+  start = registers;
+  summed_up = false;
+  view = {};
+  count = 0;
+}
+
+bool LineRecord::add(TiaWrite write, bool alone) {
+  const LineEffect& effect = kLineEffects[write.reg()];
+  if (count == kMostEvents || write.cycle() > effect.last_cycle) return false;
+  event[count++] = write.packed();
+  view.seen |= effect.seen;
+  const bool waits_for_nobody = alone && (write.reg() == RESP0 || write.reg() == RESP1);
+  if (!waits_for_nobody) view.control |= effect.control;
+  return true;
+}
+
+// Which bytes count, and which are known at the end. What a register's value at the end depends on is the writes, and
+// the bytes that count anyway as far as they have to do with what is shown (line_key.hpp), and these:
+void LineRecord::sum_up(bool pal) {
+  counts = kAlways;
+  sets = {};
+  bool foreseen = (start.cosmic | end.cosmic) == 0;
+  for (unsigned i = 0; i < count; ++i) {
+    const TiaWrite write(event[i]);
+    add_bytes(sets, kWrittenBytes[write.reg()]);
+    switch (write.reg()) {
+      // May start the Cosmic Ark mode, by an HMOVE on the line before.
+      case HMM0: foreseen &= write.value() >> 4 != 6; break;
+      // The missile stays where it was, or goes to its player.
+      case RESMP0: counts.cosmic_shape = static_cast<CosmicShape>(kAll); [[fallthrough]];
+      case RESMP1: counts.missile[write.reg() - RESMP0].position = kAll; break;
+      // In PAL, colours have the frame's colour loss in bit 0, all of them.
+      case COLUP0: case COLUP1: case COLUPF: case COLUBK: counts.color[3] |= pal ? kAll : 0; break;
+      default: break;
+    }
+  }
+  add_bytes(counts, kSeenBytes[view.seen & 0x1FF]);
+  add_bytes(counts, kControlBytes[view.control]);
+  if (view.seen & kMoves) {
+    add_bytes(counts, kMotions);
+    const std::uint8_t moved = moved_objects();
+    for (unsigned i = 0; i < 2; ++i) {
+      if (moved >> (kP0 + i) & 1) counts.player[i].position = kAll;
+      if (moved >> (kM0 + i) & 1) counts.missile[i].position = kAll;
+    }
+    if (moved & object_bit(kBall)) counts.ball.position = kAll;
+  }
+  add_bytes(sets, counts);
+  sets.comb_armed = kAll;  // a line uses up what it finds
+  if (!foreseen) counts.spare[0] = kAll, start.spare[0] = 1;  // which it never is: the writes must be played
+  clear_but(start, counts);
+  clear_but(end, sets);
+  summed_up = true;
+}
+
+// Whose positions HMOVE changes; notes when it does.
+std::uint8_t LineRecord::moved_objects() {
+  TiaRegisters now = start;
+  std::array<std::uint8_t*, 5> motion = {&now.player[0].motion, &now.player[1].motion, &now.missile[0].motion,
+                                         &now.missile[1].motion, &now.ball.motion};  // as HMP0 to HMBL, and as Object
+  unsigned moved = 0;
+  for (unsigned i = 0; i < count; ++i) {
+    const TiaWrite write(event[i]);
+    const unsigned reg = write.reg();
+    if (reg >= HMP0 && reg <= HMBL) *motion[reg - HMP0] = write.value() >> 4;
+    if (reg == HMCLR)
+      for (std::uint8_t* one : motion) *one = 0;
+    if (reg != HMOVE) continue;
+    hmove_cycle = static_cast<std::uint8_t>(write.cycle());
+    const auto& movement = kMovement[hmove_cycle % kLineCycles];
+    for (unsigned object = 0; object < motion.size(); ++object) moved |= (movement[*motion[object]] != 0 ? 1U : 0U) << object;
+  }
+  return static_cast<std::uint8_t>(moved);
+}
+
+}  // namespace racebeam

@@ -1,0 +1,80 @@
+// What is known about a row of a picture buffer: the registers and writes that produced it, and what the line leaves
+// behind. A line that starts alike and meets the same writes need not be drawn, nor its writes be played.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "emulator/inlining.hpp"
+#include "emulator/line.hpp"
+#include "emulator/line_key.hpp"
+#include "emulator/state.hpp"
+#include "emulator/vectors.hpp"
+#include "emulator/write_log.hpp"
+
+namespace racebeam {
+
+struct LineRecord {
+  enum Known : std::uint8_t { kNothing, kMeetings, kPixels };  // and pixels: the buffer's row shows the line
+  static constexpr std::size_t kMostEvents = 28;
+
+  TiaRegisters start;   // at the line's first clock
+  TiaRegisters end;     // when the line is over
+  TiaRegisters counts;  // once it is summed up, $FF for each byte that pixels, meetings or `end` depend on,
+  TiaRegisters sets;    // and for each that is known at the end: those that count, and those that are written
+  Collisions meetings;  // pairs that met on the line, after the last CXCLR
+  LineView view;        // why bytes count
+  Known known = kNothing;
+  bool summed_up;            // then `start` and `end` are 0 but for these bytes
+  std::uint8_t count;        // of events
+  std::uint8_t hmove_cycle;  // of the last HMOVE, if the line kMoves
+  std::array<std::uint32_t, kMostEvents> event;  // the writes: TiaWrite, with cycles from the line's first on
+
+  void open(const TiaRegisters& registers);
+  bool add(TiaWrite write, bool alone);  // false if it can't be remembered; alone: no other one follows at once
+
+  // So that next time the writes need not be played. That pays if there is a next time.
+  void sum_up(bool pal);
+
+ private:
+  std::uint8_t moved_objects();
+};
+
+// TiaRegisters in the processor's registers.
+struct RegisterVectors {
+  std::array<TwoWords, 3> part;
+
+  RACEBEAM_INLINE explicit RegisterVectors(const TiaRegisters& registers) { read(registers); }
+  RACEBEAM_INLINE void read(const TiaRegisters& registers) {
+    for (std::size_t i = 0; i < 3; ++i) part[i] = of(registers, i);
+  }
+  RACEBEAM_INLINE void write(TiaRegisters& registers) const { registers = std::bit_cast<TiaRegisters>(part); }
+
+  // Do they differ in nothing that decides about the line?
+  RACEBEAM_INLINE bool start(const LineRecord& record) const {
+    TwoWords difference{};
+    for (std::size_t i = 0; i < 3; ++i) difference |= (part[i] & of(record.counts, i)) ^ of(record.start, i);
+    return is_zero(difference);
+  }
+
+  // In nothing that can be seen? The registers may come out differently.
+  RACEBEAM_INLINE bool look_like(const LineRecord& record) const {
+    const TiaRegisters &seen = kSeenBytes[record.view.seen & 0x1FF], &control = kControlBytes[record.view.control];
+    TwoWords difference{};
+    for (std::size_t i = 0; i < 3; ++i) difference |= (part[i] ^ of(record.start, i)) & (of(seen, i) | of(control, i));
+    return is_zero(difference);
+  }
+
+  RACEBEAM_INLINE void pass(const LineRecord& record) {
+    for (std::size_t i = 0; i < 3; ++i) part[i] = (part[i] & ~of(record.sets, i)) | of(record.end, i);
+  }
+
+ private:
+  RACEBEAM_INLINE static TwoWords of(const TiaRegisters& registers, std::size_t i) {
+    return load<TwoWords>(reinterpret_cast<const std::uint8_t*>(&registers) + i * sizeof(TwoWords));
+  }
+};
+static_assert(sizeof(RegisterVectors) == sizeof(TiaRegisters));
+
+}  // namespace racebeam
