@@ -4,6 +4,7 @@
 
 #include "emulator/console_impl.hpp"
 #include "emulator/cpu.hpp"
+#include "emulator/motion.hpp"
 
 namespace racebeam {
 namespace {
