@@ -128,6 +128,14 @@ void Beam::spill(std::uint8_t* row, int first, int last) {
   std::memset(row + last, row[group], static_cast<std::size_t>(group + 4 - last));
 }
 
+bool Beam::end_picture(std::int32_t begin) {
+  if (tia_.comb_armed) return false;
+  const int line_clock = kLineClocks - tia_.left, last = line_clock - kBlankClocks;
+  const int first = std::max(begin - (tia_.cursor - line_clock) - kBlankClocks, 0);
+  if (last > first && !tia_.vblank && draws_pixels()) spill(picture_->pixel.data() + tia_.pixel - last, first, last);
+  return true;
+}
+
 // The eight pixels at the start of a line that an HMOVE leaves black. The reference blanks from the span's first pixel
 // on, past its end: seen only when drawing stops there.
 void Beam::blank_comb(std::uint8_t* row, int begin, int end, int first, int last) {

@@ -51,6 +51,8 @@ class Beam {
   bool at_line_start() const { return tia_.left == kLineClocks && tia_.cursor >= start(); }
   std::int32_t line_end() const { return tia_.cursor + tia_.left; }
   bool line_can_end() const { return line_end() < end(); }  // the window's last line never does
+  // What the reference writes beyond the last span, which began at `begin` or before. False if that can't be known.
+  bool end_picture(std::int32_t begin);
   void finish_line();                                       // draws the rest of the line and acts on its end
   void pass_lines(int count);  // which are there already, and whose ends have been acted on
   int lines_to_end() const { return (end() - 1 - tia_.cursor) / kLineClocks; }  // without the last

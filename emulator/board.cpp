@@ -101,14 +101,23 @@ void Board::begin_step(Picture& picture, WriteLog& scratch, Pixels pixels) {
   tia.begin_step(picture, scratch, pixels);
 }
 
-void Board::end_step() { tia.catch_up(last_access_); }
+// Writes that repeat what a register holds leave no trace in the log, but they end a span of drawing, up to 5 clocks
+// ahead (tia.md, section 4), and that is seen where the picture stops in the window. An access that closes the frame is
+// at least 9 clocks later.
+void Board::end_step() {
+  const bool closed = !state.frame.open && last_access_ == state.cycle;
+  if (closed && !exact_) {
+    is_exact_ = tia.end_picture(last_access_);
+  } else {
+    tia.catch_up(last_access_);
+    is_exact_ = exact_ || !tia.stopped_inside(state.cycle);
+  }
+}
 
-// An opcode that is fetched from a collision register sees what a write in the same cycle drew ahead, even one that
-// repeats what the register holds; plain writes of that kind leave no trace.
+// An opcode that is fetched from a collision register sees what a write in the same cycle drew ahead.
 bool Board::needs_exact_step() const {
-  if (exact_) return false;
   const bool untouched = last_access_ == kNever && log->size() == 0;
-  return fetched_latches_ || (!untouched && tia.stopped_inside(state.cycle));
+  return !exact_ && (fetched_latches_ || (!untouched && !is_exact_));
 }
 
 // What the map shows depends on the banks alone, so that a window that was found once is found again by them.

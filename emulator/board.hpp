@@ -109,6 +109,7 @@ class Board {
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
   std::int32_t last_access_ = 0;     // cycle of the last TIA access but plain writes: how far the picture is drawn
   bool exact_ = false;               // each access is played on its own
+  bool is_exact_ = true;             // the picture of the step that has ended is as if it had been
   bool fetched_latches_ = false;     // an opcode was read from a collision register
 };
 

@@ -115,6 +115,13 @@ void Tia::find_collisions(std::int32_t cycle, Collisions asked) {
 
 void Tia::touch(std::int32_t cycle) { Drawing{beam_, reached_}.draw_to(3 * cycle); }
 
+bool Tia::end_picture(std::int32_t cycle) {
+  play_log(cycle);
+  const std::int32_t reached = reached_;
+  touch(cycle);
+  return !stopped_inside(cycle) || (reached < 3 * cycle && beam_.end_picture(reached));
+}
+
 bool Tia::stopped_inside(std::int32_t cycle) const {
   return tia_.cursor < beam_.end() && 3 * cycle + kLongestDelay > beam_.start();
 }

@@ -26,6 +26,8 @@ class Tia {
   void catch_up(std::int32_t cycle);     // plays all, and draws up to `cycle`
   void find_collisions(std::int32_t cycle, Collisions asked);  // these latches stand as they do at `cycle`
   bool drew_all() const { return tia_.cursor >= beam_.end(); }  // of the window
+  // The same, where nothing follows. False if an access that is not in the log may have left something to be seen.
+  bool end_picture(std::int32_t cycle);
   bool stopped_inside(std::int32_t cycle) const;  // would a picture that stops here show what was drawn ahead?
   void forget() { beam_.forget(); }      // the registers were replaced as a whole
   void grey(Picture& picture, std::int32_t cycle) const;  // rows not drawn when a step ended open
