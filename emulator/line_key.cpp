@@ -2,6 +2,7 @@
 
 #include "emulator/objects.hpp"
 #include "emulator/registers.hpp"
+#include "emulator/write_log.hpp"
 
 namespace racebeam {
 namespace {
@@ -17,6 +18,18 @@ constexpr int longest_delay(unsigned reg) {
   if (reg == RESP0 || reg == RESP1) return 11;
   if (reg == NUSIZ0 || reg == NUSIZ1 || reg == RESM0 || reg == RESM1) return 8;
   return reg >= PF0 && reg <= PF2 ? 5 : 1;
+}
+
+// Cycle 76 is clock 228: the line is drawn, but its end is not acted on yet, which may undo what these write. So a write
+// there is as good as one in the next line, but for RESPx and what may start the Cosmic Ark mode. PFx waits for five
+// clocks in cycle 75, for two in 74.
+constexpr std::int8_t first_late(unsigned reg) {
+  switch (reg) {
+    case RESP0: case RESP1: case HMM0: case WriteLog::kNobody: return 127;
+    case NUSIZ0: case NUSIZ1: case RESM0: case RESM1: return 74;
+    case PF0: case PF1: case PF2: return 75;
+    default: return 76;
+  }
 }
 
 // VBLANK is part of every key, and what CTRLPF does to the colours of a playfield is noticed when it is drawn.
@@ -42,7 +55,8 @@ constexpr std::array<LineEffect, 64> make_effects() {
   std::array<LineEffect, 64> table{};
   for (unsigned reg = 0; reg < 64; ++reg) {
     const std::uint16_t seen = reg == HMOVE ? kMoves : reg == CXCLR ? kClears : 0;
-    table[reg] = {static_cast<std::int8_t>((228 - longest_delay(reg)) / 3), control_of(reg), seen};
+    const auto last = static_cast<std::int8_t>((228 - longest_delay(reg)) / 3);
+    table[reg] = {last, first_late(reg), control_of(reg), seen};
   }
   return table;
 }

@@ -37,7 +37,8 @@ struct LineView {
 
 // What a write to a register may do to the line that it falls on.
 struct LineEffect {
-  std::int8_t last_cycle;  // of the line, at which it still takes effect on the same line
+  std::int8_t last_cycle;        // of the line, at which it still takes effect on the same line
+  std::int8_t first_late_cycle;  // and at which it acts on the next one alone, as if it were written there
   std::uint8_t control;    // see LineView; RESPx: if a write follows at once
   std::uint16_t seen;      // kMoves, kClears or 0
 };

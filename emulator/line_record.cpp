@@ -95,7 +95,7 @@ void LineRecord::open(const TiaRegisters& registers) {
   count = 0;
 }
 
-bool LineRecord::add(TiaWrite write, bool alone) {
+bool LineRecord::add(LineWrite write, bool alone) {
   const LineEffect& effect = kLineEffects[write.reg()];
   if (count == kMostEvents || write.cycle() > effect.last_cycle) return false;
   event[count++] = write.packed();
@@ -112,7 +112,7 @@ void LineRecord::sum_up(bool pal) {
   sets = {};
   bool foreseen = (start.cosmic | end.cosmic) == 0;
   for (unsigned i = 0; i < count; ++i) {
-    const TiaWrite write(event[i]);
+    const LineWrite write(event[i]);
     add_bytes(sets, kWrittenBytes[write.reg()]);
     switch (write.reg()) {
       // May start the Cosmic Ark mode, by an HMOVE on the line before.
@@ -151,14 +151,14 @@ std::uint8_t LineRecord::moved_objects() {
                                          &now.missile[1].motion, &now.ball.motion};  // as HMP0 to HMBL, and as Object
   unsigned moved = 0;
   for (unsigned i = 0; i < count; ++i) {
-    const TiaWrite write(event[i]);
+    const LineWrite write(event[i]);
     const unsigned reg = write.reg();
     if (reg >= HMP0 && reg <= HMBL) *motion[reg - HMP0] = write.value() >> 4;
     if (reg == HMCLR)
       for (std::uint8_t* one : motion) *one = 0;
     if (reg != HMOVE) continue;
-    hmove_cycle = static_cast<std::uint8_t>(write.cycle());
-    const auto& movement = kMovement[hmove_cycle % kLineCycles];
+    hmove_cycle = static_cast<std::int8_t>(write.cycle());
+    const auto& movement = kMovement[static_cast<std::size_t>(hmove_cycle + kLineCycles) % kLineCycles];
     for (unsigned object = 0; object < motion.size(); ++object) moved |= (movement[*motion[object]] != 0 ? 1U : 0U) << object;
   }
   return static_cast<std::uint8_t>(moved);

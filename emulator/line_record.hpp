@@ -15,6 +15,32 @@
 
 namespace racebeam {
 
+// A write as a line has it: with its cycle counted from the line's first one. Compared as a word.
+class LineWrite {
+ public:
+  static constexpr int kEarliest = 4;  // cycles before the line, that a write may come and act on no other
+
+  // `origin` is the line's first cycle, as a write of the log has it.
+  constexpr LineWrite(std::uint32_t log_entry, std::uint32_t origin) : packed_(log_entry - origin) {}
+  constexpr explicit LineWrite(std::uint32_t recorded) : packed_(recorded) {}
+
+  constexpr std::uint32_t packed() const { return packed_; }
+  constexpr int cycle() const { return static_cast<std::int32_t>(packed_) >> TiaWrite::kCycleShift; }
+  constexpr unsigned reg() const { return packed_ >> 8 & 0x3F; }
+  constexpr std::uint8_t value() const { return static_cast<std::uint8_t>(packed_); }
+
+  // Or beyond? One in cycle 76 is at the clock at which the next line begins, and may still act on this one.
+  constexpr bool is_of_line() const { return packed_ + kBefore < kBeyond + kBefore; }
+  // It comes in this line, but takes effect in the blank of the next, and so does what comes after it.
+  constexpr bool is_late() const { return cycle() >= kLineEffects[reg()].first_late_cycle; }
+
+ private:
+  static constexpr std::uint32_t kBefore = TiaWrite(kEarliest, 0, 0).packed();
+  static constexpr std::uint32_t kBeyond = TiaWrite(77, 0, 0).packed();
+
+  std::uint32_t packed_;
+};
+
 struct LineRecord {
   enum Known : std::uint8_t { kNothing, kMeetings, kPixels };  // and pixels: the buffer's row shows the line
   static constexpr std::size_t kMostEvents = 28;
@@ -28,11 +54,11 @@ struct LineRecord {
   Known known = kNothing;
   bool summed_up;            // then `start` and `end` are 0 but for these bytes
   std::uint8_t count;        // of events
-  std::uint8_t hmove_cycle;  // of the last HMOVE, if the line kMoves
-  std::array<std::uint32_t, kMostEvents> event;  // the writes: TiaWrite, with cycles from the line's first on
+  std::int8_t hmove_cycle;   // of the last HMOVE, if the line kMoves
+  std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
 
   void open(const TiaRegisters& registers);
-  bool add(TiaWrite write, bool alone);  // false if it can't be remembered; alone: no other one follows at once
+  bool add(LineWrite write, bool alone);  // false if it can't be remembered; alone: no other one follows at once
 
   // So that next time the writes need not be played. That pays if there is a next time.
   void sum_up(bool pal);

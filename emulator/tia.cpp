@@ -36,9 +36,6 @@ struct Recalling {
   RACEBEAM_INLINE void clear_collisions() const { beam.clear_collisions(); }
 };
 
-// Writes from here on, counted from a line's first cycle, are beyond it. One in cycle 76 can still act on the line: it is
-// at the clock at which the next one begins.
-constexpr std::uint32_t kBeyondLine = TiaWrite(kLineCycles + 1, 0, 0).packed();
 constexpr std::uint32_t kLineOfWrites = TiaWrite(kLineCycles, 0, 0).packed();
 
 // A write that comes no later than this after RESPx may wait for the old copy of the player.
@@ -55,6 +52,20 @@ RACEBEAM_INLINE bool meets_the_same(const std::uint32_t* entry, std::uint32_t or
     difference |= ((load<FourWords>(entry) - origin) ^ load<FourWords>(event)) & counted;
   }
   return is_zero(load<TwoWords>(&difference));
+}
+
+enum class Likeness { kOther, kBegins, kLooks, kIsSame };  // kLooks: but the registers may come out differently
+
+// How much a line that starts with `registers` and meets the writes from `entry` on is like a remembered one.
+RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::uint32_t* entry, std::uint32_t origin,
+                                 const LineRecord& record, LineRecord::Known wanted) {
+  if (record.known < wanted) return Likeness::kOther;
+  const bool same = record.summed_up && registers.start(record);
+  if (!same && !registers.look_like(record)) return Likeness::kOther;
+  const LineWrite next(entry[record.count], origin);
+  if (next.is_of_line() && !(same && next.is_late())) return Likeness::kBegins;
+  if (!meets_the_same(entry, origin, record)) return Likeness::kBegins;
+  return same ? Likeness::kIsSame : Likeness::kLooks;
 }
 
 // Is what has been written so far the beginning of that?
@@ -158,7 +169,7 @@ std::uint32_t Tia::line_origin() const {
 bool Tia::at_line() const {
   if (beam_.exact_spans() || tia_.cursor < beam_.start() || !beam_.line_can_end()) return false;
   const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles - log_->base;
-  if (first_cycle < 0 || TiaWrite(*played_).cycle() < first_cycle) return false;
+  if (first_cycle < 0 || TiaWrite(*played_).cycle() + LineWrite::kEarliest < first_cycle) return false;
   return recorded_ != nullptr || !beam_.at_line_start() || reached_ <= tia_.cursor;
 }
 
@@ -191,16 +202,15 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   LineRecord* record = first;
   bool enough = false;
   for (; record != last; ++record, origin += kLineOfWrites, cursor += kLineClocks) {
-    if (record->known < wanted) break;
-    const bool starts = record->summed_up && registers.start(*record);
-    if (!starts && !registers.look_like(*record)) break;
-    const std::uint32_t* next = played_ + record->count;
-    if (*next - origin < kBeyondLine || !meets_the_same(played_, origin, *record)) {
+    const Likeness likeness = compare(registers, played_, origin, *record, wanted);
+    if (likeness < Likeness::kLooks) {
       const bool can_meet = (record->meetings & asked) != 0 || (record->view.seen & kClears) != 0;
-      enough = asked != kWholePicture && !can_meet && begins_the_same(played_, log_->next, origin, *record);
+      enough = likeness == Likeness::kBegins && asked != kWholePicture && !can_meet &&
+               begins_the_same(played_, log_->next, origin, *record);
       break;
     }
-    if (starts) {
+    const std::uint32_t* next = played_ + record->count;
+    if (likeness == Likeness::kIsSame) {
       registers.pass(*record);
       if (record->view.seen & kMoves) tia_.hmove_clock = static_cast<std::uint32_t>(cursor + 3 * record->hmove_cycle);
       if (record->view.seen & kClears) beam_.clear_collisions();
@@ -244,14 +254,20 @@ bool Tia::draw_line(std::uint32_t origin) {
 // lines, or are too many, are left, and the line is not remembered.
 bool Tia::record_writes(std::uint32_t origin) {
   const std::uint32_t* at = played_;
-  for (; *at - origin < kBeyondLine && at != log_->next; ++at) {
-    if (recorded_ == nullptr || !recorded_->add(TiaWrite(*at - origin), at[1] - *at > kWaitOfRespx)) {
+  LineWrite write(*at, origin);
+  for (; write.is_of_line() && !write.is_late() && at != log_->next; write = LineWrite(*at, origin)) {
+    if (recorded_ == nullptr || !recorded_->add(write, at[1] - *at > kWaitOfRespx)) {
       recorded_ = nullptr;
       break;
     }
+    ++at;
   }
   play(at);
-  return *at - origin >= kBeyondLine;
+  if (!write.is_of_line()) return true;
+  // The end of a line does something more in Cosmic Ark mode, and it matters if that comes before the late write.
+  if (write.is_late() && recorded_ != nullptr && tia_.cosmic == 0) return true;
+  if (write.is_late()) recorded_ = nullptr;
+  return false;
 }
 
 void Tia::close_record() {
