@@ -33,6 +33,8 @@ PixelMask shapes(const TiaState& tia, const Line& line) {
 
 }  // namespace
 
+Beam::Beam(TiaState& state, const Video& video) : tia_(state), video_(video), draw_pixels_(pixel_drawer(simd())) {}
+
 void Beam::find_window() {
   start_ = tia_.origin + kLineClocks * video_.ystart;
   end_ = start_ + kLineClocks * video_.height;
@@ -107,7 +109,7 @@ void Beam::draw_visible(std::uint8_t* row, int first, int last) {
   const bool score = (tia_.enabled & object_bit(kPlayfield)) != 0 && (tia_.ctrlpf & 2) != 0;
   seen_ |= tia_.enabled | kLit | (score ? kScoreSeen : 0);
   collide(first, last);
-  if (draws_pixels()) draw_pixels(line_, tia_, row, first, last);
+  if (draws_pixels()) draw_pixels_(line_, tia_, row, first, last);
   if (exact_spans()) spill(row, first, last);
 }
 

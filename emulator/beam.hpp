@@ -7,6 +7,7 @@
 #include "emulator/inlining.hpp"
 #include "emulator/line.hpp"
 #include "emulator/picture.hpp"
+#include "emulator/pixels.hpp"
 #include "emulator/state.hpp"
 
 namespace racebeam {
@@ -31,7 +32,7 @@ struct Video {
 
 class Beam {
  public:
-  Beam(TiaState& state, const Video& video) : tia_(state), video_(video) {}
+  Beam(TiaState& state, const Video& video);
 
   void begin_frame();                            // cursor to the window's start
   void aim(Picture& picture, Pixels pixels);   // where pixels go
@@ -91,6 +92,7 @@ class Beam {
 
   TiaState& tia_;
   const Video& video_;
+  const DrawPixels draw_pixels_;
   Picture* picture_ = nullptr;
   std::int32_t start_ = 0, end_ = 0;
   Line line_;

@@ -6,8 +6,6 @@
 namespace racebeam {
 namespace {
 
-enum Color : unsigned { kColup0, kColup1, kColupf, kColubk };
-
 constexpr std::uint8_t kScoreMode = 2, kPriorityMode = 4;  // bits of CTRLPF
 
 constexpr std::uint8_t bit(Object object) { return static_cast<std::uint8_t>(1U << object); }
@@ -35,17 +33,6 @@ constexpr std::array<Pair, 15> kPairs = {{
 constexpr PixelMask kLeftHalf = {{~std::uint64_t{0}, 0xFFFF, 0}};
 constexpr PixelMask kRightHalf = {{0, ~std::uint64_t{0xFFFF}, 0xFFFFFFFF}};
 
-// Each bit of a byte as a byte of ones, bit 0 in the lowest.
-constexpr std::array<std::uint64_t, 256> make_spread() {
-  std::array<std::uint64_t, 256> table{};
-  for (unsigned i = 0; i < 256; ++i)
-    for (unsigned b = 0; b < 8; ++b)
-      if (i >> b & 1) table[i] |= std::uint64_t{0xFF} << (8 * b);
-  return table;
-}
-constexpr auto kSpread = make_spread();
-constexpr std::uint64_t kOnes = 0x0101010101010101;
-
 // Three layers make every priority mode.
 void set_layers(Line& line, const TiaRegisters& tia) {
   const std::uint8_t ctrlpf = tia.ctrlpf;
@@ -69,52 +56,6 @@ void set_layers(Line& line, const TiaRegisters& tia) {
     set(front, playfield | ball, kColupf);
     set(front == 0 ? 1 : 0, m[kP1] | m[kM1], kColup1);
     set(front == 0 ? 2 : 1, m[kP0] | m[kM0], kColup0);
-  }
-}
-
-// Where eight pixels are covered, the ink replaces what is there.
-std::uint64_t painted(std::uint64_t pixels, std::uint8_t covered, std::uint64_t ink) {
-  return pixels ^ ((pixels ^ ink) & kSpread[covered]);
-}
-
-// Most masks cover few groups of eight pixels.
-void paint(std::uint8_t* row, const PixelMask& mask, std::uint64_t ink) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::uint64_t rest = mask.word[i]; rest != 0;) {
-      const int group = std::countr_zero(rest) / 8;
-      std::uint8_t* at = row + 64 * i + 8 * group;
-      std::uint64_t pixels;
-      std::memcpy(&pixels, at, sizeof pixels);
-      pixels = painted(pixels, static_cast<std::uint8_t>(rest >> (8 * group)), ink);
-      std::memcpy(at, &pixels, sizeof pixels);
-      rest &= ~(std::uint64_t{0xFF} << (8 * group));
-    }
-  }
-}
-
-constexpr int kNarrow = 32;
-
-// Background first, then the groups of eight that a layer covers.
-void draw_wide(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
-  std::memset(row + first, tia.color[kColubk], static_cast<std::size_t>(last - first));
-  if (line.covered == 0) return;
-  const PixelMask inside = PixelMask::range(first, last);
-  for (const Layer& layer : line.layer) paint(row, layer.mask & inside, tia.color[layer.color] * kOnes);
-}
-
-// Group by group, all layers at once.
-void draw_narrow(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
-  const PixelMask inside = PixelMask::range(first, last);
-  const std::array<Layer, 3> layers = line.layer;  // copies, which the stores below can't change
-  const std::uint64_t background = tia.color[kColubk] * kOnes;
-  const std::array<std::uint64_t, 3> ink = {tia.color[layers[0].color] * kOnes, tia.color[layers[1].color] * kOnes,
-                                            tia.color[layers[2].color] * kOnes};
-  for (auto group = static_cast<std::size_t>(first) / 8; group <= static_cast<std::size_t>(last - 1) / 8; ++group) {
-    std::uint64_t pixels = background, old;
-    for (std::size_t i = 0; i < layers.size(); ++i) pixels = painted(pixels, layers[i].mask.byte(group), ink[i]);
-    std::memcpy(&old, row + 8 * group, sizeof old);
-    pixels = painted(old, inside.byte(group), pixels);
-    std::memcpy(row + 8 * group, &pixels, sizeof pixels);
   }
 }
 
@@ -167,11 +108,6 @@ void Line::refresh(const TiaState& tia, std::uint8_t objects) {
   if (objects & bit(kPlayfield)) set(kPlayfield, playfield_mask(tia));
   set_layers(*this, tia);
   shown = tia;
-}
-
-void draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last) {
-  if (last - first > kNarrow) draw_wide(line, tia, row, first, last);
-  else draw_narrow(line, tia, row, first, last);
 }
 
 Collisions meetings(const Line& line, int first, int last, Collisions known) {

@@ -13,6 +13,8 @@ namespace racebeam {
 // Pairs of objects that meet, two bits a collision register: bit 2r+1 is D7 of register r, bit 2r its D6.
 using Collisions = std::uint16_t;
 
+enum Color : unsigned { kColup0, kColup1, kColupf, kColubk };  // indices of TiaRegisters::color
+
 // Pixels of one colour, by its index in TiaRegisters::color.
 struct Layer {
   PixelMask mask;
@@ -28,9 +30,6 @@ struct Line {
   std::uint8_t outdated(const TiaRegisters& tia) const;     // objects whose registers are others than those
   void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew, and the layers
 };
-
-// Writes pixels `first` to `last` - 1 of a row.
-void draw_pixels(const Line& line, const TiaState& tia, std::uint8_t* row, int first, int last);
 
 // The pairs that meet in these pixels; those that are `known` need not be looked at.
 Collisions meetings(const Line& line, int first, int last, Collisions known);
