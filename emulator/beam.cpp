@@ -60,7 +60,7 @@ void Beam::forget() {
   stale_ = 0xFF;
 }
 
-void Beam::draw_to(std::int32_t clock) {
+void Beam::draw_beyond(std::int32_t clock) {
   const std::int32_t stop = end();
   if (clock < start() || tia_.cursor >= stop || tia_.cursor >= clock) return;
   clock = std::min(clock, stop);

@@ -41,7 +41,9 @@ class Beam {
   void forget();
 
   // Draws with the registers as they are; a clock that is already passed draws nothing.
-  void draw_to(std::int32_t clock);
+  RACEBEAM_INLINE void draw_to(std::int32_t clock) {
+    if (clock > tia_.cursor && !pass_blank(clock)) draw_beyond(clock);
+  }
 
   // A register of these objects (bit n: Object n) has changed.
   void changed(std::uint8_t objects) { stale_ |= objects; }
@@ -80,6 +82,16 @@ class Beam {
   std::int32_t end() const { return end_; }
 
  private:
+  // Most writes come in a line's blank, where there is nothing to draw.
+  RACEBEAM_INLINE bool pass_blank(std::int32_t clock) {
+    const std::int32_t clocks = clock - tia_.cursor;
+    if (clocks > tia_.left - kLinePixels || tia_.cursor < start_ || tia_.cursor >= end_ || exact_spans()) return false;
+    tia_.cursor = clock;
+    tia_.left -= clocks;
+    return true;
+  }
+
+  void draw_beyond(std::int32_t clock);
   std::size_t row() const { return static_cast<std::size_t>(tia_.pixel) / kLinePixels; }
   void find_window();
   void draw_span(int begin, int clocks);

@@ -39,8 +39,8 @@ struct LineView {
 struct LineEffect {
   std::int8_t last_cycle;        // of the line, at which it still takes effect on the same line
   std::int8_t first_late_cycle;  // and at which it acts on the next one alone, as if it were written there
-  std::uint8_t control;    // see LineView; RESPx: if a write follows at once
-  std::uint16_t seen;      // kMoves, kClears or 0
+  std::uint8_t control;          // see LineView; RESPx: if a write follows at once
+  std::uint16_t seen;            // kMoves, kClears or 0
 };
 extern const std::array<LineEffect, 64> kLineEffects;
 

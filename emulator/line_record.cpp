@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::uint8_t kAll = 0xFF;
 
+// A write that comes no later than this after RESPx may wait for the old copy of the player.
+constexpr std::uint32_t kWaitOfRespx = TiaWrite(4, 0, 0).packed() - 1;
+
 // Bytes that a line may change without a write, and what that depends on: the end of a line latches REFLECT and lets
 // players be shown again; missile 0 in its Cosmic Ark mode moves.
 constexpr TiaRegisters make_always() {
@@ -95,14 +98,21 @@ void LineRecord::open(const TiaRegisters& registers) {
   count = 0;
 }
 
-bool LineRecord::add(LineWrite write, bool alone) {
-  const LineEffect& effect = kLineEffects[write.reg()];
-  if (count == kMostEvents || write.cycle() > effect.last_cycle) return false;
-  event[count++] = write.packed();
-  view.seen |= effect.seen;
-  const bool waits_for_nobody = alone && (write.reg() == RESP0 || write.reg() == RESP1);
-  if (!waits_for_nobody) view.control |= effect.control;
-  return true;
+const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t origin) {
+  unsigned seen = 0, control = 0, number = count;
+  for (; number < kMostEvents; ++entry) {
+    const LineWrite write(*entry, origin);
+    if (!write.acts_here()) break;
+    event[number++] = write.packed();
+    const LineEffect& effect = kLineEffects[write.reg()];
+    seen |= effect.seen;
+    const bool waits_for_nobody = (write.reg() & ~1U) == RESP0 && entry[1] - *entry > kWaitOfRespx;
+    if (!waits_for_nobody) control |= effect.control;
+  }
+  count = static_cast<std::uint8_t>(number);
+  view.seen = static_cast<std::uint16_t>(view.seen | seen);
+  view.control = static_cast<std::uint8_t>(view.control | control);
+  return entry;
 }
 
 // Which bytes count, and which are known at the end. What a register's value at the end depends on is the writes, and

@@ -33,6 +33,8 @@ class LineWrite {
   constexpr bool is_of_line() const { return packed_ + kBefore < kBeyond + kBefore; }
   // It comes in this line, but takes effect in the blank of the next, and so does what comes after it.
   constexpr bool is_late() const { return cycle() >= kLineEffects[reg()].first_late_cycle; }
+  // It takes effect on this line.
+  constexpr bool acts_here() const { return is_of_line() && cycle() <= kLineEffects[reg()].last_cycle; }
 
  private:
   static constexpr std::uint32_t kBefore = TiaWrite(kEarliest, 0, 0).packed();
@@ -58,7 +60,9 @@ struct LineRecord {
   std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
 
   void open(const TiaRegisters& registers);
-  bool add(LineWrite write, bool alone);  // false if it can't be remembered; alone: no other one follows at once
+
+  // Takes the writes from `entry` on that act on this line alone, or as many as there is room for; returns the next one.
+  const std::uint32_t* add(const std::uint32_t* entry, std::uint32_t origin);
 
   // So that next time the writes need not be played. That pays if there is a next time.
   void sum_up(bool pal);

@@ -38,9 +38,6 @@ struct Recalling {
 
 constexpr std::uint32_t kLineOfWrites = TiaWrite(kLineCycles, 0, 0).packed();
 
-// A write that comes no later than this after RESPx may wait for the old copy of the player.
-constexpr std::uint32_t kWaitOfRespx = TiaWrite(4, 0, 0).packed() - 1;
-
 constexpr std::array<std::uint32_t, 8> kFirstOfFour = {~0U, ~0U, ~0U, ~0U, 0, 0, 0, 0};
 
 // Are the next writes those of the record? `origin` is the line's first cycle as a write has it.
@@ -253,20 +250,13 @@ bool Tia::draw_line(std::uint32_t origin) {
 // Plays the writes that the cursor's line meets, and remembers them; true if they are all known. Those that act on two
 // lines, or are too many, are left, and the line is not remembered.
 bool Tia::record_writes(std::uint32_t origin) {
-  const std::uint32_t* at = played_;
-  LineWrite write(*at, origin);
-  for (; write.is_of_line() && !write.is_late() && at != log_->next; write = LineWrite(*at, origin)) {
-    if (recorded_ == nullptr || !recorded_->add(write, at[1] - *at > kWaitOfRespx)) {
-      recorded_ = nullptr;
-      break;
-    }
-    ++at;
-  }
-  play(at);
+  const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;
+  play(next);
+  const LineWrite write(*next, origin);
   if (!write.is_of_line()) return true;
-  // The end of a line does something more in Cosmic Ark mode, and it matters if that comes before the late write.
+  // The end of a line does something more in Cosmic Ark mode, and it matters if that comes before a late write.
   if (write.is_late() && recorded_ != nullptr && tia_.cosmic == 0) return true;
-  if (write.is_late()) recorded_ = nullptr;
+  if (next != log_->next) recorded_ = nullptr;
   return false;
 }
 
