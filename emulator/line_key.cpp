@@ -55,8 +55,9 @@ constexpr std::array<LineEffect, 64> make_effects() {
   std::array<LineEffect, 64> table{};
   for (unsigned reg = 0; reg < 64; ++reg) {
     const std::uint16_t seen = reg == HMOVE ? kMoves : reg == CXCLR ? kClears : 0;
-    const auto last = static_cast<std::int8_t>(reg == WriteLog::kNobody ? -128 : (228 - longest_delay(reg)) / 3);
-    table[reg] = {last, first_late(reg), control_of(reg), seen};
+    const int last_cycle = (228 - longest_delay(reg)) / 3;
+    const bool never = reg == WriteLog::kNobody;
+    table[reg] = {never ? 0 : TiaWrite(kEarliestWrite + last_cycle, 0x3F, 0xFF).packed(), first_late(reg), control_of(reg), seen};
   }
   return table;
 }

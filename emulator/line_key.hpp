@@ -35,10 +35,13 @@ struct LineView {
   std::uint8_t control;
 };
 
+// Cycles before a line, in which a write may come and act on no other.
+constexpr int kEarliestWrite = 4;
+
 // What a write to a register may do to the line that it falls on.
 struct LineEffect {
-  std::int8_t last_cycle;        // of the line, at which it still takes effect on the same line
-  std::int8_t first_late_cycle;  // and at which it acts on the next one alone, as if it were written there
+  std::uint32_t last;            // the largest word (LineWrite::counted_up()) with which it takes effect on this line
+  std::int8_t first_late_cycle;  // from here on it acts on the next line alone, as if it were written there
   std::uint8_t control;          // see LineView; RESPx: if a write follows at once
   std::uint16_t seen;            // kMoves, kClears or 0
 };

@@ -18,8 +18,6 @@ namespace racebeam {
 // A write as a line has it: with its cycle counted from the line's first one. Compared as a word.
 class LineWrite {
  public:
-  static constexpr int kEarliest = 4;  // cycles before the line, that a write may come and act on no other
-
   // `origin` is the line's first cycle, as a write of the log has it.
   constexpr LineWrite(std::uint32_t log_entry, std::uint32_t origin) : packed_(log_entry - origin) {}
   constexpr explicit LineWrite(std::uint32_t recorded) : packed_(recorded) {}
@@ -30,15 +28,15 @@ class LineWrite {
   constexpr std::uint8_t value() const { return static_cast<std::uint8_t>(packed_); }
 
   // Or beyond? One in cycle 76 is at the clock at which the next line begins, and may still act on this one.
-  constexpr bool is_of_line() const { return packed_ + kBefore < kBeyond + kBefore; }
+  constexpr bool is_of_line() const { return counted_up() < TiaWrite(kEarliestWrite + 77, 0, 0).packed(); }
   // It comes in this line, but takes effect in the blank of the next, and so does what comes after it.
   constexpr bool is_late() const { return cycle() >= kLineEffects[reg()].first_late_cycle; }
   // It takes effect on this line.
-  constexpr bool acts_here() const { return is_of_line() && cycle() <= kLineEffects[reg()].last_cycle; }
+  bool acts_here() const { return counted_up() <= kLineEffects[reg()].last; }
 
  private:
-  static constexpr std::uint32_t kBefore = TiaWrite(kEarliest, 0, 0).packed();
-  static constexpr std::uint32_t kBeyond = TiaWrite(77, 0, 0).packed();
+  // From the earliest cycle on: larger words are later.
+  constexpr std::uint32_t counted_up() const { return packed_ + TiaWrite(kEarliestWrite, 0, 0).packed(); }
 
   std::uint32_t packed_;
 };

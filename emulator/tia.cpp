@@ -166,7 +166,7 @@ std::uint32_t Tia::line_origin() const {
 bool Tia::at_line() const {
   if (beam_.exact_spans() || tia_.cursor < beam_.start() || !beam_.line_can_end()) return false;
   const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles - log_->base;
-  if (first_cycle < 0 || TiaWrite(*played_).cycle() + LineWrite::kEarliest < first_cycle) return false;
+  if (first_cycle < 0 || TiaWrite(*played_).cycle() + kEarliestWrite < first_cycle) return false;
   return recorded_ != nullptr || !beam_.at_line_start() || reached_ <= tia_.cursor;
 }
 
