@@ -11,6 +11,7 @@
 #include <span>
 
 #include "cli/actions.hpp"
+#include "cli/batch_bench.hpp"
 #include "cli/bench_session.hpp"
 #include "cli/cpu_clock.hpp"
 #include "cli/options.hpp"
@@ -41,7 +42,12 @@ program can let two machines play the same acts in turns:
   reset N         times N resets
   save N          times N snapshots, each taken and restored at once
 
-Example:
+--batch N steps N machines together and makes 84 x 84 grey screens, stacks of four, the brighter of the last
+two frames; --actions are then indices into the minimal actions, one a machine and step. Its frames a second
+are of the clock on the wall.
+
+Examples:
+  racebeam bench --rom pong.bin --batch 64 --threads 2 --frame-skip 4 --frames 500000
   racebeam bench --rom pong.bin --frames 20000 --frame-skip 4 --screen last)";
 
 enum class Screen { kEvery, kLast, kNone };
@@ -54,6 +60,7 @@ struct BenchOptions {
   bool json = false;
   bool save_restore = false;
   bool commands = false;
+  BatchBenchOptions batch;
 };
 
 struct Tally {
@@ -204,14 +211,25 @@ void run_commands(const BenchOptions& options, const Cartridge& cartridge) {
   run_bench_session(cartridge, options.machine, options.screen != "none", std::cin, std::cout);
 }
 
+void show(const nlohmann::ordered_json& figures, bool json) {
+  json ? void(std::cout << figures.dump() << '\n') : print(figures);
+}
+
+void run_batch(const BenchOptions& options) {
+  const auto actions = options.actions.empty() ? std::vector<int>{} : read_actions(options.actions);
+  show(time_batch(open_cartridge(options.machine), options.machine, options.batch, options.frames, actions),
+       options.json);
+}
+
 void run(const BenchOptions& options) {
+  if (options.batch.machines > 0) return run_batch(options);
   const Cartridge cartridge = open_cartridge(options.machine);
   if (options.commands) return run_commands(options, cartridge);
   Bench bench{options, cartridge};
   const Tally tally = bench.run();
   auto figures = report(options, tally, bench.environment());
   if (options.save_restore) add_snapshots(figures, time_snapshots(cartridge, options.machine));
-  options.json ? void(std::cout << figures.dump() << '\n') : print(figures);
+  show(figures, options.json);
 }
 
 }  // namespace
@@ -234,6 +252,9 @@ void add_bench(CLI::App& app) {
   command.add_flag("--audio", settings.sound, "Produce sound too");
   command.add_flag("--save-restore", options->save_restore, "Time snapshots too");
   command.add_flag("--commands", options->commands, "Do what standard input says, line by line");
+  add_count(command, "--batch", options->batch.machines, 1, "Time a batch of so many machines instead");
+  add_count(command, "--threads", options->batch.threads, 1, "Threads of the batch; one for each processor if not given");
+  command.add_flag("--same-step", options->batch.same_step, "Machines of the batch reset in the step that ends an episode");
   command.add_flag("--json", options->json, "Print the figures as one JSON object");
   command.footer(kFooter);
   command.callback([options] { run(*options); });
