@@ -15,6 +15,7 @@
 #include "cli/bench_session.hpp"
 #include "cli/cpu_clock.hpp"
 #include "cli/options.hpp"
+#include "cli/search_bench.hpp"
 #include "cli/snapshot_bench.hpp"
 
 namespace racebeam {
@@ -48,6 +49,7 @@ are of the clock on the wall.
 
 Examples:
   racebeam bench --rom pong.bin --batch 64 --threads 2 --frame-skip 4 --frames 500000
+  racebeam bench --rom pong.bin --search --frame-skip 5
   racebeam bench --rom pong.bin --frames 20000 --frame-skip 4 --screen last)";
 
 enum class Screen { kEvery, kLast, kNone };
@@ -61,6 +63,7 @@ struct BenchOptions {
   bool save_restore = false;
   bool commands = false;
   BatchBenchOptions batch;
+  bool search = false;
 };
 
 struct Tally {
@@ -225,6 +228,7 @@ void run(const BenchOptions& options) {
   if (options.batch.machines > 0) return run_batch(options);
   const Cartridge cartridge = open_cartridge(options.machine);
   if (options.commands) return run_commands(options, cartridge);
+  if (options.search) return show(time_search(cartridge, options.machine), options.json);
   Bench bench{options, cartridge};
   const Tally tally = bench.run();
   auto figures = report(options, tally, bench.environment());
@@ -255,6 +259,7 @@ void add_bench(CLI::App& app) {
   add_count(command, "--batch", options->batch.machines, 1, "Time a batch of so many machines instead");
   add_count(command, "--threads", options->batch.threads, 1, "Threads of the batch; one for each processor if not given");
   command.add_flag("--same-step", options->batch.same_step, "Machines of the batch reset in the step that ends an episode");
+  command.add_flag("--search", options->search, "Time a planner's work instead: 500 random branches of 300 frames from one state");
   command.add_flag("--json", options->json, "Print the figures as one JSON object");
   command.footer(kFooter);
   command.callback([options] { run(*options); });

@@ -7,6 +7,7 @@ namespace racebeam {
 void BranchWork::begin(Session& session) {
   undisturbed_ = session.player->place(true);
   session.player->machine().watch({});  // no recording of what did not happen
+  branching_.emplace(session.player->machine());
   current_ = 0;
   inside_ = false;
   session.out += "ok";
@@ -14,18 +15,15 @@ void BranchWork::begin(Session& session) {
 }
 
 bool BranchWork::go_on(Session& session, int& frames) {
-  Environment& machine = session.player->machine();
   while (current_ < branches.size()) {
-    if (!inside_) enter(session);
+    if (!inside_) enter();
     ActionQueue& queue = branches[current_];
-    while (!queue.empty() && !machine.game_over()) {
+    while (!queue.empty() && !branching_->over()) {
       if (frames <= 0) return false;
-      const int before = machine.frame_number();
+      const int before = branching_->end().frames;
       const Action& action = queue.take();
-      add(machine.act(action.a, action.b, action.strength_a, action.strength_b));
-      const int ran = machine.frame_number() - before;
-      frames -= ran;
-      frames_ += ran;
+      add(branching_->act({action.a, action.b, action.strength_a, action.strength_b}));
+      frames -= branching_->end().frames - before;
     }
     leave(session);
   }
@@ -36,20 +34,16 @@ bool BranchWork::go_on(Session& session, int& frames) {
 void BranchWork::give_up(Session& session) {
   session.player->go_to(undisturbed_);
   session.watch();
+  branching_.reset();
 }
 
-// A state without a generator goes on with the session's, for every branch from the same place in it.
-void BranchWork::enter(Session& session) {
-  Environment& machine = session.player->machine();
-  machine.restore(*undisturbed_.machine);
-  machine.restore(*root.machine);
+void BranchWork::enter() {
+  branching_->enter(*root.machine);
   rewards_.clear();
-  acts_ = frames_ = 0;
   inside_ = true;
 }
 
 void BranchWork::add(std::int64_t reward) {
-  ++acts_;
   if (!rewards_.empty() && rewards_.back().reward == reward) {
     ++rewards_.back().times;
   } else {
@@ -58,16 +52,14 @@ void BranchWork::add(std::int64_t reward) {
 }
 
 void BranchWork::leave(Session& session) {
-  const Environment& machine = session.player->machine();
+  const BranchEnd& end = branching_->end();
   std::string& out = session.out;
-  std::int64_t sum = 0;
-  for (const auto [reward, times] : rewards_) sum += reward * times;
   out += " |";
-  append_pair(out, "reward", sum);
-  append_pair(out, "acts", acts_);
-  append_pair(out, "terminated", machine.terminal());
-  append_pair(out, "truncated", machine.truncated());
-  append_pair(out, "lives", machine.lives());
+  append_pair(out, "reward", end.reward);
+  append_pair(out, "acts", end.acts);
+  append_pair(out, "terminated", end.terminated);
+  append_pair(out, "truncated", end.truncated);
+  append_pair(out, "lives", end.lives);
   append_pair(out, "rewards", "");
   for (std::size_t i = 0; i < rewards_.size(); ++i) {
     if (i > 0) out += ',';
@@ -78,10 +70,10 @@ void BranchWork::leave(Session& session) {
   }
   if (!keep.empty()) {
     const std::string name = keep + std::to_string(current_);
-    session.states[name] = {machine.save(root.with_random), {}, root.with_random};
+    session.states[name] = {session.player->machine().save(root.with_random), {}, root.with_random};
     append_pair(out, "state", name);
   }
-  session.count({sum, 0, acts_, frames_});
+  session.count({end.reward, 0, end.acts, end.frames});
   inside_ = false;
   ++current_;
 }

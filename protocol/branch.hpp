@@ -1,9 +1,11 @@
 // `branch`: from one state, several lists of actions; what planners do all day.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "environment/branch.hpp"
 #include "protocol/player.hpp"
 #include "protocol/work.hpp"
 
@@ -26,15 +28,15 @@ class BranchWork final : public Work {
   void give_up(Session& session) override;
 
  private:
-  void enter(Session& session);
+  void enter();
   void leave(Session& session);
   void add(std::int64_t reward);
 
-  Place undisturbed_;  // where the session is, generator included
+  Place undisturbed_;  // where the session is, generator and stack included
+  std::optional<Branching> branching_;
   std::size_t current_ = 0;
   bool inside_ = false;  // the machine stands in branches[current_]
   std::vector<Rewards> rewards_;
-  int acts_ = 0, frames_ = 0;
 };
 
 }  // namespace racebeam
