@@ -15,6 +15,7 @@
 #include "cli/bench_session.hpp"
 #include "cli/cpu_clock.hpp"
 #include "cli/options.hpp"
+#include "cli/reset_bench.hpp"
 #include "cli/search_bench.hpp"
 #include "cli/snapshot_bench.hpp"
 
@@ -64,6 +65,7 @@ struct BenchOptions {
   bool commands = false;
   BatchBenchOptions batch;
   bool search = false;
+  int resets = 0;  // 0: they are not timed apart
 };
 
 struct Tally {
@@ -228,6 +230,8 @@ void run(const BenchOptions& options) {
   if (options.batch.machines > 0) return run_batch(options);
   const Cartridge cartridge = open_cartridge(options.machine);
   if (options.commands) return run_commands(options, cartridge);
+  if (options.resets > 0)
+    return show(time_resets(cartridge, options.machine, options.resets), options.json);
   if (options.search) return show(time_search(cartridge, options.machine), options.json);
   Bench bench{options, cartridge};
   const Tally tally = bench.run();
@@ -260,6 +264,7 @@ void add_bench(CLI::App& app) {
   add_count(command, "--threads", options->batch.threads, 1, "Threads of the batch; one for each processor if not given");
   command.add_flag("--same-step", options->batch.same_step, "Machines of the batch reset in the step that ends an episode");
   command.add_flag("--search", options->search, "Time a planner's work instead: 500 random branches of 300 frames from one state");
+  add_count(command, "--resets", options->resets, 1, "Time so many resets instead, in milliseconds");
   command.add_flag("--json", options->json, "Print the figures as one JSON object");
   command.footer(kFooter);
   command.callback([options] { run(*options); });

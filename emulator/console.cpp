@@ -39,6 +39,7 @@ void Console::Impl::set_timer() {
   riot.timer = static_cast<std::uint8_t>(25 + power_on.draw(state().drawn) % 75);
   riot.shift = 6;
   riot.timer_set = 0;
+  riot.late_read = 0;
   riot.late = 0;
   riot.swacnt = 0;
 }

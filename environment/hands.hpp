@@ -14,6 +14,7 @@ class Hands {
  public:
   Hands(bool use_paddles, PaddleLimits limits) : use_paddles_(use_paddles), limits_(limits) {}
 
+  const PaddleLimits& limits() const { return limits_; }
   PaddleValues middle() const { return limits_.middle(); }
 
   // For one frame. An action that nobody has presses nothing; player A's 40 is the RESET switch.

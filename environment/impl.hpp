@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "emulator/console.hpp"
+#include "environment/boot_study.hpp"
 #include "environment/environment.hpp"
 #include "environment/hands.hpp"
 #include "environment/legal_actions.hpp"
 #include "environment/play.hpp"
 #include "environment/presses.hpp"
+#include "environment/reset_cache.hpp"
 #include "environment/saved.hpp"
 #include "games/rule.hpp"
 
@@ -38,6 +40,8 @@ struct Environment::Impl {
   const int lives_at_start;
   Play play;
   std::array<std::uint8_t, kAudioSize> audio{};
+  std::optional<BootFacts> boot_facts;  // of the image; studied at the first reset
+  bool drew_at_reset = false;           // the generator took part in the last one
   std::function<void()> each_frame;  // empty: nobody watches
   int drawn_frames;                  // the last of each act
 
@@ -59,6 +63,11 @@ struct Environment::Impl {
 
   // reset.cpp
   void reset();
+  bool may_copy_reset() const;
+  ResetStart reset_start();
+  ResetEnd reset_end(std::uint32_t frames) const;
+  void copy_reset(const ResetEnd& end);
+  void run_reset();
   void soft_reset();
   void run_frames(int action, int count);
   void select(int frames);

@@ -1,4 +1,5 @@
 // The way to the first frame of an episode (spec: environment.md, section 7).
+#include "emulator/scheme.hpp"
 #include "environment/impl.hpp"
 #include "games/mode_program.hpp"
 
@@ -19,6 +20,52 @@ void Environment::Impl::reset() {
   play.episode_frames = 0;
   play.paddles = hands.middle();
   console.reset();
+  hands.press(console.inputs(), {}, play.difficulty, play.paddles);  // as the first frame does again
+  if (!may_copy_reset()) return run_reset();
+  const ResetStart start = reset_start();
+  if (const auto end = reset_cache().find(start)) return copy_reset(*end);
+  const std::uint32_t frames_before = play.frames;
+  drew_at_reset = false;
+  run_reset();
+  if (!drew_at_reset) reset_cache().keep(start, reset_end(play.frames - frames_before));
+}
+
+// Not where something takes part that ResetStart does not know.
+bool Environment::Impl::may_copy_reset() const {
+  return settings.copy_resets && !settings.classic && console.cartridge_ram().empty() && !rule.keeps_variables();
+}
+
+ResetStart Environment::Impl::reset_start() {
+  if (!boot_facts) boot_facts = study_boot(console, scheme_of(*image->bytes, properties.scheme).name);
+  ResetStart start{image, game, hands.limits(), play.mode, play.difficulty, {}, console.state()};
+  start.machine.drawn = 0;  // counts only: nothing is drawn any more
+  if (boot_facts->clears_ram) start.machine.riot.ram = {};
+  if (boot_facts->sets_timer) start.machine.riot.timer = 0;
+  if (!boot_facts->sets_sound) start.sound = console.sound().registers;
+  return start;
+}
+
+ResetEnd Environment::Impl::reset_end(std::uint32_t frames) const {
+  return {console.state(), console.sound().registers, rule.tally(), play.paddles, frames, console.pictures()};
+}
+
+void Environment::Impl::copy_reset(const ResetEnd& end) {
+  State machine = end.machine;
+  machine.drawn = console.state().drawn;
+  console.restore(machine);
+  console.restore_pictures(end.pictures);
+  console.sound().registers = end.sound;
+  rule.restore(end.tally);
+  play.frames += end.frames;
+  play.episode_frames = end.frames;
+  play.paddles = end.paddles;
+  play.held = {};
+  play.rewards = {};
+  play.ram_is_stale = 0;
+  blend_is_due = true;
+}
+
+void Environment::Impl::run_reset() {
   run_frames(kNoop, kBootFrames);
   soft_reset();
   rule.reset();
@@ -53,11 +100,16 @@ void Environment::Impl::set_up_mode() {
     Memory memory() override { return impl.memory(); }
     void select(int frames) override { impl.select(frames); }
     void soft_reset() override { impl.soft_reset(); }
-    std::uint32_t random() override { return static_cast<std::uint32_t>(impl.random()); }
+    
+    std::uint32_t random() override {
+      impl.drew_at_reset = true;
+      return static_cast<std::uint32_t>(impl.random());
+    }
 
     void act(int action, int count) override {
       Presses asked;
       asked.a.action = action;
+      impl.drew_at_reset = true;  // of sticky actions
       for (int n = 0; n < count; ++n) impl.act(asked);
     }
 

@@ -26,6 +26,7 @@ struct Settings {
   int reward_min = std::numeric_limits<int>::min();
   int reward_max = std::numeric_limits<int>::max();
   bool color_averaging = false;
+  bool copy_resets = true;  // where the result is the same; false: run each one (reset_cache.hpp)
   bool sound = false;   // produce the 512 audio samples of each act
   int paddle_min = -1;  // -1: the built-in limits, or what the game says
   int paddle_max = -1;

@@ -1,5 +1,6 @@
 #include "games/rule.hpp"
 
+#include <algorithm>
 #include <type_traits>
 
 #include "games/game.hpp"
@@ -35,6 +36,10 @@ bool Rule::terminal() const {
 }
 
 int Rule::lives() const { return program_ ? evaluate(program_->lives, tally_.values.data(), {}) : 0; }
+
+bool Rule::keeps_variables() const {
+  return program_ && std::ranges::any_of(program_->variables, &Variable::kept);
+}
 
 int Rule::initial_lives() const {
   Rule fresh = *this;

@@ -51,6 +51,8 @@ class Rule {
   int lives() const;
   int initial_lives() const;  // what lives() answers right after a reset: what "loss of life" compares with
 
+  bool keeps_variables() const;  // what they hold outlives a reset
+
   const Tally& tally() const { return tally_; }
   void restore(const Tally& tally) { tally_ = tally; }
 
