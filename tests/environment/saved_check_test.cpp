@@ -145,7 +145,8 @@ TEST_CASE("Registers that DPC's chip can't have are refused") {
       std::memcpy(values.machine.cartridge.ram.data(), &chip, sizeof chip);
     });
   };
-  CHECK(with_chip([](dpc::Chip& chip) { chip.fetcher[7].counter = 2047, chip.fetcher[7].music = 1; }).empty());
+  const auto highest = [](dpc::Chip& chip) { chip.fetcher[7].counter = 2047, chip.fetcher[7].music = 1; };
+  CHECK(with_chip(highest).empty());
   const std::function<void(dpc::Chip&)> spoilt[] = {
       [](dpc::Chip& chip) { chip.fetcher[3].counter = 2048; },
       [](dpc::Chip& chip) { chip.fetcher[0].flag = 1; },
@@ -154,7 +155,8 @@ TEST_CASE("Registers that DPC's chip can't have are refused") {
       [](dpc::Chip& chip) { chip.fraction = 1; },
       [](dpc::Chip& chip) { chip.fraction = std::numeric_limits<double>::quiet_NaN(); },
       [](dpc::Chip& chip) { chip.spare[6] = 1; }};
-  for (const auto& spoil : spoilt) CHECK_THAT(with_chip(spoil), Catch::Contains("has no such banks or registers"));
+  for (const auto& spoil : spoilt)
+    CHECK_THAT(with_chip(spoil), Catch::Contains("has no such banks or registers"));
 }
 
 TEST_CASE("Cartridge RAM of another size is refused") {

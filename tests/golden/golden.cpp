@@ -71,7 +71,8 @@ struct SignatureOptions {
   int at_once = 1;
 };
 
-std::vector<Work> works_of_signature(const std::vector<std::string>& games, const SignatureOptions& options) {
+std::vector<Work> works_of_signature(const std::vector<std::string>& games,
+                                     const SignatureOptions& options) {
   std::vector<Work> all = works_of_programs();
   const auto add = [&all](std::vector<Work> works) { all.insert(all.end(), works.begin(), works.end()); };
   for (const std::string& game : games) add(works_of(game));

@@ -22,8 +22,8 @@ struct Range {
 
 struct Recipe {
   std::string_view scheme;
-  std::size_t size;           // of the image
-  unsigned unit;              // each so many bytes hold the program once; it runs in the last one that the CPU sees
+  std::size_t size;  // of the image
+  unsigned unit;     // each so many bytes hold the program once; it runs in the last one that the CPU sees
   std::vector<Range> lively;  // addresses that do something
   Bytes first{};              // instructions that the program begins with
 };
@@ -158,8 +158,8 @@ class Writer {
     return all;
   }
 
-  // Load 0 fills the three banks of RAM; it is started with the last of them in the upper half (cartridges.md,
-  // section 9).
+  // Load 0 fills the three banks of RAM; it is started with the last of them in the upper half
+  // (cartridges.md, section 9).
   Bytes starpath_load() {
     constexpr unsigned kConfiguration = 0x0D, kPagesABank = 8;
     Bytes load = units(kStarpathPages * 256);
