@@ -1,4 +1,5 @@
 // Interpreted and translated, the same is shown; snapshot_fuzz_test.cpp has the same for altered states.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <list>
 
@@ -67,11 +68,12 @@ TEST_CASE("An image that runs under several schemes at once shows what it shows 
   CHECK(result(machines.front()) != result(*std::next(machines.begin())));
 }
 
-// Each frame: starts in bank 1, goes to bank 0 by this read in the midst of straight code, keeps 1 + the bank, and goes
-// back.
+// Each frame: starts in bank 1, goes to bank 0 by this read in the midst of straight code, keeps 1 + the bank,
+// and goes back.
 std::shared_ptr<const Image> ua_image(Code code) {
   const std::size_t bank_at = code.size() + 1;
-  for (const int byte : {0xA9, 0, 0x85, 0x80 + int{kResult}, 0xAD, 0x40, 0x02})  // LDA #1 + bank, STA, LDA $0240
+  // LDA #1 + bank, STA, LDA $0240
+  for (const int byte : {0xA9, 0, 0x85, 0x80 + int{kResult}, 0xAD, 0x40, 0x02})
     code.push_back(static_cast<std::uint8_t>(byte));
   code = with_frame(std::move(code), 0xF0);
   Code bytes(8192);

@@ -1,8 +1,7 @@
 // States from a stranger: bytes with a right checksum and wrong values are refused with a sentence, or do no
 // harm: what can be restored runs, and runs the same interpreted and translated. The test means most under
-// the sanitizers (preset `sanitize`). RACEBEAM_FUZZ gives the number of
-// alterations of each image, RACEBEAM_FUZZ_SEED another beginning; a failure prints the seed of its
-// alteration.
+// the sanitizers (preset `sanitize`). RACEBEAM_FUZZ gives the number of alterations of each image,
+// RACEBEAM_FUZZ_SEED another beginning; a failure prints the seed of its alteration.
 #include <zlib.h>
 
 #include <catch2/catch.hpp>
@@ -113,7 +112,8 @@ struct Counts {
   unsigned refused = 0, played = 0;
 };
 
-// A state that was accepted leads to states that are accepted, and to the same one whatever runs the processor.
+// A state that was accepted leads to states that are accepted, and to the same one whatever runs the
+// processor.
 void try_bytes(const Bytes& bytes, Pair& pair, const std::mt19937& random, Counts& counts) {
   std::shared_ptr<const Environment::Saved> saved;
   try {

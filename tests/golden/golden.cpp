@@ -96,7 +96,8 @@ std::string reported_at_once(const std::vector<Work>& works, int threads, bool s
 
 // One digest of all that is played; the lines themselves say where two compilers part.
 void print_signature(const std::vector<std::string>& games, const SignatureOptions& options) {
-  const std::string text = reported_at_once(works_of_signature(games, options), options.at_once, options.states);
+  const auto works = works_of_signature(games, options);
+  const std::string text = reported_at_once(works, options.at_once, options.states);
   if (options.lines) std::fputs(text.c_str(), stdout);
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   std::printf("%s\n", md5_of(bytes).c_str());
