@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#if RACEBEAM_HAS_AVX2
+#if RACEBEAM_HAS_AVX
 #include <immintrin.h>
 #endif
 
@@ -74,7 +74,7 @@ AreaResize::AreaResize(int width, int height, int to_width, int to_height, Simd 
     : width_((check(width, height, to_width, to_height), static_cast<std::size_t>(width))),
       columns_(width, to_width),
       rows_(height, to_height) {
-  if (form == Simd::kAvx2 && fits_octets()) make_octets();
+  if (form >= Simd::kAvx2 && fits_octets()) make_octets();
 }
 
 // The taps of four targets must lie within 16 bytes of a row.
@@ -153,7 +153,7 @@ void AreaResize::run_plain(const std::uint8_t* in, std::uint8_t* out) const {
   run(in, out, [this](const std::uint8_t* row, float* to) { reduce_plain(row, to); });
 }
 
-#if RACEBEAM_HAS_AVX2
+#if RACEBEAM_HAS_AVX
 [[gnu::target("avx2")]] void AreaResize::reduce_avx2(const std::uint8_t* row, float* to) const {
   for (const Octet& octet : octets_) {
     const __m256i cells =
@@ -176,7 +176,7 @@ void AreaResize::run_plain(const std::uint8_t* in, std::uint8_t* out) const {
 #endif
 
 void AreaResize::operator()(std::span<const std::uint8_t> in, std::span<std::uint8_t> out) const {
-#if RACEBEAM_HAS_AVX2
+#if RACEBEAM_HAS_AVX
   if (!octets_.empty()) return run_avx2(in.data(), out.data());
 #endif
   run_plain(in.data(), out.data());

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "environment/simd.hpp"
+#include "emulator/simd.hpp"
 
 namespace racebeam {
 

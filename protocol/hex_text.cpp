@@ -4,7 +4,7 @@
 #include "protocol/hex_pairs.hpp"
 #include "protocol/text.hpp"
 
-#if RACEBEAM_HAS_AVX2
+#if RACEBEAM_HAS_AVX
 #include <immintrin.h>
 #endif
 
@@ -15,7 +15,7 @@ void write_plain(char* to, const std::uint8_t* bytes, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) std::memcpy(to + 2 * i, &kHexPairs[bytes[i]], 2);
 }
 
-#if RACEBEAM_HAS_AVX2
+#if RACEBEAM_HAS_AVX
 // The bytes are halved and looked up, then the digits of both halves are interleaved. As that is done for
 // each 128 bits apart, the four groups of eight bytes are brought into the order 0 2 1 3 before.
 [[gnu::target("avx2")]] void write_avx2(char* to, const std::uint8_t* bytes, std::size_t count) {
@@ -42,8 +42,8 @@ void append_hex(std::string& out, std::span<const std::uint8_t> bytes, [[maybe_u
   const std::size_t start = out.size();
   out.resize(start + 2 * bytes.size());
   char* const to = out.data() + start;
-#if RACEBEAM_HAS_AVX2
-  if (form == Simd::kAvx2) return write_avx2(to, bytes.data(), bytes.size());
+#if RACEBEAM_HAS_AVX
+  if (form >= Simd::kAvx2) return write_avx2(to, bytes.data(), bytes.size());
 #endif
   write_plain(to, bytes.data(), bytes.size());
 }

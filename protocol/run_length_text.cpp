@@ -10,7 +10,7 @@
 #include "protocol/hex_pairs.hpp"
 #include "protocol/text.hpp"
 
-#if RACEBEAM_HAS_AVX2
+#if RACEBEAM_HAS_AVX
 #include <immintrin.h>
 #endif
 
@@ -58,7 +58,7 @@ void find_plain(const std::uint8_t* row, std::size_t count, RowFacts* facts) {
   }
 }
 
-#if RACEBEAM_HAS_AVX2
+#if RACEBEAM_HAS_AVX
 [[gnu::target("avx2")]] void find_avx2(const std::uint8_t* row, std::size_t count, RowFacts* facts) {
   for (; count > 0; --count, row += kRow, ++facts) {
     __m256i differences = _mm256_setzero_si256();
@@ -77,8 +77,8 @@ void find_plain(const std::uint8_t* row, std::size_t count, RowFacts* facts) {
 #endif
 
 void find_facts(const std::uint8_t* row, std::size_t count, RowFacts* facts, [[maybe_unused]] Simd form) {
-#if RACEBEAM_HAS_AVX2
-  if (form == Simd::kAvx2) return find_avx2(row, count, facts);
+#if RACEBEAM_HAS_AVX
+  if (form >= Simd::kAvx2) return find_avx2(row, count, facts);
 #endif
   find_plain(row, count, facts);
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "environment/simd.hpp"
+#include "emulator/simd.hpp"
 
 namespace racebeam {
 
