@@ -114,6 +114,7 @@ void Beam::draw_visible(std::uint8_t* row, int first, int last) {
 }
 
 void Beam::collide(int first, int last) {
+  if (!draws_pixels() && !can_meet(tia_.enabled, meetings_)) return;
   if (lost_track_) stale_ |= line_.outdated(tia_);
   lost_track_ = false;
   if (stale_ != 0) line_.refresh(tia_, stale_);

@@ -37,25 +37,25 @@ constexpr PixelMask kRightHalf = {{0, ~std::uint64_t{0xFFFF}, 0xFFFFFFFF}};
 void set_layers(Line& line, const TiaRegisters& tia) {
   const std::uint8_t ctrlpf = tia.ctrlpf;
   const auto& m = line.mask;
-  const auto set = [&line](unsigned place, const PixelMask& mask, Color color) {
-    line.layer[place].mask = mask;
-    line.layer[place].color = color;
+  line.layers = 0;
+  const auto add = [&line](const PixelMask& mask, Color color) {
+    if (mask.any()) line.layer[line.layers++] = {mask, color};
   };
   const PixelMask &playfield = m[kPlayfield], &ball = m[kBall];
   const bool score = (ctrlpf & kScoreMode) != 0;
   if (score && !(ctrlpf & kPriorityMode)) {
-    set(0, ball, kColupf);
-    set(1, m[kP1] | m[kM1] | (playfield & kRightHalf), kColup1);
-    set(2, m[kP0] | m[kM0] | (playfield & kLeftHalf), kColup0);
+    add(ball, kColupf);
+    add(m[kP1] | m[kM1] | (playfield & kRightHalf), kColup1);
+    add(m[kP0] | m[kM0] | (playfield & kLeftHalf), kColup0);
   } else if (score && tia.enabled == bit(kPlayfield)) {
-    set(0, {}, kColupf);
-    set(1, playfield & kRightHalf, kColup1);
-    set(2, playfield & kLeftHalf, kColup0);
+    add(playfield & kRightHalf, kColup1);
+    add(playfield & kLeftHalf, kColup0);
   } else {
-    const unsigned front = ctrlpf & kPriorityMode ? 2 : 0;
-    set(front, playfield | ball, kColupf);
-    set(front == 0 ? 1 : 0, m[kP1] | m[kM1], kColup1);
-    set(front == 0 ? 2 : 1, m[kP0] | m[kM0], kColup0);
+    const bool in_front = (ctrlpf & kPriorityMode) != 0;
+    if (!in_front) add(playfield | ball, kColupf);
+    add(m[kP1] | m[kM1], kColup1);
+    add(m[kP0] | m[kM0], kColup0);
+    if (in_front) add(playfield | ball, kColupf);
   }
 }
 
@@ -109,6 +109,8 @@ void Line::refresh(const TiaState& tia, std::uint8_t objects) {
   set_layers(*this, tia);
   shown = tia;
 }
+
+bool can_meet(std::uint8_t objects, Collisions known) { return (kPossible[objects] & ~known) != 0; }
 
 Collisions meetings(const Line& line, int first, int last, Collisions known) {
   unsigned left = kPossible[line.covered] & ~known;

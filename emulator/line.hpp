@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "emulator/objects.hpp"
 #include "emulator/pixel_mask.hpp"
@@ -24,12 +25,19 @@ struct Layer {
 struct Line {
   std::array<PixelMask, kObjects> mask;  // by Object
   std::array<Layer, 3> layer;            // what hides what: from the back to the front
+  std::size_t layers = 0;                // so many of these; the others are empty
   std::uint8_t covered = 0;              // bit n: mask n has pixels
+
+  std::span<const Layer> shown_layers() const { return std::span(layer).first(layers); }
+
   TiaRegisters shown;                    // what the masks were made from
 
   std::uint8_t outdated(const TiaRegisters& tia) const;     // objects whose registers are others than those
   void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew, and the layers
 };
+
+// Can any of these objects (bit n: Object n) meet, but for those that are `known` to?
+bool can_meet(std::uint8_t objects, Collisions known);
 
 // The pairs that meet in these pixels; those that are `known` need not be looked at.
 Collisions meetings(const Line& line, int first, int last, Collisions known);

@@ -46,21 +46,19 @@ constexpr int kNarrow = 32;
 // Background first, then the groups of eight that a layer covers.
 void draw_wide(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first, int last) {
   std::memset(row + first, tia.color[kColubk], static_cast<std::size_t>(last - first));
-  if (line.covered == 0) return;
+  if (line.layers == 0) return;
   const PixelMask inside = PixelMask::range(first, last);
-  for (const Layer& layer : line.layer) paint(row, layer.mask & inside, tia.color[layer.color] * kOnes);
+  for (const Layer& layer : line.shown_layers()) paint(row, layer.mask & inside, tia.color[layer.color] * kOnes);
 }
 
 // Group by group, all layers at once.
 void draw_narrow(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first, int last) {
   const PixelMask inside = PixelMask::range(first, last);
-  const std::array<Layer, 3> layers = line.layer;  // copies, which the stores below can't change
   const std::uint64_t background = tia.color[kColubk] * kOnes;
-  const std::array<std::uint64_t, 3> ink = {tia.color[layers[0].color] * kOnes, tia.color[layers[1].color] * kOnes,
-                                            tia.color[layers[2].color] * kOnes};
   for (auto group = static_cast<std::size_t>(first) / 8; group <= static_cast<std::size_t>(last - 1) / 8; ++group) {
     std::uint64_t pixels = background, old;
-    for (std::size_t i = 0; i < layers.size(); ++i) pixels = painted(pixels, layers[i].mask.byte(group), ink[i]);
+    for (const Layer& layer : line.shown_layers())
+      pixels = painted(pixels, layer.mask.byte(group), tia.color[layer.color] * kOnes);
     std::memcpy(&old, row + 8 * group, sizeof old);
     pixels = painted(old, inside.byte(group), pixels);
     std::memcpy(row + 8 * group, &pixels, sizeof pixels);
@@ -91,10 +89,8 @@ void draw_plain(const Line& line, const TiaRegisters& tia, std::uint8_t* row, in
   for (int group = first / 32; 32 * group < last; ++group) {
     auto* const at = reinterpret_cast<__m256i*>(row + 32 * group);
     __m256i pixels = background;
-    if (line.covered != 0) {
-      for (const Layer& layer : line.layer)
-        pixels = _mm256_blendv_epi8(pixels, _mm256_set1_epi8(ink(layer.color)), bytes_of(layer.mask, group));
-    }
+    for (const Layer& layer : line.shown_layers())
+      pixels = _mm256_blendv_epi8(pixels, _mm256_set1_epi8(ink(layer.color)), bytes_of(layer.mask, group));
     if (32 * group < first || 32 * group + 32 > last)
       pixels = _mm256_blendv_epi8(_mm256_load_si256(at), pixels, bytes_of(inside, group));
     _mm256_store_si256(at, pixels);
@@ -107,7 +103,7 @@ void draw_plain(const Line& line, const TiaRegisters& tia, std::uint8_t* row, in
   const PixelMask inside = PixelMask::range(first, last);
   for (auto word = static_cast<std::size_t>(first) / 64; 64 * word < static_cast<std::size_t>(last); ++word) {
     __m512i pixels = _mm512_set1_epi8(ink(kColubk));
-    for (const Layer& layer : line.layer)
+    for (const Layer& layer : line.shown_layers())
       pixels = _mm512_mask_blend_epi8(layer.mask.word[word], pixels, _mm512_set1_epi8(ink(layer.color)));
     _mm512_mask_storeu_epi8(row + 64 * word, inside.word[word], pixels);
   }

@@ -219,6 +219,7 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
     played_ = next;
     tia_.collisions |= record->meetings;
   }
+  if (record == first) return enough;
   registers.write(tia_);
   beam_.lose_track();
   beam_.pass_lines(static_cast<int>(record - first));

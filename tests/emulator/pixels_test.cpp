@@ -28,8 +28,8 @@ TEST_CASE("All forms of drawing give the same pixels, and touch no others") {
     Line line;
     TiaRegisters tia;
     for (std::uint8_t& color : tia.color) color = static_cast<std::uint8_t>(random());
+    line.layers = random() % 4;
     for (Layer& layer : line.layer) layer = {random_mask(random), static_cast<unsigned>(random() % 4)};
-    for (const Layer& layer : line.layer) line.covered |= layer.mask.any();
     const int first = static_cast<int>(random() % kLinePixels);
     const int last = first + 1 + static_cast<int>(random() % static_cast<unsigned>(kLinePixels - first));
 
@@ -39,7 +39,7 @@ TEST_CASE("All forms of drawing give the same pixels, and touch no others") {
     auto expected = before;
     for (int pixel = first; pixel < last; ++pixel) {
       std::uint8_t color = tia.color[kColubk];
-      for (const Layer& layer : line.layer)
+      for (const Layer& layer : line.shown_layers())
         if (covers(layer.mask, pixel)) color = tia.color[layer.color];
       expected[static_cast<std::size_t>(kMargin + pixel)] = color;
     }
