@@ -228,7 +228,7 @@ void play_repeats(unsigned seed, int frames) {
                         random.percent(50) ? random.of(style.values) : random.byte()});
     script.insert(script.end(), lines.begin(), lines.end());
     machines.play(with_pushes(script), cycles);
-    machines.next_frame(cycles + kLineCycles);
+    machines.next_frame(cycles + kLineCycles * (1 + random.below(2)));  // PAL loses its colour on odd counts
   }
 }
 
