@@ -74,18 +74,31 @@ constexpr auto kWrittenBytes = [] {
 constexpr TiaRegisters kAlways = make_always();
 constexpr TiaRegisters kMotions = make_written(HMCLR);
 
-void add_bytes(TiaRegisters& mask, const TiaRegisters& more) {
-  RegisterVectors sum(mask);
-  const RegisterVectors other(more);
-  for (std::size_t i = 0; i < sum.part.size(); ++i) sum.part[i] |= other.part[i];
-  sum.write(mask);
-}
-
 void clear_but(TiaRegisters& registers, const TiaRegisters& mask) {
   RegisterVectors bytes(registers);
-  const RegisterVectors kept(mask);
-  for (std::size_t i = 0; i < bytes.part.size(); ++i) bytes.part[i] &= kept.part[i];
+  bytes.keep_bits(mask);
   bytes.write(registers);
+}
+
+// As far as they decide about where objects are, by Object. HMP0 to HMBL are in that order, too.
+std::array<std::uint8_t, 5> motions_of(const TiaRegisters& tia) {
+  return {tia.player[0].motion, tia.player[1].motion, tia.missile[0].motion, tia.missile[1].motion, tia.ball.motion};
+}
+
+// Those that an HMOVE in this cycle moves.
+unsigned moved_objects(int cycle, const std::array<std::uint8_t, 5>& motion) {
+  const auto& movement = kMovement[static_cast<std::size_t>(cycle + kLineCycles) % kLineCycles];
+  unsigned moved = 0;
+  for (unsigned object = 0; object < motion.size(); ++object) moved |= (movement[motion[object]] != 0 ? 1U : 0U) << object;
+  return moved;
+}
+
+void add_positions(TiaRegisters& mask, unsigned objects) {
+  for (unsigned i = 0; i < 2; ++i) {
+    if (objects >> (kP0 + i) & 1) mask.player[i].position = kAll;
+    if (objects >> (kM0 + i) & 1) mask.missile[i].position = kAll;
+  }
+  if (objects & object_bit(kBall)) mask.ball.position = kAll;
 }
 
 }  // namespace
@@ -118,60 +131,43 @@ const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t o
 // Which bytes count, and which are known at the end. What a register's value at the end depends on is the writes, and
 // the bytes that count anyway as far as they have to do with what is shown (line_key.hpp), and these:
 void LineRecord::sum_up(bool pal) {
-  counts = kAlways;
-  sets = {};
+  TiaRegisters more = kAlways;
+  RegisterVectors set(more);
+  std::array<std::uint8_t, 5> motion = motions_of(start);
   bool foreseen = (start.cosmic | end.cosmic) == 0;
   for (unsigned i = 0; i < count; ++i) {
     const LineWrite write(event[i]);
-    add_bytes(sets, kWrittenBytes[write.reg()]);
-    switch (write.reg()) {
+    const unsigned reg = write.reg();
+    set.add_bits(kWrittenBytes[reg]);
+    switch (reg) {
       // May start the Cosmic Ark mode, by an HMOVE on the line before.
-      case HMM0: foreseen &= write.value() >> 4 != 6; break;
+      case HMM0: foreseen &= write.value() >> 4 != 6; [[fallthrough]];
+      case HMP0: case HMP1: case HMM1: case HMBL: motion[reg - HMP0] = write.value() >> 4; break;
+      case HMCLR: motion = {}; break;
+      case HMOVE:
+        hmove_cycle = static_cast<std::int8_t>(write.cycle());
+        add_positions(more, moved_objects(hmove_cycle, motion));
+        break;
       // The missile stays where it was, or goes to its player.
-      case RESMP0: counts.cosmic_shape = static_cast<CosmicShape>(kAll); [[fallthrough]];
-      case RESMP1: counts.missile[write.reg() - RESMP0].position = kAll; break;
+      case RESMP0: more.cosmic_shape = static_cast<CosmicShape>(kAll); [[fallthrough]];
+      case RESMP1: more.missile[reg - RESMP0].position = kAll; break;
       // In PAL, colours have the frame's colour loss in bit 0, all of them.
-      case COLUP0: case COLUP1: case COLUPF: case COLUBK: counts.color[3] |= pal ? kAll : 0; break;
+      case COLUP0: case COLUP1: case COLUPF: case COLUBK: more.color[3] |= pal ? kAll : 0; break;
       default: break;
     }
   }
-  add_bytes(counts, kSeenBytes[view.seen & 0x1FF]);
-  add_bytes(counts, kControlBytes[view.control]);
-  if (view.seen & kMoves) {
-    add_bytes(counts, kMotions);
-    const std::uint8_t moved = moved_objects();
-    for (unsigned i = 0; i < 2; ++i) {
-      if (moved >> (kP0 + i) & 1) counts.player[i].position = kAll;
-      if (moved >> (kM0 + i) & 1) counts.missile[i].position = kAll;
-    }
-    if (moved & object_bit(kBall)) counts.ball.position = kAll;
-  }
-  add_bytes(sets, counts);
+  RegisterVectors counting(more);
+  counting.add_bits(kSeenBytes[view.seen & 0x1FF]);
+  counting.add_bits(kControlBytes[view.control]);
+  if (view.seen & kMoves) counting.add_bits(kMotions);
+  counting.write(counts);
+  set.add_bits(counts);
+  set.write(sets);
   sets.comb_armed = kAll;  // a line uses up what it finds
   if (!foreseen) counts.spare[0] = kAll, start.spare[0] = 1;  // which it never is: the writes must be played
   clear_but(start, counts);
   clear_but(end, sets);
   summed_up = true;
-}
-
-// Whose positions HMOVE changes; notes when it does.
-std::uint8_t LineRecord::moved_objects() {
-  TiaRegisters now = start;
-  std::array<std::uint8_t*, 5> motion = {&now.player[0].motion, &now.player[1].motion, &now.missile[0].motion,
-                                         &now.missile[1].motion, &now.ball.motion};  // as HMP0 to HMBL, and as Object
-  unsigned moved = 0;
-  for (unsigned i = 0; i < count; ++i) {
-    const LineWrite write(event[i]);
-    const unsigned reg = write.reg();
-    if (reg >= HMP0 && reg <= HMBL) *motion[reg - HMP0] = write.value() >> 4;
-    if (reg == HMCLR)
-      for (std::uint8_t* one : motion) *one = 0;
-    if (reg != HMOVE) continue;
-    hmove_cycle = static_cast<std::int8_t>(write.cycle());
-    const auto& movement = kMovement[static_cast<std::size_t>(hmove_cycle + kLineCycles) % kLineCycles];
-    for (unsigned object = 0; object < motion.size(); ++object) moved |= (movement[*motion[object]] != 0 ? 1U : 0U) << object;
-  }
-  return static_cast<std::uint8_t>(moved);
 }
 
 }  // namespace racebeam

@@ -64,9 +64,6 @@ struct LineRecord {
 
   // So that next time the writes need not be played. That pays if there is a next time.
   void sum_up(bool pal);
-
- private:
-  std::uint8_t moved_objects();
 };
 
 // TiaRegisters in the processor's registers.
@@ -92,6 +89,13 @@ struct RegisterVectors {
     TwoWords difference{};
     for (std::size_t i = 0; i < 3; ++i) difference |= (part[i] ^ of(record.start, i)) & (of(seen, i) | of(control, i));
     return is_zero(difference);
+  }
+
+  RACEBEAM_INLINE void add_bits(const TiaRegisters& more) {
+    for (std::size_t i = 0; i < 3; ++i) part[i] |= of(more, i);
+  }
+  RACEBEAM_INLINE void keep_bits(const TiaRegisters& mask) {
+    for (std::size_t i = 0; i < 3; ++i) part[i] &= of(mask, i);
   }
 
   RACEBEAM_INLINE void pass(const LineRecord& record) {
