@@ -150,7 +150,7 @@ Counts alter_states_of(const std::shared_ptr<const Image>& image, const std::sha
 }
 
 TEST_CASE("Altered states of random programs in every scheme are refused or do no harm") {
-  const unsigned count = number_from("RACEBEAM_FUZZ", 100);
+  const unsigned count = number_from("RACEBEAM_FUZZ", 25);
   Counts all;
   for (const std::string_view scheme : test::random_schemes()) {
     const Counts counts = alter_states_of(test::random_image(scheme, 3), test::random_game(scheme), count);
@@ -163,7 +163,7 @@ TEST_CASE("Altered states of random programs in every scheme are refused or do n
 
 // Sticks and paddles, F8, E0, FE, on-board RAM, DPC, PAL, a mode program.
 TEST_CASE("Altered states of games are refused or do no harm") {
-  const unsigned count = number_from("RACEBEAM_FUZZ", 60);
+  const unsigned count = number_from("RACEBEAM_FUZZ", 25);
   CHECK(alter_states_of(load_image("builtin:beamfall"), find_game("beamfall"), count).played > 0);
   for (const char* name :
        {"breakout", "seaquest", "montezuma_revenge", "robotank", "elevator_action", "skiing", "pitfall2"}) {
