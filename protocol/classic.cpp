@@ -99,7 +99,9 @@ void ClassicSession::act(int a, int b) {
                        "the client asked for action " + std::to_string(a) +
                            "; there are 0-17, 40 (nothing), 43 (save), 44 (load) and 45 (reset)");
   }
+  const int before = environment_.frame_number();
   reward_ = environment_.act(is_player_a(a) ? a : 0, is_player_b(b) ? b : kActions);
+  frames_ += environment_.frame_number() - before;
 }
 
 void ClassicSession::load_state() {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "environment/environment.hpp"
@@ -42,6 +43,8 @@ class ClassicSession {
   std::optional<std::string_view> reply();
   bool ended() const { return stage_ == Stage::kEnded; }  // once what reply() has given is sent
 
+  int take_frames() { return std::exchange(frames_, 0); }  // that were run since it was asked last
+
   std::span<char> space() { return input_.space(); }  // where input goes
   void received(std::size_t count);                   // so much came; 0: the client has closed its end
 
@@ -66,6 +69,7 @@ class ClassicSession {
   Stage stage_ = Stage::kDimensions;
   bool send_screen_ = false, send_ram_ = false, send_episode_ = false;
   int reward_ = 0;  // of the last action
+  int frames_ = 0;  // see take_frames()
   std::vector<std::shared_ptr<const Environment::Saved>> saved_;
   std::string text_;  // what was answered last; kept for its memory
 };

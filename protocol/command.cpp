@@ -11,12 +11,12 @@ namespace {
 
 // name, arguments, summary, least and most arguments, what it needs, handler
 constexpr std::array kCommands = {
-    Command{"hello", "", "who the server is, and what it allows", 0, 0, Needs::kNothing, run_hello},
+    Command{"hello", "[token=TOKEN]", "who the server is, and what it allows", 0, 1, Needs::kNothing, run_hello},
     Command{"help", "[COMMAND|settings|presets|fields]", "explain", 0, 1, Needs::kNothing, run_help},
     Command{"games", "[all|GAME]", "games whose image is here; all that there are rules for; one of them", 0,
-            1, Needs::kNothing, run_games},
+            1, Needs::kAdmission, run_games},
     Command{"load", "GAME|MD5|inline [image=BASE64] [as=GAME] [KEY=VALUE...]",
-            "power on with an image and begin an episode", 1, kAnyNumber, Needs::kNothing, run_load},
+            "power on with an image and begin an episode", 1, kAnyNumber, Needs::kAdmission, run_load},
     Command{"settings", "", "the settings in effect", 0, 0, Needs::kGame, run_settings},
     Command{"set", "[mode=N] [difficulty=N]",
             "change them: the mode at the next reset, the difficulty at once", 1, 2, Needs::kGame, run_set},
@@ -25,7 +25,7 @@ constexpr std::array kCommands = {
     Command{"actions", "", "the actions that act accepts, and the game's legal and minimal ones", 0, 0,
             Needs::kGame, run_actions},
     Command{"observe", "[FIELD[:ENCODING]...|none]", "choose what replies carry", 0, kAnyNumber,
-            Needs::kNothing, run_observe},
+            Needs::kAdmission, run_observe},
     Command{"look", "[FIELD[:ENCODING]...]", "what the machine shows; without fields, those chosen", 0,
             kAnyNumber, Needs::kGame, run_look},
     Command{"act", "A[@STRENGTH][/B[@STRENGTH]][*TIMES]...", "play actions until the episode ends", 1,
@@ -54,7 +54,7 @@ constexpr std::array kCommands = {
     Command{"close", "", "give the machines back", 0, 0, Needs::kMachines, run_close},
     Command{"record", "png|gif|y4m|wav NAME | stop", "write frames or sound below the server's folder", 1, 2,
             Needs::kGame, run_record},
-    Command{"stats", "", "what this session has done", 0, 0, Needs::kNothing, run_stats},
+    Command{"stats", "", "what this session has done", 0, 0, Needs::kAdmission, run_stats},
     Command{"quit", "", "end the session", 0, 0, Needs::kNothing, run_quit},
 };
 
@@ -84,7 +84,9 @@ void check(const Command& command, const Session& session, std::size_t arguments
                                            std::to_string(arguments) + ": " + name + " " +
                                            std::string(command.arguments));
   }
-  if (command.needs != Needs::kNothing && !session.player)
+  if (command.needs >= Needs::kAdmission && !session.admitted)
+    throw Refusal(Code::kUnauthorized, "this server wants a token before " + name + "; hello token=TOKEN");
+  if (command.needs >= Needs::kGame && !session.player)
     throw Refusal(Code::kNoGame, name + " needs a game; load one first");
   if (command.needs == Needs::kMachines && session.machines.empty())
     throw Refusal(Code::kNoMachines, name + " needs machines; open some first");

@@ -12,7 +12,7 @@ namespace racebeam {
 
 class Session;
 
-enum class Needs { kNothing, kGame, kMachines };
+enum class Needs { kNothing, kAdmission, kGame, kMachines };  // each includes those before it
 
 struct Command {
   std::string_view name;

@@ -45,9 +45,22 @@ void help_on_fields(std::string& out) {
   append_names(out, encodings(), ' ');
 }
 
+// A client that guesses has few guesses a connection.
+void take_token(Session& session, std::string_view word) {
+  constexpr int kGuesses = 3;
+  const auto [key, token] = key_value(word);
+  if (key != "token") throw Refusal(Code::kBadArguments, "hello takes token=TOKEN, not " + quote(key));
+  if (session.admitted) return;
+  session.admitted = session.service.admission(token);
+  if (session.admitted) return;
+  session.quitting = ++session.wrong_tokens >= kGuesses;
+  throw Refusal(Code::kUnauthorized, "that token is not one of this server's");
+}
+
 }  // namespace
 
-void run_hello(Session& session, Words) {
+void run_hello(Session& session, Words arguments) {
+  if (!arguments.empty()) take_token(session, arguments[0]);
   const LineLimits& limits = session.service.limits;
   std::string& out = session.out;
   ((out += "ok server=racebeam/") += session.service.version) += " protocol=1";
@@ -55,8 +68,10 @@ void run_hello(Session& session, Words) {
   append_pair(out, "max_machines", limits.machines);
   append_pair(out, "max_states", limits.states);
   append_pair(out, "max_request_frames", limits.request_frames);
+  append_pair(out, "max_idle", limits.idle_seconds);
   append_pair(out, "threads", static_cast<std::int64_t>(session.service.threads));
   append_pair(out, "recording", session.service.record_folder.empty() ? 0 : 1);
+  append_pair(out, "admitted", session.admitted ? 1 : 0);
   append_pair(out, "encodings", "");
   append_names(out, encodings(), ',');
   append_pair(out, "presets", "");

@@ -4,7 +4,8 @@
 #include "protocol/session.hpp"
 
 namespace racebeam {
-LineSession::LineSession(const LineService& service) : session_(std::make_unique<Session>(service)) {}
+LineSession::LineSession(const LineService& service, Meter* meter)
+    : session_(std::make_unique<Session>(service, meter)) {}
 LineSession::~LineSession() = default;
 
 std::span<char> LineSession::space() { return session_->input.space(); }
@@ -20,13 +21,15 @@ std::string_view LineSession::output() const { return session_->whole_replies();
 
 void LineSession::sent(std::size_t count) { session_->sent(count); }
 
+bool LineSession::admitted() const { return session_->admitted; }
 bool LineSession::finished() const { return session_->finished(); }
 void LineSession::cancel() { session_->cancel(); }
 
 std::string LineSession::summary() const {
   const Statistics& all = session_->statistics;
+  const std::string_view denied = admitted() ? "" : ", without a token";
   return std::to_string(all.requests) + " requests, " + std::to_string(all.frames) + " frames, " +
-         std::to_string(all.errors) + " errors";
+         std::to_string(all.errors) + " errors" + std::string(denied);
 }
 
 }  // namespace racebeam

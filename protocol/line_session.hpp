@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "protocol/images.hpp"
+#include "protocol/meter.hpp"
 
 namespace racebeam {
 
@@ -22,11 +23,15 @@ struct LineLimits {
   int states = 256;                         // saved at a time
   std::int64_t request_frames = 2'000'000;  // that one request may ask for
   std::size_t recording = 1 << 30;          // bytes of one recording
+  std::int64_t idle_seconds = 0;            // without a word, after which the server ends it; 0: never
 };
 
 // Runs task(0) ... task(count - 1), on several threads if it likes, and returns when all are done. A task
 // does not throw.
 using Parallel = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
+
+// Whether a token is one of those that the server knows. From any thread.
+using Admission = std::function<bool(std::string_view token)>;
 
 // What all sessions of a server share, all of it const.
 struct LineService {
@@ -36,13 +41,15 @@ struct LineService {
   std::string record_folder;  // recordings go below it; empty: there are none
   Parallel parallel;          // empty: one after the other
   std::size_t threads = 1;    // that `parallel` has
+  Admission admission;        // empty: everyone may play; else whose `hello` gives a token
 };
 
 class Session;
 
 class LineSession {
  public:
-  explicit LineSession(const LineService& service);  // which outlives the session
+  // Both outlive the session. It counts into `meter`, if there is one, on the thread that calls run().
+  explicit LineSession(const LineService& service, Meter* meter = nullptr);
   ~LineSession();
   LineSession(const LineSession&) = delete;
   LineSession& operator=(const LineSession&) = delete;
@@ -53,11 +60,12 @@ class LineSession {
   // Carries out requests until about `frames` frames have run. True: there is more to do, call it again; when
   // output is waiting, send it first.
   bool run(int frames = kSlice);
-  static constexpr int kSlice = 2000;
+  static constexpr int kSlice = 256;  // some milliseconds, which is what others have to wait
 
   std::string_view output() const;  // to be sent; good until run() or sent()
   void sent(std::size_t count);     // so much of it is on its way
 
+  bool admitted() const;  // it has given its token, or needs none
   bool finished() const;  // nothing will come any more: send the output, then close
   void cancel();          // the client has gone: what is under way is given up
 

@@ -21,6 +21,10 @@ constexpr std::array kCodes = {
     CodeRow{Code::kBadState, "bad-state", "what was sent is no state, or not one of this game"},
     CodeRow{Code::kRecording, "recording", "recordings are off, one is running, or the disk refused"},
     CodeRow{Code::kLimit, "limit", "more than `hello` allows"},
+    CodeRow{Code::kUnauthorized, "unauthorized", "this server wants a token: `hello token=TOKEN`"},
+    CodeRow{Code::kBusy, "busy", "the server has as many sessions as it takes; it closes this one"},
+    CodeRow{Code::kIdle, "idle", "nothing came or went for too long; the server closes the session"},
+    CodeRow{Code::kStopping, "stopping", "the server is told to stop; it closes the session"},
     CodeRow{Code::kInternal, "internal", "a fault of the server's; the request may be half done"},
 };
 

@@ -24,6 +24,10 @@ enum class Code {
   kBadState,
   kRecording,
   kLimit,
+  kUnauthorized,
+  kBusy,
+  kIdle,
+  kStopping,
   kInternal,
 };
 

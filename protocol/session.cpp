@@ -29,10 +29,12 @@ void check_bytes(std::string_view line) {
 
 }  // namespace
 
-Session::Session(const LineService& with)
+Session::Session(const LineService& with, Meter* counting)
     : service(with),
       input(limits(with).line),
-      fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})) {}
+      admitted(!with.admission),
+      fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})),
+      meter_(counting) {}
 
 Session::~Session() = default;
 
@@ -93,6 +95,7 @@ void Session::guarded(Step step) {
     out.resize(reply_);
     (((out += "error ") += name_of(code)) += ' ') += sentence;
     ++statistics.errors;
+    refused_ = true;
   };
   try {
     step();
@@ -105,11 +108,18 @@ void Session::guarded(Step step) {
   }
 }
 
-void Session::take(const LineReader::Line& line) {
+void Session::begin_request() {
   ++statistics.requests;
-  statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
   reply_ = out.size();
   frames_left_ -= kFramesOfARequest;
+  command_ = commands().size();
+  refused_ = false;
+  if (meter_) began_ = std::chrono::steady_clock::now();
+}
+
+void Session::take(const LineReader::Line& line) {
+  begin_request();
+  statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
   guarded([&] {
     if (line.kind == LineReader::Kind::kLine) return execute(line.text);
     if (line.kind == LineReader::Kind::kHalf)
@@ -124,6 +134,7 @@ void Session::execute(std::string_view line) {
   split(line, words_);
   if (words_.empty()) throw Refusal(Code::kBadLine, "the line is empty; help lists the commands");
   const Command& command = find_command(words_[0]);
+  command_ = static_cast<std::size_t>(&command - commands().data());
   const Words arguments = Words(words_).subspan(1);
   check(command, *this, arguments.size());
   command.run(*this, arguments);
@@ -133,6 +144,13 @@ void Session::finish_reply() {
   out += '\n';
   statistics.bytes_out += static_cast<std::int64_t>(out.size() - reply_);
   done_ = quitting;
+  if (meter_) measure();
+}
+
+void Session::measure() {
+  meter_->request(command_, refused_, std::chrono::steady_clock::now() - began_);
+  meter_->frames.add(statistics.frames - metered_frames_);
+  metered_frames_ = statistics.frames;
 }
 
 std::string_view Session::whole_replies() const {

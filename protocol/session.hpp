@@ -1,6 +1,7 @@
 // The inside of a LineSession: what the commands work on.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -27,13 +28,15 @@ struct Statistics {
 
 class Session {
  public:
-  explicit Session(const LineService& with);
+  Session(const LineService& with, Meter* counting);
   ~Session();
 
   const LineService& service;
   LineReader input;
   std::string out;
   bool quitting = false;
+  bool admitted;         // true once a token was given, or where none is needed
+  int wrong_tokens = 0;  // so far
   Statistics statistics;
 
   // The game that was loaded; `player` is null without one.
@@ -64,8 +67,10 @@ class Session {
   bool must_send() const;
   bool go_on();
   void take(const LineReader::Line& line);
+  void begin_request();
   void execute(std::string_view line);
   void finish_reply();
+  void measure();
   template <typename Step>
   void guarded(Step step);  // an exception becomes an error reply
 
@@ -74,6 +79,13 @@ class Session {
   Work* work_ = nullptr;   // what is left of the current request
   int frames_left_ = 0;    // of this slice
   bool done_ = false;
+
+  // For those who watch the server; null: nobody does.
+  Meter* meter_;
+  std::size_t command_ = 0;  // of the request: its row in commands()
+  bool refused_ = false;
+  std::chrono::steady_clock::time_point began_;
+  std::int64_t metered_frames_ = 0;
 };
 
 }  // namespace racebeam

@@ -84,10 +84,11 @@ class Session:
         return cls(process.stdout, process.stdin, close)
 
     @classmethod
-    def tcp(cls, host, port):
+    def tcp(cls, host, port, tls=None):
+        """`tls`: an ssl.SSLContext that trusts the server's certificate."""
         connection = socket.create_connection((host, port))
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        return cls.connected(connection)
+        return cls.connected(tls.wrap_socket(connection, server_hostname=host) if tls else connection)
 
     @classmethod
     def unix(cls, path):
@@ -180,8 +181,8 @@ class Session:
 
     # Commands
 
-    def hello(self):
-        return self.values("hello")
+    def hello(self, token=None):
+        return self.values("hello", token=token) if token else self.values("hello")
 
     def help(self, *words):
         self.send("help", *words)
