@@ -7,7 +7,7 @@
 #include "cli/options.hpp"
 #include "games/catalogue.hpp"
 #include "server/log.hpp"
-#include "server/streams.hpp"
+#include "server/server.hpp"
 
 namespace racebeam {
 namespace {
@@ -85,7 +85,11 @@ int run(const std::vector<std::string>& words) {
   const ClassicOptions protocol{settings.truth("run_length_encoding", true),
                                 settings.number("max_num_frames", 0)};
   const ClassicService service{[&] { return power_on(cartridge, machine); }, protocol};
-  return named ? serve_classic_pipes(service) : serve_standard_streams(service);
+  ServerSettings server;
+  server.endpoints = {{named ? Address(AlePipes{}) : Address(StandardStreams{}), true}};
+  Services services;
+  services.classic = service;
+  return serve(server, services);
 }
 
 }  // namespace

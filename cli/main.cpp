@@ -5,6 +5,7 @@
 
 #include "cli/bench.hpp"
 #include "cli/classic.hpp"
+#include "cli/config.hpp"
 #include "cli/games.hpp"
 #include "cli/options.hpp"
 #include "cli/png.hpp"
@@ -53,6 +54,7 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   app.require_subcommand(1);
   racebeam::add_serve(app);
+  racebeam::add_config(app);
   racebeam::add_classic(app);
   racebeam::add_trace(app);
   racebeam::add_bench(app);

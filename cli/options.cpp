@@ -20,18 +20,6 @@ std::optional<Number> parse_whole(const std::string& text) {
   return error == std::errc{} && rest == end ? std::optional(number) : std::nullopt;
 }
 
-// Checks the text, before CLI11 converts it: its own sentence would not say what is accepted.
-CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
-  const auto check = [least, most](const std::string& text) {
-    const auto number = parse_whole<std::int64_t>(text);
-    const bool accepted = number && *number >= least && *number <= most;
-    if (accepted) return std::string{};
-    return "'" + text + "' is not a whole number from " + std::to_string(least) + " to " +
-           std::to_string(most);
-  };
-  return CLI::Validator(check, "");
-}
-
 constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
 
@@ -68,6 +56,18 @@ const std::map<std::string, CpuKind> kCpuKinds = {
     {"auto", CpuKind::kAuto}, {"interpreter", CpuKind::kInterpreter}, {"translator", CpuKind::kTranslator}};
 
 }  // namespace
+
+// Checks the text, before CLI11 converts it: its own sentence would not say what is accepted.
+CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
+  const auto check = [least, most](const std::string& text) {
+    const auto number = parse_whole<std::int64_t>(text);
+    const bool accepted = number && *number >= least && *number <= most;
+    if (accepted) return std::string{};
+    return "'" + text + "' is not a whole number from " + std::to_string(least) + " to " +
+           std::to_string(most);
+  };
+  return CLI::Validator(check, "");
+}
 
 CLI::Option* add_count(CLI::App& app, const std::string& name, int& value, int least,
                        const std::string& help) {

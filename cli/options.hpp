@@ -26,6 +26,9 @@ struct MachineOptions {
 // --mode --difficulty. Set `options` to the subcommand's defaults first; it must outlive the parsing.
 void add_machine_options(CLI::App& app, MachineOptions& options);
 
+// Accepts such a number; else says what is accepted.
+CLI::Validator whole_number(std::int64_t least, std::int64_t most);
+
 // A whole number of at least `least`: frames, and so on.
 CLI::Option* add_count(CLI::App& app, const std::string& name, int& value, int least,
                        const std::string& help);

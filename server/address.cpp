@@ -11,7 +11,15 @@
 namespace racebeam {
 namespace {
 
-constexpr std::string_view kTcp = "tcp://", kUnix = "unix:";
+constexpr std::string_view kClassic = "classic+", kTls = "tls+", kTlsScheme = "tls://";
+constexpr std::string_view kTcp = "tcp://", kUnix = "unix:", kSystemd = "systemd", kPipes = "pipes:",
+                           kStdio = "stdio";
+
+bool cut(std::string_view& text, std::string_view prefix) {
+  if (!text.starts_with(prefix)) return false;
+  text.remove_prefix(prefix.size());
+  return true;
+}
 
 std::optional<std::uint16_t> parse_port(std::string_view text) {
   std::uint16_t port = 0;
@@ -33,25 +41,87 @@ std::optional<TcpAddress> parse_tcp(std::string_view text) {
   return TcpAddress{host, *port};
 }
 
+// A path may be written as in a URL: unix:///run/s is /run/s.
+std::string path_of(std::string_view text) {
+  cut(text, "//");
+  return std::string(text);
+}
+
+std::optional<Address> parse_address(std::string_view text) {
+  if (text == kStdio) return StandardStreams{};
+  if (text == kSystemd) return InheritedAddress{};
+  if (cut(text, kTcp)) {
+    if (auto address = parse_tcp(text)) return *address;
+    return std::nullopt;
+  }
+  const bool inherited = text.starts_with("systemd:"), pipes = text.starts_with(kPipes);
+  const bool local = text.starts_with(kUnix);
+  if (!inherited && !pipes && !local) return std::nullopt;
+  const std::string rest = path_of(text.substr(text.find(':') + 1));
+  if (rest.empty()) return std::nullopt;
+  if (inherited) return InheritedAddress{rest};
+  if (pipes) return Pipes{rest};
+  return UnixAddress{rest};
+}
+
+struct Writer {
+  std::string operator()(const TcpAddress& address) const {
+    const bool colons = address.host.find(':') != std::string::npos;
+    return std::string(kTcp) + (colons ? "[" + address.host + "]" : address.host) + ":" +
+           std::to_string(address.port);
+  }
+  std::string operator()(const UnixAddress& address) const { return std::string(kUnix) + address.path; }
+  std::string operator()(const InheritedAddress& address) const {
+    return std::string(kSystemd) + (address.name.empty() ? "" : ":" + address.name);
+  }
+  std::string operator()(StandardStreams) const { return std::string(kStdio); }
+  std::string operator()(const Pipes& pipes) const { return std::string(kPipes) + pipes.prefix; }
+  std::string operator()(AlePipes) const { return "pipes:ale_fifo"; }
+};
+
 }  // namespace
 
-Address parse_address(const std::string& text) {
-  const std::string_view view = text;
-  if (view.starts_with(kTcp)) {
-    if (const auto address = parse_tcp(view.substr(kTcp.size()))) return *address;
-  } else if (view.starts_with(kUnix) && view.size() > kUnix.size()) {
-    return UnixAddress{text.substr(kUnix.size())};
+Endpoint parse_endpoint(const std::string& text) {
+  std::string_view rest = text;
+  Endpoint endpoint;
+  endpoint.classic = cut(rest, kClassic);
+  endpoint.tls = cut(rest, kTls);
+  std::string in_full(rest);
+  if (!endpoint.tls && cut(rest, kTlsScheme)) {
+    endpoint.tls = true;
+    (in_full = kTcp) += rest;
+  }
+  const auto address = parse_address(in_full);
+  if (address && !(endpoint.tls && is_stream(*address))) {
+    endpoint.address = *address;
+    return endpoint;
   }
   throw std::invalid_argument(
       "'" + text +
-      "' is not an address to listen on; there are tcp://HOST:PORT (an IP address or localhost; "
-      "port 0 picks a free one) and unix:PATH");
+      "' is not an address to listen on; there are tcp://HOST:PORT and tls://HOST:PORT (an IP address or "
+      "localhost; port 0 picks a free one), unix:PATH, systemd or systemd:NAME, stdio and pipes:PREFIX; "
+      "classic+ before one speaks the classic protocol there");
 }
 
-std::string to_string(const TcpAddress& address) {
-  const bool colons = address.host.find(':') != std::string::npos;
-  return std::string(kTcp) + (colons ? "[" + address.host + "]" : address.host) + ":" +
-         std::to_string(address.port);
+TcpAddress parse_host_and_port(const std::string& text) {
+  if (const auto address = parse_tcp(text)) return *address;
+  throw std::invalid_argument("'" + text +
+                              "' is not HOST:PORT, with an IP address or localhost; port 0 picks a free one");
 }
+
+std::string to_string(const Address& address) { return std::visit(Writer{}, address); }
+
+std::string to_string(const Endpoint& endpoint) {
+  std::string text = to_string(endpoint.address);
+  if (endpoint.tls) text = text.starts_with(kTcp) ? "tls://" + text.substr(kTcp.size()) : "tls+" + text;
+  return (endpoint.classic ? "classic+" : "") + text;
+}
+
+bool is_stream(const Address& address) {
+  return std::holds_alternative<StandardStreams>(address) || std::holds_alternative<Pipes>(address) ||
+         std::holds_alternative<AlePipes>(address);
+}
+
+bool is_loopback(const std::string& host) { return boost::asio::ip::make_address(host).is_loopback(); }
 
 }  // namespace racebeam

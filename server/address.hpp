@@ -1,4 +1,4 @@
-// Where to listen, as the command line has it: tcp://HOST:PORT or unix:PATH.
+// Where to serve, as the command line has it.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,41 @@ struct UnixAddress {
   std::string path;
 };
 
-using Address = std::variant<TcpAddress, UnixAddress>;
+// Sockets that systemd has opened for us: all, or those of the name (systemd.socket(5), FileDescriptorName).
+struct InheritedAddress {
+  std::string name;
+};
 
-Address parse_address(const std::string& text);  // throws std::invalid_argument with a sentence
+struct StandardStreams {};
 
-std::string to_string(const TcpAddress& address);
+// PREFIX_out to write to and PREFIX_in to read from; both are made if they are missing, and left behind.
+struct Pipes {
+  std::string prefix;
+};
+
+// ale_fifo_out and ale_fifo_in, which the client makes: when ale_fifo_out is missing the classic server writes
+// a plain file of that name, and when ale_fifo_in is missing it ends.
+struct AlePipes {};
+
+using Address = std::variant<TcpAddress, UnixAddress, InheritedAddress, StandardStreams, Pipes, AlePipes>;
+
+struct Endpoint {
+  Address address;
+  bool classic = false;  // the protocol of ALE 0.4 to 0.6
+  bool tls = false;
+};
+
+// [classic+][tls+]ADDRESS, where ADDRESS is tcp://HOST:PORT, unix:PATH, systemd, systemd:NAME, stdio or
+// pipes:PREFIX; tls:// is short for tls+tcp://. Throws std::invalid_argument with a sentence.
+Endpoint parse_endpoint(const std::string& text);
+
+TcpAddress parse_host_and_port(const std::string& text);  // throws std::invalid_argument
+
+// As parse_endpoint() reads them.
+std::string to_string(const Address& address);
+std::string to_string(const Endpoint& endpoint);
+
+bool is_stream(const Address& address);    // one session, over streams that block
+bool is_loopback(const std::string& host);  // only this machine can reach it
 
 }  // namespace racebeam

@@ -1,6 +1,7 @@
 #include "server/listener.hpp"
 
 #include <sys/stat.h>
+#include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -34,26 +35,43 @@ ino_t file_number(const std::string& path) {
 
 }  // namespace
 
-Listener::Listener(const net::any_io_executor& executor, const Address& address) : acceptor_(executor) {
-  std::visit([this](const auto& kind) { listen(kind); }, address);
+Listener::Listener(const net::any_io_executor& executor, const Endpoint& endpoint)
+    : endpoint_(endpoint), acceptor_(executor), name_(to_string(endpoint)) {
+  if (const auto* address = std::get_if<TcpAddress>(&endpoint.address)) {
+    listen(*address);
+  } else {
+    listen(std::get<UnixAddress>(endpoint.address));
+  }
+  describe();
 }
 
-Listener::~Listener() {
+Listener::Listener(const net::any_io_executor& executor, const Endpoint& endpoint,
+                   const InheritedSocket& inherited)
+    : endpoint_(endpoint), acceptor_(executor) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  ::getsockname(inherited.descriptor, reinterpret_cast<sockaddr*>(&address), &size);
+  acceptor_.assign(Protocol(address.ss_family, SOCK_STREAM), inherited.descriptor);
+  describe();
+}
+
+Listener::~Listener() { close(); }
+
+bool Listener::is_loopback() const { return local_ || racebeam::is_loopback(host_); }
+
+void Listener::close() {
+  error_code ignored;
+  acceptor_.close(ignored);
   if (file_ != 0 && file_number(path_) == file_) ::unlink(path_.c_str());
+  file_ = 0;
 }
 
 void Listener::listen(const TcpAddress& address) {
-  name_ = to_string(address);
   bind(tcp::endpoint(net::ip::make_address(address.host), address.port));
-  tcp::endpoint bound;
-  const Protocol::endpoint local = acceptor_.local_endpoint();
-  std::memcpy(bound.data(), local.data(), local.size());
-  name_ = to_string(TcpAddress{address.host, bound.port()});
 }
 
 void Listener::listen(const UnixAddress& address) {
   constexpr std::size_t kLongestPath = sizeof(sockaddr_un::sun_path) - 1;
-  name_ = "unix:" + address.path;
   if (address.path.size() > kLongestPath) {
     throw std::runtime_error(name_ + " is too long; a socket's path has at most " +
                              std::to_string(kLongestPath) + " bytes");
@@ -72,6 +90,24 @@ void Listener::bind(const Protocol::endpoint& endpoint) {
   if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
   if (error == net::error::address_in_use) throw std::runtime_error(name_ + " is in use by another server");
   if (error) throw std::runtime_error("cannot listen on " + name_ + ": " + error.message());
+}
+
+// Where it really listens, whoever has opened the socket.
+void Listener::describe() {
+  const Protocol::endpoint here = acceptor_.local_endpoint();
+  local_ = here.protocol().family() == AF_UNIX;
+  Endpoint found = endpoint_;
+  if (local_) {
+    const auto* address = static_cast<const sockaddr_un*>(static_cast<const void*>(here.data()));
+    found.address = UnixAddress{address->sun_path};
+  } else {
+    tcp::endpoint bound;
+    std::memcpy(bound.data(), here.data(), std::min(here.size(), bound.capacity()));
+    host_ = bound.address().to_string();
+    found.address = TcpAddress{host_, bound.port()};
+  }
+  found.classic = false;
+  name_ = to_string(found);
 }
 
 }  // namespace racebeam

@@ -8,33 +8,47 @@
 
 #include <boost/asio.hpp>
 
+#include "server/activation.hpp"
 #include "server/address.hpp"
+#include "server/client.hpp"
 
 namespace racebeam {
 
-using Protocol = boost::asio::generic::stream_protocol;
-using Socket = Protocol::socket;
 using Acceptor = boost::asio::basic_socket_acceptor<Protocol>;
 
 class Listener {
  public:
-  // Listens from now on. Throws std::runtime_error for an address that can't be had. The socket file of a
-  // server that died is replaced; that of a live one is not.
-  Listener(const boost::asio::any_io_executor& executor, const Address& address);
+  // Listens from now on, on a TCP or Unix address. Throws std::runtime_error for one that can't be had. The
+  // socket file of a server that died is replaced; that of a live one is not.
+  Listener(const boost::asio::any_io_executor& executor, const Endpoint& endpoint);
+
+  // A socket that listens already; its file, if it has one, is not ours to remove.
+  Listener(const boost::asio::any_io_executor& executor, const Endpoint& endpoint,
+           const InheritedSocket& inherited);
+
   ~Listener();  // removes its socket file
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
   Acceptor& acceptor() { return acceptor_; }
-  const std::string& name() const { return name_; }  // the address, with the port that was picked
+  const std::string& name() const { return name_; }        // the address, with the port that was picked
+  std::string full_name() const { return (endpoint_.classic ? "classic+" : "") + name_; }
+  const Endpoint& endpoint() const { return endpoint_; }
+  bool is_local() const { return local_; }  // a Unix socket: the file system says who may come
+  bool is_loopback() const;                 // only this machine can reach it
+
+  void close();  // whoever comes from now on is refused by the system
 
  private:
   void listen(const TcpAddress& address);
   void listen(const UnixAddress& address);
   void bind(const Protocol::endpoint& endpoint);
+  void describe();
 
+  Endpoint endpoint_;
   Acceptor acceptor_;
-  std::string name_;
+  std::string name_, host_;
+  bool local_ = true;
   std::string path_;  // of the socket file
   ino_t file_ = 0;    // the file itself: somebody may have put another in its place
 };

@@ -1,10 +1,34 @@
-// What the server says to the person who started it: one line each, on standard error.
+// What the server says to the person who started it: one line an event, on standard error.
 #pragma once
 
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 namespace racebeam {
 
-void log(const std::string& sentence);  // "racebeam: sentence", in one piece, from any thread
+enum class LogLevel { kDebug, kInfo, kWarning, kError, kOff };
+enum class LogFormat {
+  kText,  // racebeam: SENTENCE; a warning: racebeam: warning: SENTENCE
+  kJson   // {"time":"2026-01-31T12:00:00.123Z","level":"info","message":"SENTENCE",...}
+};
+
+// Before there are threads. Without it: text, from information upwards.
+void set_up_log(LogLevel least, LogFormat format);
+
+// What a program that reads the log wants to find without understanding the sentence; shown in JSON.
+struct LogField {
+  std::string_view key, value;
+};
+
+// From any thread; lines never mix. Bytes that are no printable ASCII become '?'.
+void log(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields = {});
+
+inline void log(const std::string& sentence, std::initializer_list<LogField> fields = {}) {
+  log(LogLevel::kInfo, sentence, fields);
+}
+inline void log_warning(const std::string& sentence, std::initializer_list<LogField> fields = {}) {
+  log(LogLevel::kWarning, sentence, fields);
+}
 
 }  // namespace racebeam

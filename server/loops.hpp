@@ -5,24 +5,35 @@
 
 #include <atomic>
 #include <list>
+#include <unordered_set>
 #include <utility>  // Asio 1.74 forgets it
 
 #include <boost/asio/io_context.hpp>
 
+#include "server/metrics.hpp"
+
 namespace racebeam {
 
+class Client;
+
 struct Loop {
-  boost::asio::io_context context{1};
+  explicit Loop(Meter& counting) : meter(counting) {}
+
   std::atomic<int> sessions = 0;
+  Meter& meter;
+  std::unordered_set<Client*> clients;  // those in a session; only touched on the loop's thread
+  boost::asio::io_context context{1};   // the last, so that what waits in it goes first
 };
 
 class Loops {
  public:
-  explicit Loops(unsigned threads);
+  Loops(unsigned threads, Metrics& metrics);
 
   Loop& first() { return loops_.front(); }
   Loop& idlest();  // with the fewest sessions
-  void run();      // until stop() is called
+  std::list<Loop>& all() { return loops_; }
+  int sessions() const;
+  void run();  // until stop() is called
   void stop();
 
  private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -17,6 +18,11 @@ struct ClassicService {
 };
 
 using Service = std::variant<ClassicService, LineService>;
+
+// One for each protocol that is spoken on some endpoint.
+struct Services {
+  std::optional<Service> classic, line;
+};
 
 // For the log: a session can be played again when its seed is known.
 inline std::string describe(const Environment& machine) {

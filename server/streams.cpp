@@ -5,112 +5,30 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
-#include <memory>
-#include <string_view>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
-
-#include <boost/asio.hpp>
 
 #include "server/log.hpp"
 
 namespace racebeam {
-namespace {
-
-namespace net = boost::asio;
-using Stream = net::posix::stream_descriptor;
 
 constexpr int kClientGone = 1;  // exit status: it stopped reading in the middle
 
-void handle_signals() {
-  std::signal(SIGPIPE, SIG_IGN);
-  for (const int number : {SIGTERM, SIGINT}) std::signal(number, [](int) { ::_exit(0); });
-}
-
-// False: the client stopped reading.
-bool converse(Stream& in, Stream& out, ClassicSession& session) {
-  boost::system::error_code error;
-  while (!session.ended()) {
-    if (const auto text = session.reply()) {
-      net::write(out, net::buffer(*text), error);
-      if (error && !session.ended()) return false;
-    } else {
-      const auto space = session.space();
-      session.received(in.read_some(net::buffer(space.data(), space.size()), error));
-    }
-  }
-  return true;
-}
-
-bool converse(Stream& in, Stream& out, LineSession& session) {
-  boost::system::error_code error;
-  while (!session.finished()) {
-    const bool more = session.run();
-    const auto text = session.output();
-    net::write(out, net::buffer(text), error);
-    if (error) return false;
-    session.sent(text.size());
-    if (more || session.finished()) continue;
-    const auto space = session.space();
-    session.received(in.read_some(net::buffer(space.data(), space.size()), error));
-  }
-  return true;
-}
-
-// A session that waits for its streams. Made before they are opened: who starts the server hears at once when
-// the machine can't be had.
-class Waiting {
+// The session, made before its streams are opened.
+class StreamSession::Conversation {
  public:
-  virtual ~Waiting() = default;
-  virtual int serve(Stream in, Stream out) = 0;  // the exit status
+  virtual ~Conversation() = default;
+  virtual int hold(BlockingPair& streams, const Halt& halt) = 0;  // the exit status
   virtual std::string description() const = 0;
 };
 
-class WaitingLine final : public Waiting {
- public:
-  explicit WaitingLine(const LineService& service) : session_(service) {}
+namespace {
 
-  int serve(Stream in, Stream out) override {
-    if (converse(in, out, session_)) return 0;
-    log("the client stopped reading");
-    return kClientGone;
-  }
-
-  std::string description() const override { return "the line protocol"; }
-
- private:
-  LineSession session_;
-};
-
-class WaitingClassic final : public Waiting {
- public:
-  explicit WaitingClassic(const ClassicService& service)
-      : machine_(service.power_on()), session_(machine_, service.options) {}
-
-  int serve(Stream in, Stream out) override;
-  std::string description() const override { return describe(machine_); }
-
- private:
-  Environment machine_;
-  ClassicSession session_;
-};
-
-int WaitingClassic::serve(Stream in, Stream out) {
-  try {
-    if (converse(in, out, session_)) return 0;
-    log("the client stopped reading");
-    return kClientGone;
-  } catch (const ClassicError& error) {
-    log(error.what());
-    return error.status();
-  }
-}
-
-int open_or_throw(const std::string& path, int flags) {
-  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
-  if (descriptor >= 0) return descriptor;
-  throw std::runtime_error("cannot open the pipe " + path + ": " + std::generic_category().message(errno));
+int client_gone(const Halt& halt) {
+  if (halt.all) return 0;
+  log("the client stopped reading");
+  return kClientGone;
 }
 
 void make_if_missing(const std::string& path) {
@@ -123,43 +41,134 @@ void make_if_missing(const std::string& path) {
   if (!S_ISFIFO(found.st_mode)) throw std::runtime_error(path + " exists, but is not a named pipe");
 }
 
-std::unique_ptr<Waiting> await_client(const Service& service) {
-  if (const auto* line = std::get_if<LineService>(&service)) return std::make_unique<WaitingLine>(*line);
-  return std::make_unique<WaitingClassic>(std::get<ClassicService>(service));
+}  // namespace
+
+class StreamSession::LineConversation final : public Conversation {
+ public:
+  LineConversation(const LineService& service, Meter& meter) : meter_(meter), session_(service, &meter) {}
+
+  int hold(BlockingPair& streams, const Halt& halt) override {
+    while (!session_.finished()) {
+      const bool more = session_.run();
+      const std::string_view text = session_.output();
+      if (!streams.write(text)) return client_gone(halt);
+      meter_.bytes_out.add(static_cast<std::int64_t>(text.size()));
+      session_.sent(text.size());
+      if (more && (halt.all || streams.reader_left())) return client_gone(halt);
+      if (more || session_.finished()) continue;
+      const std::size_t count = streams.read(session_.space());
+      if (halt.reading) break;
+      meter_.bytes_in.add(static_cast<std::int64_t>(count));
+      session_.received(count);
+    }
+    return 0;
+  }
+
+  std::string description() const override { return "the line protocol"; }
+
+ private:
+  Meter& meter_;
+  LineSession session_;
+};
+
+class StreamSession::ClassicConversation final : public Conversation {
+ public:
+  ClassicConversation(const ClassicService& service, Meter& meter)
+      : meter_(meter), machine_(service.power_on()), session_(machine_, service.options) {}
+
+  int hold(BlockingPair& streams, const Halt& halt) override {
+    try {
+      return converse(streams, halt) ? 0 : client_gone(halt);
+    } catch (const ClassicError& error) {
+      log(error.what());
+      return error.status();
+    }
+  }
+
+  std::string description() const override { return describe(machine_); }
+
+ private:
+  bool converse(BlockingPair& streams, const Halt& halt);  // false: the client stopped reading
+
+  Meter& meter_;
+  Environment machine_;
+  ClassicSession session_;
+};
+
+bool StreamSession::ClassicConversation::converse(BlockingPair& streams, const Halt& halt) {
+  while (!session_.ended()) {
+    if (const auto text = session_.reply()) {
+      if (!streams.write(*text) && !session_.ended()) return false;
+      meter_.bytes_out.add(static_cast<std::int64_t>(text->size()));
+      meter_.frames.add(session_.take_frames());
+    } else {
+      const std::size_t count = streams.read(session_.space());
+      if (halt.reading) break;
+      meter_.bytes_in.add(static_cast<std::int64_t>(count));
+      session_.received(count);
+    }
+  }
+  return true;
+}
+
+StreamSession::StreamSession(const Endpoint& endpoint, const Service& service, Metrics& metrics)
+    : address_(endpoint.address), name_(to_string(endpoint)), metrics_(metrics) {
+  Meter& meter = metrics.add_meter();
+  if (const auto* line = std::get_if<LineService>(&service)) {
+    conversation_ = std::make_unique<LineConversation>(*line, meter);
+    ++metrics.sessions_line;
+  } else {
+    conversation_ = std::make_unique<ClassicConversation>(std::get<ClassicService>(service), meter);
+    ++metrics.sessions_classic;
+  }
+  if (const auto* pipes = std::get_if<Pipes>(&address_)) {
+    make_if_missing(pipes->prefix + "_out");
+    make_if_missing(pipes->prefix + "_in");
+  }
+}
+
+StreamSession::~StreamSession() {
+  if (thread_.joinable()) thread_.join();
+}
+
+void StreamSession::start(std::function<void()> ended) {
+  on_end_ = std::move(ended);
+  Halt::prepare();
+  thread_ = std::thread([this] { run(); });
+}
+
+void StreamSession::stop(bool at_once) {
+  halt_.reading = true;
+  if (at_once) halt_.all = true;
+  if (thread_.joinable() && !ended_) Halt::wake(thread_.native_handle());
+}
+
+void StreamSession::run() {
+  ++metrics_.sessions_open;
+  try {
+    if (connect()) status_ = conversation_->hold(streams_, halt_);
+  } catch (const std::exception& error) {
+    log(LogLevel::kError, error.what());
+    status_ = 1;
+  }
+  conversation_.reset();  // what it records is kept before anybody hears of the end
+  --metrics_.sessions_open;
+  ended_ = true;
+  on_end_();
 }
 
 // Each open waits for the client's; a client that opens them in the other order waits for ever.
-int serve_opened(const std::string& prefix, int output_flags, Waiting& session) {
-  net::io_context context;
-  log(session.description() + ", for a client that opens " + prefix + "_out for reading, then " + prefix +
-      "_in for writing");
-  Stream out(context, open_or_throw(prefix + "_out", O_WRONLY | output_flags));
-  Stream in(context, open_or_throw(prefix + "_in", O_RDONLY));
-  return session.serve(std::move(in), std::move(out));
-}
-
-}  // namespace
-
-int serve_standard_streams(const Service& service) {
-  handle_signals();
-  const auto session = await_client(service);
-  log(session->description() + ", on standard input and output");
-  net::io_context context;
-  return session->serve(Stream(context, STDIN_FILENO), Stream(context, STDOUT_FILENO));
-}
-
-int serve_pipes(const std::string& prefix, const Service& service) {
-  handle_signals();
-  const auto session = await_client(service);
-  make_if_missing(prefix + "_out");
-  make_if_missing(prefix + "_in");
-  return serve_opened(prefix, 0, *session);
-}
-
-int serve_classic_pipes(const ClassicService& service) {
-  handle_signals();
-  WaitingClassic session(service);
-  return serve_opened("ale_fifo", O_CREAT | O_TRUNC, session);
+bool StreamSession::connect() {
+  const std::string what = conversation_->description();
+  if (std::holds_alternative<StandardStreams>(address_)) {
+    log(what + ", on standard input and output");
+    streams_.use(STDIN_FILENO, STDOUT_FILENO);
+    return true;
+  }
+  const auto* pipes = std::get_if<Pipes>(&address_);
+  const std::string prefix = pipes ? pipes->prefix : "ale_fifo";
+  log(what + ", for a client that opens " + prefix + "_out for reading, then " + prefix + "_in for writing");
+  return streams_.open_out(prefix + "_out", pipes ? 0 : O_CREAT | O_TRUNC) && streams_.open_in(prefix + "_in");
 }
 
 }  // namespace racebeam

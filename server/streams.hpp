@@ -1,23 +1,59 @@
 // One session over a pair of byte streams that were there before us: standard streams, named pipes.
-// They may be of any kind, files too, so that reading and writing simply block.
+// They may be of any kind, files too, so that reading and writing simply block, on a thread of their own.
 #pragma once
 
+#include <atomic>
+#include <functional>
+#include <memory>
 #include <string>
+#include <thread>
 
+#include "server/address.hpp"
+#include "server/blocking_pair.hpp"
+#include "server/metrics.hpp"
 #include "server/service.hpp"
 
 namespace racebeam {
 
-// All return the exit status of the process; SIGTERM and SIGINT end the session and the process with status
-// 0.
-int serve_standard_streams(const Service& service);
+class StreamSession {
+ public:
+  // Makes pipes that are missing and what the session needs, so that who starts the server hears at once when
+  // it can't be had: throws std::runtime_error or std::invalid_argument. All outlive the session.
+  StreamSession(const Endpoint& endpoint, const Service& service, Metrics& metrics);
+  ~StreamSession();
+  StreamSession(const StreamSession&) = delete;
+  StreamSession& operator=(const StreamSession&) = delete;
 
-// The server writes to PREFIX_out and reads from PREFIX_in. Both are made if they are missing, and left
-// behind.
-int serve_pipes(const std::string& prefix, const Service& service);
+  const std::string& name() const { return name_; }
 
-// The same with ale_fifo_out and ale_fifo_in, which the client makes: when ale_fifo_out is missing the
-// classic server writes a plain file of that name, and when ale_fifo_in is missing it ends.
-int serve_classic_pipes(const ClassicService& service);
+  // Serves, on a thread; calls `ended` there when all is over.
+  void start(std::function<void()> ended);
+
+  bool ended() const { return ended_; }
+  int status() const { return status_; }  // of the process, once ended: see the help of racebeam serve
+
+  // No further request is read; one that is under way is finished. To be called until ended(): each call
+  // wakes the thread up, if it waits. With `at_once`, what is under way is given up.
+  void stop(bool at_once);
+
+ private:
+  class Conversation;
+  class LineConversation;
+  class ClassicConversation;
+
+  void run();
+  bool connect();
+
+  Address address_;
+  std::string name_;
+  Metrics& metrics_;
+  Halt halt_;
+  BlockingPair streams_{halt_};
+  std::unique_ptr<Conversation> conversation_;
+  std::atomic<bool> ended_ = false;
+  std::atomic<int> status_ = 0;
+  std::function<void()> on_end_;
+  std::thread thread_;
+};
 
 }  // namespace racebeam

@@ -198,8 +198,8 @@ class Session:
     def __init__(self, transport, *options, image=GAME):
         protocol = ["--classic", "--rom", image] if image else []
         command = ["serve", *protocol, *options]
-        where = {"stdio": ["--stdio"], "pipes": ["--pipes", "p"], "tcp": ["--listen", "tcp://127.0.0.1:0"],
-                 "unix": ["--listen", "unix:s"]}[transport]
+        where = {"stdio": ["--stdio"], "pipes": ["--pipes", "p"], "tcp": ["--listen", "tcp://127.0.0.1:0", "--grace", "0"],
+                 "unix": ["--listen", "unix:s", "--grace", "0"]}[transport]
         self.transport = transport
         self.server = Server(*command, *where, streams=transport == "stdio")
         try:

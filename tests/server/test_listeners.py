@@ -9,7 +9,7 @@ import unittest
 
 from harness import GAME, Server, connect_tcp, connect_unix, main, run, sanitized
 
-SERVE = ("serve", "--classic", "--rom", GAME, "--seed", "1", "--sticky", "0")
+SERVE = ("serve", "--classic", "--rom", GAME, "--seed", "1", "--sticky", "0", "--grace", "0")
 WHOLE = b"0,1,0,1\n" + b"1,18\n" * 20
 
 

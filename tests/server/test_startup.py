@@ -93,9 +93,9 @@ class CommandLine(Refusals):
     def test_an_unknown_flag_is_refused(self):
         self.refuse("--speed", "4", hint="not understood: --speed 4")
 
-    def test_one_kind_of_transport_is_needed(self):
+    def test_a_transport_is_needed(self):
         self.check(["serve", "--classic", "--rom", GAME], 2, "--stdio, --pipes PREFIX and --listen ADDRESS")
-        self.refuse("--pipes", "p", hint="--stdio, --pipes PREFIX and --listen ADDRESS")
+        self.refuse("--listen", "stdio", hint="only one pair of standard streams")
 
     def test_what_the_client_says_in_the_line_protocol_is_refused(self):
         for words in (["--seed", "1"], ["--frame-skip", "4"], ["--sticky", "0"], ["--full-screen"], ["--mode", "0"]):
@@ -111,8 +111,8 @@ class CommandLine(Refusals):
         self.check(["serve", "--classic", "--stdio"], 2, "--rom is required")
 
     def test_an_unknown_subcommand_is_answered_by_those_there_are(self):
-        self.check(["play"], 2, "serve, classic, trace")
-        self.check([], 2, "serve, classic, trace")
+        self.check(["play"], 2, "serve, config, classic, trace")
+        self.check([], 2, "serve, config, classic, trace")
 
 
 class Help(unittest.TestCase):

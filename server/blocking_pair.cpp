@@ -1,0 +1,91 @@
+#include "server/blocking_pair.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <stdexcept>
+#include <system_error>
+
+namespace racebeam {
+namespace {
+
+constexpr int kWakingSignal = SIGUSR1;
+
+void wait_until(int descriptor, short ready) {
+  pollfd state{descriptor, ready, 0};
+  ::poll(&state, 1, -1);
+}
+
+}  // namespace
+
+// A handler that does nothing, and calls that are not restarted after it: they end with EINTR.
+void Halt::prepare() {
+  struct sigaction action {};
+  action.sa_handler = [](int) {};
+  ::sigaction(kWakingSignal, &action, nullptr);
+}
+
+void Halt::wake(pthread_t thread) { ::pthread_kill(thread, kWakingSignal); }
+
+BlockingPair::~BlockingPair() {
+  for (const int descriptor : {in_, out_}) {
+    if (descriptor > STDERR_FILENO) ::close(descriptor);
+  }
+}
+
+void BlockingPair::use(int in, int out) {
+  in_ = in;
+  out_ = out;
+}
+
+bool BlockingPair::open(int& descriptor, const std::string& path, int flags) {
+  while (!halt_.reading) {
+    descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+    if (descriptor >= 0) return true;
+    if (errno == EINTR) continue;
+    throw std::runtime_error("cannot open the pipe " + path + ": " + std::generic_category().message(errno));
+  }
+  return false;
+}
+
+bool BlockingPair::open_out(const std::string& path, int flags) { return open(out_, path, O_WRONLY | flags); }
+
+bool BlockingPair::open_in(const std::string& path) { return open(in_, path, O_RDONLY); }
+
+std::size_t BlockingPair::read(std::span<char> space) {
+  while (!halt_.reading) {
+    const ssize_t count = ::read(in_, space.data(), space.size());
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno == EAGAIN) {
+      wait_until(in_, POLLIN);
+    } else if (errno != EINTR) {
+      break;
+    }
+  }
+  return 0;
+}
+
+bool BlockingPair::write(std::string_view text) {
+  while (!text.empty()) {
+    if (halt_.all) return false;
+    const ssize_t count = ::write(out_, text.data(), text.size());
+    if (count >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EAGAIN) {
+      wait_until(out_, POLLOUT);
+    } else if (errno != EINTR) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool BlockingPair::reader_left() const {
+  pollfd state{out_, 0, 0};
+  return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLERR | POLLHUP)) != 0;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,199 @@
+#include "server/conversation.hpp"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string_view>
+
+#include <boost/asio/ssl.hpp>
+
+#include "server/log.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace net = boost::asio;
+using boost::system::error_code;
+using net::use_awaitable;
+using namespace std::chrono_literals;
+using TlsStream = net::ssl::stream<Socket&>;
+
+// A short reply fits into the socket's buffer: sent at once, it costs one call of the system, and no turn of
+// the event loop. The rest, or all, is left to async_write.
+std::size_t send_at_once(Socket& socket, std::string_view text) {
+  error_code full;
+  return socket.write_some(net::buffer(text), full);
+}
+std::size_t send_at_once(TlsStream&, std::string_view) { return 0; }
+
+// In pieces, each of which shows that the client still reads.
+template <typename Stream>
+net::awaitable<void> send_rest(Stream& stream, Client& client, std::string_view text) {
+  constexpr std::size_t kPiece = 1 << 16;
+  error_code error;
+  for (; !text.empty(); text.remove_prefix(std::min(kPiece, text.size()))) {
+    const auto piece = net::buffer(text.data(), std::min(kPiece, text.size()));
+    co_await net::async_write(stream, piece, net::redirect_error(use_awaitable, error));
+    if (client.ending()) throw std::runtime_error("closed, it did not read: " + client.reason());
+    if (error) throw std::runtime_error("the client stopped reading");
+    client.sent(piece.size());
+  }
+}
+
+// Bytes that came; 0: no more will.
+template <typename Stream>
+net::awaitable<std::size_t> receive(Stream& stream, Client& client, std::span<char> space) {
+  error_code error;
+  const std::size_t count = co_await stream.async_read_some(net::buffer(space.data(), space.size()),
+                                                            net::redirect_error(use_awaitable, error));
+  client.received(count);
+  co_return count;
+}
+
+// The last word, when it is the server that ends the session.
+template <typename Stream>
+net::awaitable<void> take_leave(Stream& stream, Client& client) {
+  error_code ignored;
+  co_await net::async_write(stream, net::buffer(client.farewell()),
+                            net::redirect_error(use_awaitable, ignored));
+  throw std::runtime_error("closed: " + client.reason());
+}
+
+template <typename Stream>
+net::awaitable<void> converse(Stream& stream, Client& client, ClassicSession& session) {
+  error_code error;
+  while (!session.ended()) {
+    if (const auto text = session.reply()) {
+      co_await net::async_write(stream, net::buffer(*text), net::redirect_error(use_awaitable, error));
+      client.sent(text->size());
+      client.loop.meter.frames.add(session.take_frames());
+      if (error && !session.ended()) throw std::runtime_error("the client stopped reading");
+    } else {
+      session.received(co_await receive(stream, client, session.space()));
+    }
+    if (client.ending()) throw std::runtime_error("closed: " + client.reason());
+  }
+}
+
+// Waiting for it may take for ever: a client that only closed its sending end still listens.
+bool has_gone(Socket& socket) {
+  if (!socket.is_open()) return true;  // cut off by us
+  pollfd state{socket.native_handle(), 0, 0};
+  return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLHUP | POLLERR)) != 0;
+}
+
+// Between two slices of a long request, the loop's other sessions have their turn.
+template <typename Stream>
+net::awaitable<void> converse(Stream& stream, Client& client, LineSession& session) {
+  for (;;) {
+    const bool more = session.run();
+    client.admitted = session.admitted();
+    if (const std::string_view text = session.output(); !text.empty()) {
+      const std::size_t count = send_at_once(stream, text);
+      client.sent(count);
+      if (count < text.size()) co_await send_rest(stream, client, text.substr(count));
+      session.sent(text.size());
+    }
+    if (session.finished()) break;
+    if (more) {
+      if (has_gone(client.socket)) throw std::runtime_error("the client left in the middle of a request");
+      co_await net::post(client.socket.get_executor(), use_awaitable);
+      continue;
+    }
+    if (!client.ending()) {
+      const std::size_t count = co_await receive(stream, client, session.space());
+      if (count > 0 || !client.ending()) session.received(count);
+    }
+    if (client.ending()) co_await take_leave(stream, client);
+  }
+}
+
+// A client that is slow to close its end is not waited for.
+class Patience {
+ public:
+  explicit Patience(std::shared_ptr<Client> client) : timer_(client->socket.get_executor(), 2s) {
+    timer_.async_wait([client](error_code cancelled) {
+      error_code ignored;
+      if (!cancelled) client->socket.close(ignored);
+    });
+  }
+
+ private:
+  net::steady_timer timer_;
+};
+
+// Closing with input unread would make the system throw away what the client has not read yet.
+net::awaitable<void> close_gently(std::shared_ptr<Client> client) {
+  error_code error;
+  client->socket.shutdown(Socket::shutdown_send, error);
+  const Patience patience(client);
+  std::array<char, 4096> rest;
+  while (!error) {
+    co_await client->socket.async_read_some(net::buffer(rest), net::redirect_error(use_awaitable, error));
+  }
+}
+
+template <typename Stream>
+net::awaitable<void> play(Stream& stream, Client& client, const ClassicService& service) {
+  client.admitted = true;
+  Environment machine = service.power_on();
+  log(client.name + ": " + describe(machine), {{"client", client.name}, {"event", "came"}});
+  ClassicSession session(machine, service.options);
+  co_await converse(stream, client, session);
+}
+
+template <typename Stream>
+net::awaitable<void> play(Stream& stream, Client& client, const LineService& service) {
+  LineSession session(service, &client.loop.meter);
+  log(client.name + ": came", {{"client", client.name}, {"event", "came"}});
+  co_await converse(stream, client, session);
+  log(client.name + ": " + session.summary(), {{"client", client.name}, {"event", "left"}});
+}
+
+template <typename Stream>
+net::awaitable<void> play(Stream& stream, Client& client, const Service& service) {
+  return std::visit([&](const auto& kind) { return play(stream, client, kind); }, service);
+}
+
+net::awaitable<void> play_over_tls(std::shared_ptr<Client> client, const Service& service,
+                                   net::ssl::context& context, Metrics& metrics) {
+  TlsStream stream(client->socket, context);
+  error_code error;
+  co_await stream.async_handshake(TlsStream::server, net::redirect_error(use_awaitable, error));
+  if (error) {
+    ++metrics.refused_tls;
+    throw std::runtime_error("no TLS came about: " + error.message());
+  }
+  co_await play(stream, *client, service);
+  const Patience patience(client);
+  co_await stream.async_shutdown(net::redirect_error(use_awaitable, error));
+}
+
+}  // namespace
+
+net::awaitable<void> converse(std::shared_ptr<Client> client, const Service& service,
+                              std::shared_ptr<net::ssl::context> tls, Metrics& metrics) {
+  client->came_in();
+  try {
+    if (tls) {
+      co_await play_over_tls(client, service, *tls, metrics);
+    } else {
+      co_await play(client->socket, *client, service);
+    }
+  } catch (const std::exception& error) {
+    log(client->name + ": " + error.what(), {{"client", client->name}, {"event", "left"}});
+  }
+  client->left();
+  --metrics.sessions_open;
+  co_await close_gently(client);
+}
+
+net::awaitable<void> turn_away(std::shared_ptr<Client> client) {
+  error_code ignored;
+  client->socket.write_some(net::buffer(client->farewell()), ignored);
+  co_await close_gently(client);
+}
+
+}  // namespace racebeam

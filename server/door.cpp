@@ -1,0 +1,162 @@
+#include "server/door.hpp"
+
+#include <stdexcept>
+
+#include "server/conversation.hpp"
+#include "server/log.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace net = boost::asio;
+using boost::system::error_code;
+using net::use_awaitable;
+using namespace std::chrono_literals;
+
+void set_options(Socket& socket) {
+  error_code ignored;  // a Unix socket knows no delay
+  socket.set_option(net::ip::tcp::no_delay(true), ignored);
+  socket.set_option(net::socket_base::keep_alive(true), ignored);
+  socket.non_blocking(true, ignored);
+}
+
+net::awaitable<void> pause() {
+  net::steady_timer timer(co_await net::this_coro::executor, 100ms);
+  co_await timer.async_wait(use_awaitable);
+}
+
+template <typename Part>
+void read_again(std::optional<Part>& part, const std::string& what) {
+  if (!part) return;
+  try {
+    part->read_again();
+    log("read the " + what + " again");
+  } catch (const std::exception& error) {
+    log_warning(std::string(error.what()) + "; the old " + what + " stays in use");
+  }
+}
+
+}  // namespace
+
+Door::Door(const ServerSettings& settings, const Services& services, Loops& loops, Metrics& metrics)
+    : settings_(settings), services_(services), loops_(loops), metrics_(metrics) {
+  if (!settings.token_file.empty()) tokens_.emplace(settings.token_file);
+  if (!settings.tls_certificate.empty()) tls_.emplace(settings.tls_certificate, settings.tls_key);
+  if (tokens_ && services.line) {
+    guarded_ = services.line;
+    std::get<LineService>(*guarded_).admission = [this](std::string_view token) {
+      return tokens_->admits(token);
+    };
+  }
+  for (const Endpoint& endpoint : settings.endpoints) {
+    if (const auto* inherited = std::get_if<InheritedAddress>(&endpoint.address)) {
+      listen_inherited(endpoint, inherited->name);
+    } else if (!is_stream(endpoint.address)) {
+      listen(endpoint);
+    }
+  }
+}
+
+void Door::listen(const Endpoint& endpoint) {
+  check(listeners_.emplace_back(loops_.first().context.get_executor(), endpoint));
+}
+
+void Door::listen_inherited(const Endpoint& endpoint, const std::string& name) {
+  bool found = false;
+  for (const InheritedSocket& socket : inherited_sockets()) {
+    if (!name.empty() && socket.name != name) continue;
+    if (!taken_.insert(socket.descriptor).second)
+      throw std::runtime_error("the socket '" + socket.name + "' of systemd is listened on twice");
+    check(listeners_.emplace_back(loops_.first().context.get_executor(), endpoint, socket));
+    found = true;
+  }
+  if (found) return;
+  const std::string which = name.empty() ? "socket" : "socket of the name '" + name + "'";
+  throw std::runtime_error("systemd has passed on no " + which +
+                           " (LISTEN_FDS, LISTEN_FDNAMES); start the unit's socket, not its service");
+}
+
+void Door::check(const Listener& listener) const {
+  const std::string& name = listener.name();
+  if (listener.endpoint().tls && !tls_)
+    throw std::runtime_error(name + " needs --tls-cert and --tls-key");
+  if (listener.is_loopback()) return;
+  if (listener.endpoint().classic) {
+    throw std::runtime_error(name + " can be reached from other machines, but the classic protocol has no "
+                                    "tokens; use 127.0.0.1, or the line protocol");
+  }
+  if (!tokens_) {
+    throw std::runtime_error(name + " can be reached from other machines: give --token-file, so that not "
+                                    "everyone can use this one, or listen on 127.0.0.1");
+  }
+  if (!listener.endpoint().tls) {
+    log_warning(name + " can be reached from other machines, without TLS: who sees the packets can read the "
+                       "tokens and play in others' names; tls:// and --tls-cert encrypt");
+  }
+}
+
+// The file system guards a Unix socket.
+const Service& Door::service_of(const Listener& listener) const {
+  if (listener.endpoint().classic) return *services_.classic;
+  return guarded_ && !listener.is_local() ? *guarded_ : *services_.line;
+}
+
+std::vector<std::string> Door::names() const {
+  std::vector<std::string> all;
+  for (const Listener& listener : listeners_) all.push_back(listener.full_name());
+  return all;
+}
+
+void Door::open() {
+  for (Listener& listener : listeners_) {
+    net::co_spawn(loops_.first().context, welcome(listener), net::detached);
+    log("listening on " + listener.name(), {{"event", "listening"}, {"address", listener.full_name()}});
+  }
+}
+
+void Door::close() {
+  closed_ = true;
+  for (Listener& listener : listeners_) listener.close();
+}
+
+void Door::read_again() {
+  racebeam::read_again(tokens_, "token file");
+  racebeam::read_again(tls_, "certificate");
+}
+
+net::awaitable<void> Door::welcome(Listener& listener) {
+  for (int number = 1; !closed_; ++number) {
+    Loop& loop = loops_.idlest();
+    error_code error;
+    Socket socket =
+        co_await listener.acceptor().async_accept(loop.context, net::redirect_error(use_awaitable, error));
+    if (closed_) break;
+    if (error) {  // out of descriptors, most likely; it may pass
+      log_warning("cannot take a client on " + listener.name() + ": " + error.message());
+      co_await pause();
+      continue;
+    }
+    set_options(socket);
+    admit(std::move(socket), loop, listener, number);
+  }
+}
+
+void Door::admit(Socket socket, Loop& loop, const Listener& listener, int number) {
+  std::string name = listener.name() + " client " + std::to_string(number);
+  auto client = std::make_shared<Client>(std::move(socket), loop, std::move(name));
+  if (metrics_.sessions_open >= settings_.max_sessions) {
+    ++metrics_.refused_busy;
+    log_warning(client->name + ": refused, there are " + std::to_string(settings_.max_sessions) + " sessions");
+    client->end(Code::kBusy, "there are " + std::to_string(settings_.max_sessions) +
+                                 " sessions, as many as this server takes; come back later");
+    net::co_spawn(loop.context, turn_away(std::move(client)), net::detached);
+    return;
+  }
+  ++metrics_.sessions_open;
+  ++(listener.endpoint().classic ? metrics_.sessions_classic : metrics_.sessions_line);
+  auto tls = listener.endpoint().tls ? tls_->context() : nullptr;
+  net::co_spawn(loop.context, converse(std::move(client), service_of(listener), std::move(tls), metrics_),
+                net::detached);
+}
+
+}  // namespace racebeam

@@ -1,0 +1,168 @@
+#include "server/server.hpp"
+
+#include <sys/resource.h>
+
+#include <csignal>
+#include <list>
+#include <memory>
+
+#include "server/door.hpp"
+#include "server/http.hpp"
+#include "server/log.hpp"
+#include "server/ready_file.hpp"
+#include "server/streams.hpp"
+#include "server/watch.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace net = boost::asio;
+using boost::system::error_code;
+using net::use_awaitable;
+using namespace std::chrono_literals;
+
+// A descriptor a session: as many as we may have.
+void raise_descriptor_limit() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+net::awaitable<void> pause() {
+  net::steady_timer timer(co_await net::this_coro::executor, 5ms);
+  co_await timer.async_wait(use_awaitable);
+}
+
+class Server {
+ public:
+  Server(const ServerSettings& settings, const Services& services);
+  int run();
+
+ private:
+  void announce();
+  net::awaitable<void> obey();      // signals
+  net::awaitable<void> wind_down();  // grace, then the end
+  bool all_ended() const;
+  void stop_streams(bool at_once);
+  bool streams_ended() const;
+  int status() const;
+
+  const ServerSettings& settings_;
+  Metrics metrics_;
+  Loops loops_;
+  net::io_context& first_;
+  net::signal_set signals_;
+  Watch watch_;
+  std::optional<ReadyFile> ready_file_;
+  Door door_;
+  std::list<StreamSession> streams_;
+  std::unique_ptr<Http> http_;
+  bool told_to_stop_ = false, patient_ = true;
+  std::atomic<bool> ready_ = true;  // for /readyz
+};
+
+Server::Server(const ServerSettings& settings, const Services& services)
+    : settings_(settings),
+      loops_(static_cast<unsigned>(settings.threads), metrics_),
+      first_(loops_.first().context),
+      signals_(first_, SIGTERM, SIGINT, SIGHUP),
+      watch_(settings, loops_, metrics_),
+      door_(settings, services, loops_, metrics_) {
+  if (!settings.ready_file.empty()) ready_file_.emplace(settings.ready_file);
+  for (const Endpoint& endpoint : settings.endpoints) {
+    if (!is_stream(endpoint.address)) continue;
+    streams_.emplace_back(endpoint, endpoint.classic ? *services.classic : *services.line, metrics_);
+  }
+  if (settings.http.empty()) return;
+  const HttpPages pages{[this] { return ready_.load(); }, [this] { return metrics_.text(); }};
+  http_ = std::make_unique<Http>(first_, parse_host_and_port(settings.http), pages);
+}
+
+void Server::announce() {
+  door_.open();
+  for (StreamSession& stream : streams_) {
+    stream.start([this] { net::post(first_, [this] {
+      if (all_ended() && !told_to_stop_) loops_.stop();
+    }); });
+  }
+  std::vector<std::string> names = door_.names();
+  for (const StreamSession& stream : streams_) names.push_back(stream.name());
+  if (http_) {
+    log("health and metrics on " + http_->name(), {{"event", "listening"}, {"address", http_->name()}});
+    names.push_back(http_->name());
+  }
+  if (ready_file_) ready_file_->write(names);
+  notify_manager("READY=1");
+}
+
+int Server::run() {
+  net::co_spawn(first_, obey(), net::detached);
+  announce();
+  watch_.start();
+  loops_.run();
+  return status();
+}
+
+net::awaitable<void> Server::obey() {
+  for (;;) {
+    const int number = co_await signals_.async_wait(use_awaitable);
+    if (number == SIGHUP) {
+      door_.read_again();
+    } else if (told_to_stop_) {
+      patient_ = false;
+    } else {
+      told_to_stop_ = true;
+      net::co_spawn(first_, wind_down(), net::detached);
+    }
+  }
+}
+
+// Sessions on streams have no grace: who stops the server is the one who talks to it.
+net::awaitable<void> Server::wind_down() {
+  ready_ = false;
+  notify_manager("STOPPING=1");
+  door_.close();
+  log("told to stop: " + std::to_string(metrics_.sessions_open) + " sessions have " +
+          std::to_string(settings_.grace_seconds) + " seconds to end",
+      {{"event", "stopping"}});
+  const auto grace = Clock::now() + std::chrono::seconds(settings_.grace_seconds);
+  for (; !all_ended() && patient_ && Clock::now() < grace; co_await pause()) stop_streams(false);
+  watch_.end_all();
+  const auto farewell = Clock::now() + 1s;
+  for (; !all_ended() && Clock::now() < farewell; co_await pause()) stop_streams(true);
+  // Connections that are being closed: what was sent last is on its way.
+  const auto last = Clock::now() + 100ms;
+  while (loops_.sessions() > 0 && Clock::now() < last) co_await pause();
+  loops_.stop();
+}
+
+bool Server::all_ended() const {
+  return streams_ended() && (told_to_stop_ || door_.empty()) && metrics_.sessions_open == 0;
+}
+
+void Server::stop_streams(bool at_once) {
+  for (StreamSession& stream : streams_) stream.stop(at_once);
+}
+
+bool Server::streams_ended() const {
+  return std::ranges::all_of(streams_, [](const StreamSession& stream) { return stream.ended(); });
+}
+
+int Server::status() const {
+  if (told_to_stop_) return 0;
+  for (const StreamSession& stream : streams_) {
+    if (stream.status() != 0) return stream.status();
+  }
+  return 0;
+}
+
+}  // namespace
+
+int serve(const ServerSettings& settings, const Services& services) {
+  std::signal(SIGPIPE, SIG_IGN);
+  raise_descriptor_limit();
+  return Server(settings, services).run();
+}
+
+}  // namespace racebeam

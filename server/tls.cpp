@@ -1,0 +1,35 @@
+#include "server/tls.hpp"
+
+#include <stdexcept>
+
+namespace racebeam {
+
+namespace ssl = boost::asio::ssl;
+using boost::system::error_code;
+
+Tls::Tls(std::string certificate, std::string key)
+    : certificate_(std::move(certificate)), key_(std::move(key)), context_(read()) {}
+
+void Tls::read_again() {
+  auto context = read();
+  const std::lock_guard lock(mutex_);
+  context_.swap(context);
+}
+
+std::shared_ptr<ssl::context> Tls::context() const {
+  const std::lock_guard lock(mutex_);
+  return context_;
+}
+
+std::shared_ptr<ssl::context> Tls::read() const {
+  auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
+  context->set_options(ssl::context::no_tlsv1 | ssl::context::no_tlsv1_1 | ssl::context::no_compression);
+  error_code error;
+  context->use_certificate_chain_file(certificate_, error);
+  if (error) throw std::runtime_error("cannot use the certificate " + certificate_ + ": " + error.message());
+  context->use_private_key_file(key_, ssl::context::pem, error);
+  if (error) throw std::runtime_error("cannot use the key " + key_ + ": " + error.message());
+  return context;
+}
+
+}  // namespace racebeam

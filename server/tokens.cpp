@@ -1,0 +1,78 @@
+#include "server/tokens.hpp"
+
+#include <openssl/crypto.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+namespace racebeam {
+namespace {
+
+constexpr std::size_t kShortest = 16, kLongest = 1024;
+
+bool is_comment(std::string_view line) { return line.empty() || line.starts_with('#'); }
+
+std::string_view trimmed(std::string_view line) {
+  while (line.ends_with('\r') || line.ends_with(' ')) line.remove_suffix(1);
+  return line;
+}
+
+bool is_token(std::string_view text) {
+  return text.size() >= kShortest && text.size() <= kLongest &&
+         std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; });
+}
+
+}  // namespace
+
+Tokens::Tokens(std::string path) : path_(std::move(path)), digests_(read(path_)) {}
+
+void Tokens::read_again() {
+  auto digests = read(path_);
+  const std::lock_guard lock(mutex_);
+  digests_.swap(digests);
+}
+
+std::size_t Tokens::count() const {
+  const std::lock_guard lock(mutex_);
+  return digests_.size();
+}
+
+bool Tokens::admits(std::string_view token) const {
+  const Digest candidate = digest_of(token);
+  const std::lock_guard lock(mutex_);
+  bool known = false;
+  for (const Digest& digest : digests_)
+    known |= CRYPTO_memcmp(digest.data(), candidate.data(), digest.size()) == 0;
+  return known;
+}
+
+Tokens::Digest Tokens::digest_of(std::string_view token) {
+  Digest digest{};
+  if (EVP_Digest(token.data(), token.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
+    throw std::runtime_error("libcrypto has no SHA-256 here");
+  return digest;
+}
+
+std::vector<Tokens::Digest> Tokens::read(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read the token file " + path);
+  std::vector<Digest> digests;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    const std::string_view text = trimmed(line);
+    if (is_comment(text)) continue;
+    if (!is_token(text)) {
+      throw std::runtime_error(path + ", line " + std::to_string(number) +
+                               ": a token has 16 to 1024 printable characters and no blanks");
+    }
+    digests.push_back(digest_of(text));
+  }
+  if (file.bad()) throw std::runtime_error("cannot read the token file " + path);
+  if (digests.empty()) throw std::runtime_error("there is no token in " + path);
+  return digests;
+}
+
+}  // namespace racebeam
