@@ -20,8 +20,8 @@ constexpr int kColumn = 44;  // of the comments
 bool is_number(const std::string& text) {
   double number = 0;
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc{} && rest == text.data() + text.size() && (text == "0" || text[0] != '0' ||
-                                                                        text.starts_with("0."));
+  return error == std::errc{} && rest == text.data() + text.size() &&
+         (text == "0" || text[0] != '0' || text.starts_with("0."));
 }
 
 std::string quoted(const std::string& text) {

@@ -66,8 +66,8 @@ FromFile read_file(const std::string& path, const std::vector<CLI::Option*>& opt
     table = toml::parse_file(path);
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
-    throw CLI::ValidationError(path, (line > 0 ? "line " + std::to_string(line) + ": " : "") +
-                                         std::string(error.description()));
+    throw CLI::ValidationError(
+        path, (line > 0 ? "line " + std::to_string(line) + ": " : "") + std::string(error.description()));
   }
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
@@ -92,7 +92,8 @@ void give(CLI::Option& option, const Values& values, const std::string& where) {
   if (values.size() > 1 && !is_list(option)) throw CLI::ValidationError(where, "takes one value");
   for (const std::string& value : values) {
     const bool truth = value == "true" || value == "false" || value == "1" || value == "0";
-    if (is_flag(option) && !truth) throw CLI::ValidationError(where, "takes true or false, not '" + value + "'");
+    if (is_flag(option) && !truth)
+      throw CLI::ValidationError(where, "takes true or false, not '" + value + "'");
     option.add_result(value);
   }
   try {

@@ -21,7 +21,8 @@ std::string variable_of(const CLI::Option& option);  // RACEBEAM_MAX_STATES
 std::string describe(Source source);                 // for people
 
 // To be called after the command line was parsed: gives each option that it has left out the value of its
-// environment variable, else of the file; what is in neither keeps its default. The file is that of the option
+// environment variable, else of the file; what is in neither keeps its default. The file is that of the
+// option
 // --config, which the subcommand has. Throws CLI::ValidationError, with a sentence, for values that an option
 // refuses and for keys that are none.
 std::vector<Setting> complete(CLI::App& command);

@@ -10,9 +10,9 @@ namespace racebeam {
 namespace {
 
 // What the client of a line protocol says itself, when it loads a game.
-constexpr const char* kClassicOnly[] = {
-    "seed",       "system_seed",        "frame_skip", "sticky",      "mode",
-    "difficulty", "max_episode_frames", "max_frames", "full_screen", "color_averaging"};
+constexpr const char* kClassicOnly[] = {"seed",        "system_seed",    "frame_skip",         "sticky",
+                                        "mode",        "difficulty",     "max_episode_frames", "max_frames",
+                                        "full_screen", "color_averaging"};
 constexpr const char* kLineOnly[] = {"record_dir"};
 
 std::string check_endpoint(const std::string& text) {
@@ -44,8 +44,9 @@ void add_number(CLI::App& app, const std::string& name, Number& value, std::int6
 }
 
 template <typename Value>
-void add_choice(CLI::App& app, const std::string& name, Value& value, const std::map<std::string, Value>& choices,
-                const std::string& usual, const std::string& help) {
+void add_choice(CLI::App& app, const std::string& name, Value& value,
+                const std::map<std::string, Value>& choices, const std::string& usual,
+                const std::string& help) {
   const auto check = [choices](const std::string& text) {
     std::string names;
     for (const auto& [choice, ignored] : choices) names += (names.empty() ? "" : ", ") + choice;
@@ -61,16 +62,18 @@ void add_choice(CLI::App& app, const std::string& name, Value& value, const std:
 
 void add_transports(CLI::App& command, ServeOptions& options) {
   const std::string group = "Where";
-  command.add_flag("--stdio", options.standard_streams, "One session on standard input and output")->group(group);
+  command.add_flag("--stdio", options.standard_streams, "One session on standard input and output")
+      ->group(group);
   command
       .add_option("--pipes", options.pipes,
                   "One session on the named pipes PREFIX_out and PREFIX_in, made if missing")
       ->type_name("PREFIX")
       ->group(group);
   command
-      .add_option("--listen", options.addresses,
-                  "Sessions on tcp://127.0.0.1:PORT (0 picks one), tls://HOST:PORT, unix:PATH, systemd[:NAME], "
-                  "stdio or pipes:PREFIX, with classic+ before it in the classic protocol; repeatable")
+      .add_option(
+          "--listen", options.addresses,
+          "Sessions on tcp://127.0.0.1:PORT (0 picks one), tls://HOST:PORT, unix:PATH, systemd[:NAME], "
+          "stdio or pipes:PREFIX, with classic+ before it in the classic protocol; repeatable")
       ->type_name("ADDRESS")
       ->check(CLI::Validator(check_endpoint, ""))
       ->allow_extra_args(false)

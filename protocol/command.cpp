@@ -11,7 +11,8 @@ namespace {
 
 // name, arguments, summary, least and most arguments, what it needs, handler
 constexpr std::array kCommands = {
-    Command{"hello", "[token=TOKEN]", "who the server is, and what it allows", 0, 1, Needs::kNothing, run_hello},
+    Command{"hello", "[token=TOKEN]", "who the server is, and what it allows", 0, 1, Needs::kNothing,
+            run_hello},
     Command{"help", "[COMMAND|settings|presets|fields]", "explain", 0, 1, Needs::kNothing, run_help},
     Command{"games", "[all|GAME]", "games whose image is here; all that there are rules for; one of them", 0,
             1, Needs::kAdmission, run_games},

@@ -12,8 +12,8 @@ namespace racebeam {
 namespace {
 
 constexpr std::string_view kClassic = "classic+", kTls = "tls+", kTlsScheme = "tls://";
-constexpr std::string_view kTcp = "tcp://", kUnix = "unix:", kSystemd = "systemd", kPipes = "pipes:",
-                           kStdio = "stdio";
+constexpr std::string_view kTcp = "tcp://", kUnix = "unix:", kSystemd = "systemd",
+                           kPipes = "pipes:", kStdio = "stdio";
 
 bool cut(std::string_view& text, std::string_view prefix) {
   if (!text.starts_with(prefix)) return false;

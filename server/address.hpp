@@ -28,8 +28,8 @@ struct Pipes {
   std::string prefix;
 };
 
-// ale_fifo_out and ale_fifo_in, which the client makes: when ale_fifo_out is missing the classic server writes
-// a plain file of that name, and when ale_fifo_in is missing it ends.
+// ale_fifo_out and ale_fifo_in, which the client makes: when ale_fifo_out is missing the classic server
+// writes a plain file of that name, and when ale_fifo_in is missing it ends.
 struct AlePipes {};
 
 using Address = std::variant<TcpAddress, UnixAddress, InheritedAddress, StandardStreams, Pipes, AlePipes>;
@@ -50,7 +50,7 @@ TcpAddress parse_host_and_port(const std::string& text);  // throws std::invalid
 std::string to_string(const Address& address);
 std::string to_string(const Endpoint& endpoint);
 
-bool is_stream(const Address& address);    // one session, over streams that block
+bool is_stream(const Address& address);     // one session, over streams that block
 bool is_loopback(const std::string& host);  // only this machine can reach it
 
 }  // namespace racebeam

@@ -78,20 +78,22 @@ void Door::listen_inherited(const Endpoint& endpoint, const std::string& name) {
 
 void Door::check(const Listener& listener) const {
   const std::string& name = listener.name();
-  if (listener.endpoint().tls && !tls_)
-    throw std::runtime_error(name + " needs --tls-cert and --tls-key");
+  if (listener.endpoint().tls && !tls_) throw std::runtime_error(name + " needs --tls-cert and --tls-key");
   if (listener.is_loopback()) return;
   if (listener.endpoint().classic) {
-    throw std::runtime_error(name + " can be reached from other machines, but the classic protocol has no "
-                                    "tokens; use 127.0.0.1, or the line protocol");
+    throw std::runtime_error(name +
+                             " can be reached from other machines, but the classic protocol has no "
+                             "tokens; use 127.0.0.1, or the line protocol");
   }
   if (!tokens_) {
-    throw std::runtime_error(name + " can be reached from other machines: give --token-file, so that not "
-                                    "everyone can use this one, or listen on 127.0.0.1");
+    throw std::runtime_error(name +
+                             " can be reached from other machines: give --token-file, so that not "
+                             "everyone can use this one, or listen on 127.0.0.1");
   }
   if (!listener.endpoint().tls) {
-    log_warning(name + " can be reached from other machines, without TLS: who sees the packets can read the "
-                       "tokens and play in others' names; tls:// and --tls-cert encrypt");
+    log_warning(name +
+                " can be reached from other machines, without TLS: who sees the packets can read the "
+                "tokens and play in others' names; tls:// and --tls-cert encrypt");
   }
 }
 
@@ -146,7 +148,8 @@ void Door::admit(Socket socket, Loop& loop, const Listener& listener, int number
   auto client = std::make_shared<Client>(std::move(socket), loop, std::move(name));
   if (metrics_.sessions_open >= settings_.max_sessions) {
     ++metrics_.refused_busy;
-    log_warning(client->name + ": refused, there are " + std::to_string(settings_.max_sessions) + " sessions");
+    log_warning(client->name + ": refused, there are " + std::to_string(settings_.max_sessions) +
+                " sessions");
     client->end(Code::kBusy, "there are " + std::to_string(settings_.max_sessions) +
                                  " sessions, as many as this server takes; come back later");
     net::co_spawn(loop.context, turn_away(std::move(client)), net::detached);

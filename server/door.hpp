@@ -21,8 +21,8 @@ namespace racebeam {
 
 class Door {
  public:
-  // Listens on every socket of the settings; all outlive it. Throws std::runtime_error for what can't be had or
-  // is not safe.
+  // Listens on every socket of the settings; all outlive it. Throws std::runtime_error for what can't be had
+  // or is not safe.
   Door(const ServerSettings& settings, const Services& services, Loops& loops, Metrics& metrics);
 
   std::vector<std::string> names() const;  // of the listeners

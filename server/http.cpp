@@ -15,8 +15,8 @@ namespace {
 namespace net = boost::asio;
 namespace http = boost::beast::http;
 using boost::system::error_code;
-using net::ip::tcp;
 using net::use_awaitable;
+using net::ip::tcp;
 using namespace std::chrono_literals;
 using Request = http::request<http::string_body>;
 using Response = http::response<http::string_body>;
@@ -83,8 +83,7 @@ Http::Http(net::io_context& loop, const TcpAddress& address, HttpPages pages)
   acceptor_.bind(endpoint, error);
   if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
   const auto named = [](const TcpAddress& where) { return "http" + to_string(Address(where)).substr(3); };
-  if (error)
-    throw std::runtime_error("cannot listen on " + named(address) + ": " + error.message());
+  if (error) throw std::runtime_error("cannot listen on " + named(address) + ": " + error.message());
   name_ = named({address.host, acceptor_.local_endpoint().port()});
   if (!is_loopback(address.host))
     log_warning(name_ + " can be reached from other machines: all who can may read the metrics");

@@ -31,7 +31,7 @@ class Listener {
   Listener& operator=(const Listener&) = delete;
 
   Acceptor& acceptor() { return acceptor_; }
-  const std::string& name() const { return name_; }        // the address, with the port that was picked
+  const std::string& name() const { return name_; }  // the address, with the port that was picked
   std::string full_name() const { return (endpoint_.classic ? "classic+" : "") + name_; }
   const Endpoint& endpoint() const { return endpoint_; }
   bool is_local() const { return local_; }  // a Unix socket: the file system says who may come

@@ -31,7 +31,8 @@ spdlog::logger& logger() {
 // What a client sent may be in it.
 std::string printable(std::string_view text) {
   std::string clean(text);
-  std::ranges::replace_if(clean, [](char c) { return c < ' ' || c > '~'; }, '?');
+  std::ranges::replace_if(
+      clean, [](char c) { return c < ' ' || c > '~'; }, '?');
   return clean;
 }
 

@@ -9,7 +9,8 @@
 namespace racebeam {
 
 Loops::Loops(unsigned threads, Metrics& metrics) {
-  for (unsigned thread = 0; thread < std::max(1U, threads); ++thread) loops_.emplace_back(metrics.add_meter());
+  for (unsigned thread = 0; thread < std::max(1U, threads); ++thread)
+    loops_.emplace_back(metrics.add_meter());
 }
 
 Loop& Loops::idlest() {

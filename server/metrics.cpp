@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kNanosecond = 1e-9;
 
-void append_head(std::string& out, const std::string& name, const std::string& type, const std::string& help) {
+void append_head(std::string& out, const std::string& name, const std::string& type,
+                 const std::string& help) {
   out += "# HELP racebeam_" + name + " " + help + "\n# TYPE racebeam_" + name + " " + type + "\n";
 }
 
@@ -43,7 +44,8 @@ void Metrics::append_requests(std::string& out) const {
   append_head(out, "requests_total", "counter", "Requests of the line protocol, by command and outcome.");
   for (std::size_t row = 0; row <= commands().size(); ++row) {
     const std::string command = "requests_total{command=\"" + name_of_row(row) + "\",outcome=\"";
-    append_value(out, command + "ok\"}", sum([row](const Meter& m) -> auto& { return m.requests[row].done; }));
+    append_value(out, command + "ok\"}",
+                 sum([row](const Meter& m) -> auto& { return m.requests[row].done; }));
     append_value(out, command + "error\"}",
                  sum([row](const Meter& m) -> auto& { return m.requests[row].refused; }));
   }

@@ -1,4 +1,5 @@
-// Tells those who wait for a server where it listens: a file with an address a line, there whole or not at all.
+// Tells those who wait for a server where it listens: a file with an address a line, there whole or not at
+// all.
 #pragma once
 
 #include <string>

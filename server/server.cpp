@@ -41,7 +41,7 @@ class Server {
 
  private:
   void announce();
-  net::awaitable<void> obey();      // signals
+  net::awaitable<void> obey();       // signals
   net::awaitable<void> wind_down();  // grace, then the end
   bool all_ended() const;
   void stop_streams(bool at_once);
@@ -82,9 +82,11 @@ Server::Server(const ServerSettings& settings, const Services& services)
 void Server::announce() {
   door_.open();
   for (StreamSession& stream : streams_) {
-    stream.start([this] { net::post(first_, [this] {
-      if (all_ended() && !told_to_stop_) loops_.stop();
-    }); });
+    stream.start([this] {
+      net::post(first_, [this] {
+        if (all_ended() && !told_to_stop_) loops_.stop();
+      });
+    });
   }
   std::vector<std::string> names = door_.names();
   for (const StreamSession& stream : streams_) names.push_back(stream.name());

@@ -10,8 +10,8 @@ namespace racebeam {
 
 struct ServerSettings {
   std::vector<Endpoint> endpoints;
-  std::string ready_file;      // gets the addresses once all are served; empty: none
-  std::string token_file;      // clients over TCP have to give one of its tokens; empty: no tokens
+  std::string ready_file;  // gets the addresses once all are served; empty: none
+  std::string token_file;  // clients over TCP have to give one of its tokens; empty: no tokens
   std::string tls_certificate, tls_key;
   std::string http;            // HOST:PORT for health and metrics; empty: none
   int threads = 1;             // that serve sockets

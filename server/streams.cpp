@@ -168,7 +168,8 @@ bool StreamSession::connect() {
   const auto* pipes = std::get_if<Pipes>(&address_);
   const std::string prefix = pipes ? pipes->prefix : "ale_fifo";
   log(what + ", for a client that opens " + prefix + "_out for reading, then " + prefix + "_in for writing");
-  return streams_.open_out(prefix + "_out", pipes ? 0 : O_CREAT | O_TRUNC) && streams_.open_in(prefix + "_in");
+  return streams_.open_out(prefix + "_out", pipes ? 0 : O_CREAT | O_TRUNC) &&
+         streams_.open_in(prefix + "_in");
 }
 
 }  // namespace racebeam

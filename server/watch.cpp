@@ -49,7 +49,8 @@ void Watch::look_at(Client& client) {
                "no token came within " + std::to_string(settings_.handshake_seconds) + " seconds");
   } else if (idle > 0s && now - client.active() > idle) {
     ++metrics_.ended_idle;
-    client.end(Code::kIdle, "nothing came or went for " + std::to_string(settings_.idle_seconds) + " seconds");
+    client.end(Code::kIdle,
+               "nothing came or went for " + std::to_string(settings_.idle_seconds) + " seconds");
   }
 }
 

@@ -1,0 +1,86 @@
+"""racebeam config: values and their sources, in their precedence."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+
+BINARY = os.environ.get("RACEBEAM_BINARY", "build/release/racebeam")
+
+
+class Config(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def file(self, text):
+        path = os.path.join(self.folder, "settings.toml")
+        with open(path, "w") as file:
+            file.write(text)
+        return path
+
+    def run_racebeam(self, *words, data=b"", **variables):
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("RACEBEAM_")}
+        return subprocess.run([BINARY, *words], input=data, capture_output=True, env={**environment, **variables},
+                              cwd=self.folder, timeout=20)
+
+    def settings(self, *words, **variables):
+        done = self.run_racebeam("config", *words, **variables)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        lines = [line.rsplit("  # ", 1) for line in done.stdout.decode().splitlines()]
+        return {line.split(" =")[0]: (line.split("=", 1)[1].strip(), source) for line, source in lines}
+
+    def test_options_win_over_variables_over_the_file_over_defaults(self):
+        path = self.file("max_states = 1\nmax_machines = 2\nmax_sessions = 3\n")
+        found = self.settings("--config", path, "--max-states", "9", RACEBEAM_MAX_STATES="8", RACEBEAM_MAX_MACHINES="7")
+        self.assertEqual(found["max_states"], ("9", "command line"))
+        self.assertEqual(found["max_machines"], ("7", "environment"))
+        self.assertEqual(found["max_sessions"], ("3", "file"))
+        self.assertEqual(found["grace"], ("5", "default"))
+
+    def test_the_file_may_be_named_by_a_variable(self):
+        path = self.file("grace = 77\n")
+        self.assertEqual(self.settings(RACEBEAM_CONFIG=path)["grace"], ("77", "file"))
+
+    def test_lists_and_flags(self):
+        path = self.file('listen = ["unix:a", "unix:b"]\nclassic = true\n')
+        found = self.settings("--config", path)
+        self.assertEqual((found["listen"][0], found["classic"][0]), ('["unix:a", "unix:b"]', "true"))
+        found = self.settings("--config", path, RACEBEAM_LISTEN="unix:c  unix:d", RACEBEAM_CLASSIC="0")
+        self.assertEqual(found["listen"], ('["unix:c", "unix:d"]', "environment"))
+        self.assertEqual(found["classic"][1], "environment")
+
+    def test_what_it_prints_can_be_read_again(self):
+        words = ("--listen", "tcp://127.0.0.1:0", "--rom", 'a "quoted" \\ name', "--sticky", "0.5", "--classic")
+        printed = self.run_racebeam("config", *words).stdout.decode()
+        again = self.settings("--config", self.file(printed))
+        for key, (value, _) in self.settings(*words).items():
+            self.assertEqual(again[key][0], value, key)
+
+    def test_the_server_obeys(self):
+        path = self.file("max_states = 5\nstdio = true\n")
+        done = self.run_racebeam("serve", "--config", path, data=b"hello\n", RACEBEAM_MAX_LINE="999")
+        self.assertIn(b" max_line=999 ", done.stdout)
+        self.assertIn(b" max_states=5 ", done.stdout)
+
+    def refuse(self, text, *hints, **variables):
+        done = self.run_racebeam("serve", "--stdio", *(["--config", self.file(text)] if text else []), **variables)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count(b"\n")), (2, b"", 1), done.stderr)
+        for hint in hints:
+            self.assertIn(hint, done.stderr)
+
+    def test_what_makes_no_sense_is_refused_and_named(self):
+        self.refuse("max_state = 5\n", b"no setting 'max_state'", b"max_states, ")
+        self.refuse("max_states = 0\n", b"settings.toml: max_states", b"'0' is not a whole number from 1")
+        self.refuse("max_states = [1, 2]\n", b"max_states", b"takes one value")
+        self.refuse("[limits]\nmax_states = 1\n", b"no setting 'limits'")
+        self.refuse("max_states = \n", b"settings.toml", b"line 1")
+        self.refuse("classic = 'perhaps'\n", b"takes true or false, not 'perhaps'")
+        self.refuse("listen = ['nowhere']\n", b"listen", b"'nowhere' is not an address")
+        self.refuse("", b"RACEBEAM_GRACE", b"'soon' is not a whole number", RACEBEAM_GRACE="soon")
+        self.refuse("", b"nothing.toml", RACEBEAM_CONFIG="nothing.toml")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

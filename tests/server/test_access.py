@@ -1,0 +1,216 @@
+"""Who may play: tokens, TLS, and what is refused beyond this machine."""
+
+import os
+import signal
+import socket
+import ssl
+import subprocess
+import tempfile
+import time
+import unittest
+
+from harness import GAME, Server, connect_tcp, connect_unix, main, run
+
+TOKEN, OTHER = "0123456789abcdef", "fedcba9876543210"
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+        return self.path(name)
+
+
+def ask(wire, request):
+    wire.send(request + b"\n")
+    return wire.line()
+
+
+class Tokens(Folder):
+    def serve(self, *options):
+        tokens = self.write("tokens", f"# for the tests\n\n{TOKEN}\n")
+        return Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:s", "--token-file", tokens, *options)
+
+    def test_only_who_gives_a_token_may_play(self):
+        with self.serve() as server:
+            wire = connect_tcp(server.port())
+            for request in (b"load beamfall", b"games", b"stats", b"act NOOP"):
+                self.assertTrue(ask(wire, request).startswith(b"error unauthorized "), request)
+            self.assertIn(b" admitted=0 ", ask(wire, b"hello"))
+            self.assertTrue(ask(wire, b"help load").startswith(b"ok load "))
+            self.assertTrue(ask(wire, b"hello tocken=1").startswith(b"error bad-arguments "))
+            self.assertIn(b" admitted=1 ", ask(wire, b"hello token=" + TOKEN.encode()))
+            self.assertTrue(ask(wire, b"load beamfall").startswith(b"ok game=beamfall"))
+            wire.close()
+
+    def test_the_third_wrong_token_ends_the_session(self):
+        with self.serve() as server:
+            wire = connect_tcp(server.port())
+            for wrong in (TOKEN[:-1], TOKEN + "0", OTHER):
+                self.assertTrue(ask(wire, b"hello token=" + wrong.encode()).startswith(b"error unauthorized "))
+            self.assertEqual(wire.rest(), b"")
+            wire.close()
+
+    def test_who_gives_no_token_in_time_is_closed(self):
+        with self.serve("--handshake", "1") as server:
+            silent, admitted = connect_tcp(server.port()), connect_tcp(server.port())
+            ask(admitted, b"hello token=" + TOKEN.encode())
+            self.assertTrue(silent.rest().startswith(b"error unauthorized no token came within 1 seconds"))
+            self.assertTrue(ask(admitted, b"stats").startswith(b"ok "))
+            for wire in (silent, admitted):
+                wire.close()
+
+    def test_a_unix_socket_needs_none(self):
+        with self.serve() as server:
+            server.wait_for("listening on unix:s")
+            wire = connect_unix(server.path("s"))
+            self.assertTrue(ask(wire, b"load beamfall").startswith(b"ok game=beamfall"))
+            wire.close()
+
+    def test_a_hangup_reads_the_file_again_and_a_bad_file_keeps_the_old_tokens(self):
+        def admits(server, token):
+            wire = connect_tcp(server.port())
+            reply = ask(wire, b"hello token=" + token.encode())
+            wire.close()
+            return reply.startswith(b"ok ")
+
+        with self.serve() as server:
+            self.assertTrue(admits(server, TOKEN) and not admits(server, OTHER))
+            self.write("tokens", OTHER + "\n")
+            server.process.send_signal(signal.SIGHUP)
+            server.wait_for("read the token file again")
+            self.assertTrue(admits(server, OTHER) and not admits(server, TOKEN))
+            self.write("tokens", "short\n")
+            server.process.send_signal(signal.SIGHUP)
+            server.wait_for("line 1: a token has 16 .*; the old token file stays in use")
+            self.assertTrue(admits(server, OTHER))
+
+    def test_files_without_a_good_token_are_refused(self):
+        for text, hint in (("", "there is no token"), ("# none\n", "there is no token"), ("short\n", "line 1"),
+                           (f"{TOKEN}\ntwo words of a token\n", "line 2")):
+            with self.subTest(text=text):
+                status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--token-file",
+                                        self.write("bad", text))
+                self.assertEqual((status, len(errors)), (1, 1), errors)
+                self.assertIn(hint, errors[0])
+        status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--token-file", self.path("nothing"))
+        self.assertEqual((status, len(errors)), (1, 1), errors)
+
+
+class BeyondThisMachine(Folder):
+    def test_nothing_is_served_without_tokens(self):
+        for address in ("tcp://0.0.0.0:0", "tcp://[::]:0"):
+            with self.subTest(address=address):
+                status, _, errors = run("serve", "--listen", address)
+                self.assertEqual((status, len(errors)), (1, 1), errors)
+                self.assertIn("--token-file", errors[0])
+
+    def test_the_classic_protocol_is_not_served(self):
+        tokens = self.write("tokens", TOKEN)
+        status, _, errors = run("serve", "--listen", "classic+tcp://0.0.0.0:0", "--rom", GAME, "--token-file", tokens)
+        self.assertEqual((status, len(errors)), (1, 1), errors)
+        self.assertIn("classic protocol has no tokens", errors[0])
+
+    def test_a_warning_names_the_risk_of_plain_TCP(self):
+        with Server("serve", "--listen", "tcp://0.0.0.0:0", "--token-file", self.write("tokens", TOKEN)) as server:
+            server.wait_for("warning: tcp://0.0.0.0:[0-9]+ can be reached from other machines, without TLS: who sees")
+            port = int(server.wait_for(r"listening on tcp://0\.0\.0\.0:(\d+)").group(1))
+            wire = connect_tcp(port)
+            self.assertTrue(ask(wire, b"games").startswith(b"error unauthorized "))
+            wire.close()
+
+
+class Tls(Folder):
+    @classmethod
+    def setUpClass(cls):
+        cls.keys = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.keys.cleanup)
+        cls.certificate, cls.key = (os.path.join(cls.keys.name, name) for name in ("cert.pem", "key.pem"))
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                        "-days", "2", "-subj", "/CN=localhost", "-addext", "subjectAltName=IP:127.0.0.1",
+                        "-keyout", cls.key, "-out", cls.certificate], check=True, capture_output=True)
+
+    def serve(self, *options):
+        return Server("serve", "--listen", "tls://127.0.0.1:0", "--tls-cert", self.certificate, "--tls-key", self.key,
+                      "--grace", "0", *options)
+
+    def port(self, server):
+        return int(server.wait_for(r"listening on tls://127\.0\.0\.1:(\d+)$").group(1))
+
+    def connect(self, server):
+        context = ssl.create_default_context(cafile=self.certificate)
+        plain = socket.create_connection(("127.0.0.1", self.port(server)), timeout=20)
+        return context.wrap_socket(plain, server_hostname="127.0.0.1")
+
+    def converse(self, server, requests):
+        with self.connect(server) as connection:
+            connection.sendall(requests)
+            with connection.makefile("rb") as reader:
+                return reader.read()
+
+    def test_a_conversation_is_encrypted_and_the_same(self):
+        requests = b"load beamfall seed=1 sticky=0\nobserve screen:hex ram\nact FIRE*50\nlook\nquit\n"
+        with self.serve() as server:
+            heard = self.converse(server, requests)
+        self.assertEqual(heard, run("serve", "--stdio", data=requests)[1])
+        self.assertEqual(len(heard.splitlines()), 5)
+
+    def test_large_replies_come_whole(self):
+        with self.serve() as server:
+            heard = self.converse(server, b"load beamfall\nobserve rgb:hex\n" + b"look\n" * 20 + b"quit\n")
+        self.assertEqual([len(line) for line in heard.splitlines()][2:-1], [len(b"ok rgb=") + 2 * 3 * 160 * 210] * 20)
+
+    def test_tokens_go_with_it(self):
+        with self.serve("--token-file", self.write("tokens", TOKEN)) as server:
+            heard = self.converse(server, b"games\nhello token=" + TOKEN.encode() + b"\ngames\nquit\n").splitlines()
+            self.assertEqual([line.split()[0] for line in heard], [b"error", b"ok", b"ok", b"ok"])
+
+    def test_who_speaks_no_TLS_harms_nobody(self):
+        with self.serve("--handshake", "1") as server:
+            talker, silent = connect_tcp(self.port(server)), connect_tcp(self.port(server))
+            talker.send(b"hello\n" * 10)
+            self.assertNotIn(b"ok", talker.rest())
+            self.assertEqual(silent.rest(), b"")
+            for wire in (talker, silent):
+                wire.close()
+            self.assertTrue(self.converse(server, b"quit\n").startswith(b"ok"))
+
+    def test_the_classic_protocol_can_be_encrypted_too(self):
+        with Server("serve", "--listen", "classic+tls://127.0.0.1:0", "--rom", GAME, "--tls-cert", self.certificate,
+                    "--tls-key", self.key) as server, self.connect(server) as connection:
+            with connection.makefile("rb") as reader:
+                self.assertEqual(reader.readline(), b"160-210\n")
+                connection.sendall(b"0,0,0,1\n3,18\n")
+                self.assertEqual(reader.readline(), b"0,0:\n")
+
+    def test_a_certificate_and_a_key_are_needed(self):
+        for options, status, hint in (([], 1, "needs --tls-cert and --tls-key"),
+                                      (["--tls-cert", self.certificate], 2, "go together"),
+                                      (["--tls-cert", self.key, "--tls-key", self.key], 1, "cannot use the certificate"),
+                                      (["--tls-cert", self.certificate, "--tls-key", "nothing"], 1, "cannot use the key")):
+            with self.subTest(options=options):
+                ended, _, errors = run("serve", "--listen", "tls://127.0.0.1:0", *options)
+                self.assertEqual((ended, len(errors)), (status, 1), errors)
+                self.assertIn(hint, errors[0])
+
+    def test_a_session_ends_in_time_when_its_client_does_not_close(self):
+        with self.serve() as server:
+            connection = self.connect(server)
+            connection.sendall(b"hello\n")
+            connection.recv(1)
+            start = time.monotonic()
+            self.assertEqual(server.stop(), 0)
+            self.assertLess(time.monotonic() - start, 5)
+            connection.close()
+
+
+if __name__ == "__main__":
+    main()
