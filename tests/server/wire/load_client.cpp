@@ -1,0 +1,181 @@
+// A crowd for a server: sessions that wait, sessions that act now and then and are timed, and some who
+// misbehave.
+//
+//   load_client PORT SESSIONS ACTORS SECONDS PAUSE_MS CONNECTS_A_SECOND RUDE
+//
+// Connects SESSIONS, of which ACTORS act, one act each PAUSE_MS, after load; prints one JSON object with the
+// latencies of their acts. With CONNECTS_A_SECOND, that many others come, say half a line and vanish. RUDE,
+// of each kind: who asks for screens and never reads, who sends a byte a second, who is killed within a line.
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <list>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "tests/server/wire/line_channel.hpp"
+
+namespace {
+
+using wire::LineChannel;
+using wire::now;
+
+constexpr const char* kLoad = "load beamfall seed=1 sticky=0 max_episode_frames=0\n";
+
+struct Plan {
+  int port, sessions, actors;
+  double seconds, pause;
+  int connects, rude;
+};
+
+// One that acts: when its next act is due, and since when it waits for a reply.
+struct Actor {
+  explicit Actor(int with) : socket(with) {}
+  int socket;
+  double due = 0, asked = 0;  // asked: 0 when no reply is awaited
+};
+
+int connect_and_load(int port) {
+  const int socket = wire::connect_tcp(port);
+  LineChannel channel(socket, socket);
+  channel.send(kLoad);
+  if (!channel.line().starts_with("ok")) throw std::runtime_error("the server refused to load");
+  channel.send("observe reward ends ram screen:rle\n");
+  channel.line();
+  return socket;
+}
+
+// Reads what is there; true when the reply is whole.
+bool take_reply(int socket) {
+  static char buffer[1 << 16];
+  const ssize_t count = ::recv(socket, buffer, sizeof buffer, MSG_DONTWAIT);
+  if (count <= 0) throw std::runtime_error("the server closed a session that acts");
+  return buffer[count - 1] == '\n';
+}
+
+// What the actors do is paced, so that the machine is not simply full: what is measured is what others do to
+// them.
+std::vector<double> act(std::vector<Actor>& actors, const Plan& plan) {
+  std::vector<double> latencies;
+  std::vector<pollfd> polled;
+  for (const Actor& actor : actors) polled.push_back({actor.socket, POLLIN, 0});
+  const double begin = now(), end = begin + plan.seconds;
+  for (std::size_t i = 0; i < actors.size(); ++i)
+    actors[i].due = begin + plan.pause * static_cast<double>(i) / static_cast<double>(actors.size());
+  while (now() < end) {
+    double next = end;
+    for (Actor& actor : actors) {
+      if (actor.asked == 0 && actor.due <= now()) {
+        actor.asked = now();
+        LineChannel::send(actor.socket, "act FIRE\n");
+      }
+      if (actor.asked == 0) next = std::min(next, actor.due);
+    }
+    const double wait = std::max(0.0, next - now());
+    timespec timeout{0, static_cast<long>(std::min(wait, 0.5) * 1e9)};
+    if (::ppoll(polled.data(), polled.size(), &timeout, nullptr) <= 0) continue;
+    for (std::size_t i = 0; i < actors.size(); ++i) {
+      if ((polled[i].revents & (POLLIN | POLLHUP)) == 0 || !take_reply(actors[i].socket)) continue;
+      latencies.push_back(now() - actors[i].asked);
+      actors[i].due = std::max(actors[i].due + plan.pause, now());
+      actors[i].asked = 0;
+    }
+  }
+  return latencies;
+}
+
+void sleep(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+// Come, say half a line, vanish.
+void come_and_go(const Plan& plan, const std::atomic<bool>& over, std::atomic<int>& connected) {
+  const double begin = now();
+  for (int number = 0; !over; ++number) {
+    const int socket = wire::connect_tcp(plan.port);
+    LineChannel::send(socket, "load beamf");
+    ::close(socket);
+    ++connected;
+    sleep(std::max(0.0, begin + (number + 1.0) / plan.connects - now()));
+  }
+}
+
+void ask_and_never_read(const Plan& plan, std::list<int>& sockets) {
+  for (int i = 0; i < plan.rude; ++i) {
+    const int socket = sockets.emplace_back(connect_and_load(plan.port));
+    LineChannel::send(socket, "observe screen:hex\n");
+    for (int request = 0; request < 200; ++request) LineChannel::send(socket, "look\n");
+  }
+}
+
+void dribble(const Plan& plan, const std::atomic<bool>& over) {
+  std::vector<int> sockets;
+  for (int i = 0; i < plan.rude; ++i) sockets.push_back(wire::connect_tcp(plan.port));
+  while (!over) {
+    for (const int socket : sockets) LineChannel::send(socket, "x");
+    for (int tenths = 0; tenths < 10 && !over; ++tenths) sleep(0.1);
+  }
+}
+
+double percentile(const std::vector<double>& sorted, double part) {
+  return sorted.empty()
+             ? 0
+             : 1e6 * sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
+}
+
+int run(const Plan& plan) {
+  std::vector<int> waiting;
+  std::vector<Actor> actors;
+  for (int i = 0; i < plan.actors; ++i) actors.emplace_back(connect_and_load(plan.port));
+  for (int i = plan.actors; i < plan.sessions; ++i) waiting.push_back(connect_and_load(plan.port));
+  std::atomic<bool> over = false;
+  std::atomic<int> connected = 0;
+  std::list<int> deaf;
+  std::vector<std::thread> rude;
+  if (plan.connects > 0) rude.emplace_back([&] { come_and_go(plan, over, connected); });
+  if (plan.rude > 0) {
+    ask_and_never_read(plan, deaf);
+    rude.emplace_back([&] { dribble(plan, over); });
+  }
+  std::vector<double> latencies = act(actors, plan);
+  over = true;
+  for (std::thread& thread : rude) thread.join();
+  std::ranges::sort(latencies);
+  std::cout << nlohmann::ordered_json{{"acts", latencies.size()},
+                                      {"p50", percentile(latencies, 0.5)},
+                                      {"p90", percentile(latencies, 0.9)},
+                                      {"p99", percentile(latencies, 0.99)},
+                                      {"p999", percentile(latencies, 0.999)},
+                                      {"max", percentile(latencies, 1)},
+                                      {"connects", connected.load()}}
+                   .dump()
+            << std::endl;
+  std::cin.get();  // whoever started us looks at the server now
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  rlimit limit{};
+  ::getrlimit(RLIMIT_NOFILE, &limit);
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+  try {
+    if (argc != 8) throw std::runtime_error("PORT SESSIONS ACTORS SECONDS PAUSE_MS CONNECTS_A_SECOND RUDE");
+    const auto number = [argv](int place) { return std::atof(argv[place]); };
+    return run({static_cast<int>(number(1)), static_cast<int>(number(2)), static_cast<int>(number(3)),
+                number(4), number(5) / 1000, static_cast<int>(number(6)), static_cast<int>(number(7))});
+  } catch (const std::exception& error) {
+    std::cerr << "load_client: " << error.what() << "\n";
+    return 1;
+  }
+}
