@@ -1,0 +1,55 @@
+#include "server/address.hpp"
+
+#include <catch2/catch.hpp>
+#include <stdexcept>
+
+using namespace racebeam;
+
+TEST_CASE("An endpoint is written as it is read") {
+  for (const std::string text :
+       {"tcp://127.0.0.1:0", "tcp://[::1]:65535", "tls://10.0.0.1:443", "unix:s", "unix:/run/s", "systemd",
+        "systemd:name", "stdio", "pipes:/tmp/p", "classic+tcp://127.0.0.1:1", "classic+tls://127.0.0.1:1",
+        "classic+tls+unix:s", "tls+systemd:name", "classic+stdio"}) {
+    CHECK(to_string(parse_endpoint(text)) == text);
+  }
+}
+
+TEST_CASE("There is more than one way to write some endpoints") {
+  CHECK(to_string(parse_endpoint("unix:///run/s")) == "unix:/run/s");
+  CHECK(to_string(parse_endpoint("pipes:///tmp/p")) == "pipes:/tmp/p");
+  CHECK(to_string(parse_endpoint("tcp://localhost:1")) == "tcp://127.0.0.1:1");
+  CHECK(to_string(parse_endpoint("tls+tcp://127.0.0.1:1")) == "tls://127.0.0.1:1");
+}
+
+TEST_CASE("What is no endpoint is refused with those there are") {
+  for (const std::string text : {"",
+                                 "tcp",
+                                 "tcp://",
+                                 "tcp://1.2.3.4",
+                                 "tcp://1.2.3.4:",
+                                 "tcp://1.2.3.4:65536",
+                                 "tcp://1.2.3.4:-1",
+                                 "tcp://1.2.3.4:1x",
+                                 "tcp://nobody:1",
+                                 "unix:",
+                                 "unix://",
+                                 "pipes:",
+                                 "systemd:",
+                                 "stdio:",
+                                 "tls+stdio",
+                                 "tls+pipes:p",
+                                 "tls+classic+unix:s",
+                                 "classic+",
+                                 "classic+classic+stdio",
+                                 "http://127.0.0.1:1",
+                                 "a"}) {
+    INFO(text);
+    CHECK_THROWS_AS(parse_endpoint(text), std::invalid_argument);
+  }
+  CHECK_THROWS_WITH(parse_endpoint("udp://1.2.3.4:1"), Catch::Contains("there are tcp://HOST:PORT"));
+}
+
+TEST_CASE("Only loopback addresses are loopback") {
+  for (const std::string host : {"127.0.0.1", "127.9.9.9", "::1"}) CHECK(is_loopback(host));
+  for (const std::string host : {"0.0.0.0", "::", "10.0.0.1", "::ffff:10.0.0.1"}) CHECK(!is_loopback(host));
+}
