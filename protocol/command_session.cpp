@@ -51,8 +51,7 @@ void take_token(Session& session, std::string_view word) {
   const auto [key, token] = key_value(word);
   if (key != "token") throw Refusal(Code::kBadArguments, "hello takes token=TOKEN, not " + quote(key));
   if (session.admitted) return;
-  session.admitted = session.service.admission(token);
-  if (session.admitted) return;
+  if (session.service.admission(token)) return session.admit();
   session.quitting = ++session.wrong_tokens >= kGuesses;
   throw Refusal(Code::kUnauthorized, "that token is not one of this server's");
 }

@@ -14,6 +14,9 @@ class LineReader {
  public:
   explicit LineReader(std::size_t longest) : longest_(longest) {}
 
+  void set_longest(std::size_t longest) { longest_ = longest; }
+  std::size_t longest() const { return longest_; }
+
   std::span<char> space();        // where the next input goes; empty while next() still has lines
   void added(std::size_t count);  // so much was put there
   void end() { ended_ = true; }   // no more will come

@@ -14,6 +14,12 @@ constexpr int kFramesOfARequest = 1;  // what any request costs at least, so tha
 
 const LineLimits& limits(const LineService& service) { return service.limits; }
 
+// Who has not given a token yet has little to say.
+std::size_t longest_line(const LineService& service, bool admitted) {
+  constexpr std::size_t kLongestBefore = 4096;
+  return admitted ? limits(service).line : std::min(kLongestBefore, limits(service).line);
+}
+
 std::size_t first_unprintable(std::string_view line) {
   const auto bad = std::ranges::find_if(line, [](char c) { return c < ' ' || c > '~'; });
   return static_cast<std::size_t>(bad - line.begin());
@@ -31,7 +37,7 @@ void check_bytes(std::string_view line) {
 
 Session::Session(const LineService& with, Meter* counting)
     : service(with),
-      input(limits(with).line),
+      input(longest_line(with, !with.admission)),
       admitted(!with.admission),
       fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})),
       meter_(counting) {}
@@ -45,6 +51,11 @@ void Session::check_frames(std::int64_t acts) const {
   if (frames <= most) return;
   throw Refusal(Code::kLimit, "the request asks for " + std::to_string(frames) + " frames; it may ask for " +
                                   std::to_string(most));
+}
+
+void Session::admit() {
+  admitted = true;
+  input.set_longest(longest_line(service, admitted));
 }
 
 void Session::count(const Outcome& outcome) {
@@ -124,8 +135,8 @@ void Session::take(const LineReader::Line& line) {
     if (line.kind == LineReader::Kind::kLine) return execute(line.text);
     if (line.kind == LineReader::Kind::kHalf)
       throw Refusal(Code::kHalfLine, "the input ended within a line; it was not carried out");
-    throw Refusal(Code::kLineTooLong, "the line has more than " + std::to_string(limits(service).line) +
-                                          " bytes; it was skipped");
+    throw Refusal(Code::kLineTooLong,
+                  "the line has more than " + std::to_string(input.longest()) + " bytes; it was skipped");
   });
 }
 

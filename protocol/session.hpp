@@ -54,6 +54,7 @@ class Session {
 
   void check_frames(std::int64_t acts) const;  // throws Refusal when a request asks for too many
   void start(Work& work) { work_ = &work; }    // what a handler can't do at once
+  void admit();                                // a token was right
   void count(const Outcome& outcome);          // into the statistics
   void watch();                                // the machine, for the recording if there is one
 

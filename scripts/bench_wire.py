@@ -96,12 +96,17 @@ def print_bytes(games, frames=1000):
         session.close()
 
 
-def frames_a_second(session, request, frames, seconds=1.0):
-    begin, count = time.monotonic(), 0
+def frames_so_far(session):
+    return int(session.ask("stats").partition(b" frames=")[2].split()[0])
+
+
+def frames_a_second(session, request, seconds=1.0):
+    begin, before = time.monotonic(), frames_so_far(session)
     while time.monotonic() - begin < seconds:
-        session.ask(request)
-        count += 1
-    return count * frames / (time.monotonic() - begin)
+        reply = session.ask(request)
+        if b" | " not in reply and b"terminated=1" in reply:  # those of `open` reset themselves
+            session.ask("reset")
+    return (frames_so_far(session) - before) / (time.monotonic() - begin)
 
 
 def print_batch(game, machines=64, rounds=5):
@@ -111,9 +116,8 @@ def print_batch(game, machines=64, rounds=5):
         session.ask("observe reward ends")
     many.ask(f"open {machines} autoreset=same-step")
     for _ in range(rounds):
-        rates["one"].append(frames_a_second(one, "act FIRE*64", machines))
-        one.ask("reset")
-        rates["batch"].append(frames_a_second(many, "step FIRE", machines))
+        rates["one"].append(frames_a_second(one, f"act FIRE*{machines}"))
+        rates["batch"].append(frames_a_second(many, "step FIRE"))
     single, batch = (sorted(rates[key])[rounds // 2] for key in ("one", "batch"))
     print(f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} cores: {batch:.0f} frames/s; one machine, "
           f"{machines} acts a request: {single:.0f}; ratio {batch / single:.2f}")

@@ -51,6 +51,16 @@ class Tokens(Folder):
             self.assertTrue(ask(wire, b"load beamfall").startswith(b"ok game=beamfall"))
             wire.close()
 
+    def test_a_long_line_needs_a_token_too(self):
+        with self.serve() as server:
+            wire = connect_tcp(server.port())
+            long = b"help " + b" " * 5000
+            self.assertTrue(ask(wire, long).startswith(b"error line-too-long the line has more than 4096 bytes"))
+            wire.send(b"hello token=" + TOKEN.encode() + b"\n" + long + b"\n")
+            self.assertTrue(wire.line().startswith(b"ok "))
+            self.assertTrue(wire.line().startswith(b"ok commands: "))
+            wire.close()
+
     def test_the_third_wrong_token_ends_the_session(self):
         with self.serve() as server:
             wire = connect_tcp(server.port())
