@@ -21,7 +21,7 @@ long resident_kilobytes() {
 TEST_CASE("A hundred thousand restores leave the process as large as it was") {
   Environment environment = test::steered();
   auto saved = environment.save(true);
-  const auto bytes = to_bytes(*saved);
+  const auto bytes = to_bytes(*saved, environment);
   const auto restore = [&](int count) {
     for (int i = 0; i < count; ++i) {
       environment.restore(i % 100 == 0 ? *from_bytes(bytes, environment) : *saved);
