@@ -25,7 +25,7 @@ std::string refusal(Environment& environment, const std::function<void(Values&)>
   Environment::Saved saved = *environment.save(true);
   spoil(saved.values);
   try {
-    from_bytes(to_bytes(saved), environment);
+    from_bytes(to_bytes(saved, environment), environment);
     return "";
   } catch (const std::invalid_argument& error) {
     return error.what();
@@ -164,7 +164,7 @@ TEST_CASE("Cartridge RAM of another size is refused") {
   for (const int size : {0, 1024, 2047, 2049, 32768}) {
     Environment::Saved saved = *environment.save(true);
     saved.cartridge_ram.resize(static_cast<std::size_t>(size));
-    CHECK_THROWS_WITH(from_bytes(to_bytes(saved), environment), Catch::Contains("bytes of cartridge RAM"));
+    CHECK_THROWS_WITH(from_bytes(to_bytes(saved, environment), environment), Catch::Contains("bytes of cartridge RAM"));
   }
 }
 
@@ -175,7 +175,7 @@ TEST_CASE("A generator that can't be one is refused") {
   for (int i = 0; i < 624; ++i) zeros << "0 ";
   zeros << 7;
   zeros >> *saved.random;
-  CHECK_THROWS_WITH(from_bytes(to_bytes(saved), environment), Catch::Contains("generator are all 0"));
+  CHECK_THROWS_WITH(from_bytes(to_bytes(saved, environment), environment), Catch::Contains("generator are all 0"));
 }
 
 }  // namespace

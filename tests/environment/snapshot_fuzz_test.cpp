@@ -105,7 +105,7 @@ Bytes play_nonsense(Environment& environment, const Environment::Saved& from, st
   } catch (const std::runtime_error&) {
   }
   environment.screen_rgb(rgb);
-  return to_bytes(*environment.save(true));
+  return to_bytes(*environment.save(true), environment);
 }
 
 struct Counts {

@@ -39,7 +39,7 @@ std::string line(int acts, const Fold& fold, int lives) {
 }
 
 std::string state_sum(const Environment& environment) {
-  const auto bytes = to_bytes(*environment.save(true));
+  const auto bytes = to_bytes(*environment.save(true), environment);
   char text[16];
   std::snprintf(text, sizeof text, "%08lx\n", crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
   return text;

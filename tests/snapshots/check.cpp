@@ -83,7 +83,7 @@ class Run {
     write_bytes(folder_.path / "image", *cartridge_.image->bytes);
     for (int frame = 0; frame < plan_.frames; ++frame) {
       const Environment::Saved& saved = *saved_[static_cast<std::size_t>(frame)];
-      const Bytes bytes = to_bytes(saved);
+      const Bytes bytes = to_bytes(saved, running_);
       std::string fault = compare(frame, "on the same machine", on_same_machine(saved, frame));
       if (fault.empty()) fault = compare(frame, "after another game", after_another_game(bytes, frame));
       if (fault.empty()) fault = compare(frame, "in a fresh process", in_fresh_process(bytes, frame));
