@@ -52,6 +52,7 @@ struct Scheme : Acts {
   unsigned ram;            // bytes on the cartridge, or of its registers
   bool random_ram;         // filled at every reset
   bool watches_tia;        // takes part in accesses to the TIA's addresses
+  unsigned quiet_ports = 0;  // so many bytes of the 4K, from its start: reading them does something, but selects no bank
 };
 
 // RAM of at most this size is part of the state; larger RAM lies in a block of its own, so that the state of the many

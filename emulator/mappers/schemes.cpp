@@ -68,7 +68,7 @@ constexpr Scheme kSchemes[] = {
     {kE0,       "E0",           8192, 0,        0, 0,     0, false, false},
     {kE7,       "E7",          16384, 0,        0, 0,  2048, true,  false},
     {kFe,       "FE",           8192, 0,        0, 0,     0, false, false},
-    {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false, false},
+    {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false, false, 0x80},
     {k3f,       "3F",           2048, 0,        0, 0,     0, false, true},
     {k3e,       "3E",           2048, 0,        0, 0, 32768, true,  true},
     {kUa,       "UA",           8192, 0,        2, 0,     0, false, true},

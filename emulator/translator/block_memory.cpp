@@ -32,7 +32,7 @@ BlockEmitter::Value BlockEmitter::read(const Instruction& instruction) {
 BlockEmitter::Value BlockEmitter::read_fixed(const Instruction& instruction) {
   const std::uint16_t address = instruction.operand;
   if (is_ram(address)) return {Value::Kind::kMemory, 0, as_.rbx + (as_.layout.ram + (address & 0x7F))};
-  if (!is_cartridge(address)) {
+  if (!is_cartridge(address) || as_.window.is_quiet_port(address)) {
     as_.mov(as_.eax, address);
     as_.mov(as_.ecx, instruction.length == 3 ? high_byte(address) : address);  // the operand was on the bus before
     read_device(instruction, here());
@@ -232,11 +232,6 @@ void BlockEmitter::write_fixed(const Instruction& instruction, Reg32 value) {
     as_.mov(as_.ram(address), value.cvt8());
     return;
   }
-  if (is_cartridge(address)) {
-    settle(here());
-    leave_before(instruction);
-    return;
-  }
   const unsigned reg = address & 0x3F;
   if (is_tia(address) && (as_.window.plain_registers >> reg & 1) != 0) return write_register(instruction, reg, value);
   if (is_tia(address) && reg == WSYNC && !as_.window.cartridge_watches()) return write_wsync(instruction);
@@ -314,20 +309,14 @@ void BlockEmitter::write_at_eax(const Instruction& instruction, Reg32 value) {
   as_.L(done);
   clobbered_flags();
   cold([this, instruction, value, place = here(), device, done]() mutable {
-    Xbyak::Label cartridge;
     as_.L(device);
-    as_.test(as_.ah, 0x10);
-    as_.jnz(cartridge, kNear);
     as_.movzx(as_.eax, as_.ax);
     call_write(instruction, value, place);
     as_.jmp(done, kNear);
-    as_.L(cartridge);
-    settle(place);
-    leave_before(instruction);
   });
 }
 
-// Writes to the TIA or the RIOT at the address in eax. The write may end the frame, or change what the window shows.
+// Writes to a device or the cartridge at the address in eax. That may end the frame, or change what the window shows.
 void BlockEmitter::call_write(const Instruction& instruction, Reg32 value, const Place& place) {
   const int cycles = place.elapsed + instruction.cycles;
   Xbyak::Label leaves;

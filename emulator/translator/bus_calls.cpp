@@ -14,7 +14,7 @@ std::uint32_t read_bus(Board* board, std::uint32_t address, std::uint32_t latch,
 std::int32_t write_bus(Board* board, std::uint32_t address, std::uint32_t value, std::int32_t cycle) {
   const auto byte = static_cast<std::uint8_t>(value);
   board->state.cpu.latch = byte;
-  if ((address & 0x0080) == 0 && board->is_plain_write(static_cast<std::uint16_t>(address), cycle)) {
+  if ((address & 0x1080) == 0 && board->is_plain_write(static_cast<std::uint16_t>(address), cycle)) {
     board->log->append_change(cycle, address & 0x3F, byte);
     return cycle;
   }

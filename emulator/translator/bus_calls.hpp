@@ -8,10 +8,10 @@
 
 namespace racebeam::translator {
 
-// eax: address of the TIA or the RIOT; ecx: the data bus before; edx: cycle. Answers the byte in eax.
+// eax: address of the TIA, the RIOT, or a quiet port; ecx: the data bus before; edx: cycle. Answers the byte in eax.
 void call_read(Assembler& as);
 
-// eax: address below the cartridge's; ecx: value; edx: cycle. Answers the cycle after it in eax.
+// eax: address; ecx: value; edx: cycle. Answers the cycle after it in eax.
 void call_write_bus(Assembler& as);
 
 // PLA over the bus, wherever the stack pointer is; edx: cycle. Answers the byte in eax.

@@ -17,22 +17,22 @@ constexpr std::size_t kRoomForBatch = 1U << 16;  // less than this is not begun 
 
 void set_code_capacity(std::size_t bytes) { code_capacity = bytes; }
 
-std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom, std::uint64_t plain_registers) {
+std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom, const Wiring& wiring) {
   static std::mutex mutex;
   static std::vector<std::weak_ptr<ImageCode>> all;
   const std::lock_guard lock(mutex);
   std::erase_if(all, [](const auto& one) { return one.expired(); });
   for (const auto& one : all) {
     const auto code = one.lock();
-    if (code && !code->is_full() && code->plain_registers_ == plain_registers && code->rom_ == rom) return code;
+    if (code && !code->is_full() && code->wiring_ == wiring && std::ranges::equal(code->rom_, rom)) return code;
   }
-  auto code = std::make_shared<ImageCode>(rom, plain_registers, code_capacity);
+  auto code = std::make_shared<ImageCode>(rom, wiring, code_capacity);
   all.push_back(code);
   return code;
 }
 
-ImageCode::ImageCode(const Rom& rom, std::uint64_t plain_registers, std::size_t capacity)
-    : rom_(rom), plain_registers_(plain_registers), memory_(std::max(capacity, 2 * kRoomForBatch)) {}
+ImageCode::ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity)
+    : rom_(rom), wiring_(wiring), memory_(std::max(capacity, 2 * kRoomForBatch)) {}
 
 View* ImageCode::view(const CodeWindow& window, const Rom& rom) {
   const std::less<> before;
@@ -81,7 +81,7 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
   if (memory_.left() < kRoomForBatch) full_ = true;
   if (full_) return nullptr;
   if (enter_ == nullptr) make_gates(layout);
-  const Window window{view.code, plain_registers_, view.entries.data()};
+  const Window window{wiring_, view.code, view.entries.data()};
   Assembler assembler(memory_.writable(), memory_.left(), layout, window, way_out_);
   const std::vector<Block> blocks = discover(view.code, pc, view.known);
   try {

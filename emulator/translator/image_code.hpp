@@ -36,11 +36,11 @@ struct View {
 
 class ImageCode {
  public:
-  // Of an image like this one, made when it is first asked for. plain_registers: of Board, for its cartridge scheme; two
+  // Of an image like this one, made when it is first asked for. wiring: of the cartridge scheme; two
   // machines can run one image under different schemes. Throws std::system_error where executable memory is refused.
-  static std::shared_ptr<ImageCode> of(const Rom& rom, std::uint64_t plain_registers);
+  static std::shared_ptr<ImageCode> of(const Rom& rom, const Wiring& wiring);
 
-  ImageCode(const Rom& rom, std::uint64_t plain_registers, std::size_t capacity);
+  ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity);
 
   // The view through this window of a machine's memory. Null if it shows something else than this image.
   View* view(const CodeWindow& window, const Rom& rom);
@@ -58,7 +58,7 @@ class ImageCode {
   void make_gates(const Layout& layout);
 
   const Rom rom_;
-  const std::uint64_t plain_registers_;
+  const Wiring wiring_;
   std::mutex mutex_;
   CodeMemory memory_;
   std::vector<std::unique_ptr<View>> views_;
