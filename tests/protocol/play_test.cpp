@@ -229,5 +229,6 @@ TEST_CASE("An episode that begins with no-ops begins differently, by the seed") 
   std::vector<std::string_view> words;
   split(frames, words);
   std::ranges::sort(words);
-  CHECK(std::ranges::unique(words).size() < 12);  // more than eight different lengths
+  const auto repeated = std::unique(words.begin(), words.end());  // clang 14 lacks what std::ranges::unique needs
+  CHECK(words.end() - repeated < 12);                              // more than eight different lengths
 }
