@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "cli/serve_options.hpp"
+#include "emulator/translator/translator.hpp"
+#include "server/log.hpp"
 #include "server/server.hpp"
 #include "server/workers.hpp"
 
@@ -72,15 +74,23 @@ LineService line_service(const ServeOptions& options, Workers& workers) {
   service.limits = options.limits;
   service.record_folder = options.record_folder;
   service.threads = static_cast<std::size_t>(options.server.threads);
+  service.cpu = options.machine.settings.cpu;
   service.parallel = [&workers](std::size_t count, const std::function<void(std::size_t)>& task) {
     workers.run(count, task);
   };
   return service;
 }
 
+// Said once, since it is the same for all machines.
+void tell_obstacle(CpuKind cpu) {
+  const std::string obstacle = Translator::obstacle();
+  if (cpu == CpuKind::kAuto && !obstacle.empty()) log("instructions are interpreted, not translated: " + obstacle);
+}
+
 int serve(ServeOptions& options, CLI::App& command) {
   finish(options, complete(command));
   set_up_log(options.log_level, options.log_format);
+  tell_obstacle(options.machine.settings.cpu);
   Workers workers(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1);
   Services services;
   if (serves(options, true)) services.classic = classic_service(options);

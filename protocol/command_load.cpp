@@ -138,6 +138,7 @@ void run_games(Session& session, Words arguments) {
 void run_load(Session& session, Words arguments) {
   const LoadWords words = sorted(arguments.subspan(1));
   PlaySettings settings;
+  settings.machine.cpu = session.service.cpu;
   read_settings(words.settings, settings);
   if (settings.machine.random_seed == 0) settings.machine.random_seed = std::random_device{}() | 1U;
   Cartridge cartridge = find_cartridge(session, arguments[0], words);

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "emulator/translator/translator.hpp"
 #include "protocol/images.hpp"
 #include "protocol/meter.hpp"
 
@@ -42,6 +43,7 @@ struct LineService {
   Parallel parallel;          // empty: one after the other
   std::size_t threads = 1;    // that `parallel` has
   Admission admission;        // empty: everyone may play; else whose `hello` gives a token
+  CpuKind cpu = CpuKind::kAuto;  // of all machines
 };
 
 class Session;
