@@ -1,5 +1,6 @@
 // One agent step (spec: environment.md, sections 4 and 5).
 #include <algorithm>
+#include <limits>
 
 #include "environment/impl.hpp"
 
@@ -9,6 +10,16 @@ namespace {
 
 std::int32_t clamped(std::int64_t reward, const Settings& settings) {
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max));
+}
+
+// The last of each act.
+int frames_drawn(Drawing drawing) {
+  switch (drawing) {
+    case Drawing::kNone: return 0;
+    case Drawing::kLast: return 1;
+    case Drawing::kLastTwo: return 2;
+    default: return std::numeric_limits<int>::max();
+  }
 }
 
 }  // namespace
@@ -21,11 +32,12 @@ int Environment::Impl::frames_of_act() {
 }
 
 int Environment::Impl::act(const Presses& asked, int frames) {
+  const int drawn = frames_drawn(drawing);
   std::int64_t reward_a = 0, reward_b = 0;
   for (int n = frames; n > 0; --n) {
     sticky.draw(random, asked, play.held);
     if (over()) continue;
-    run_frame(legal.replace(play.held), n <= drawn_frames || each_frame);
+    run_frame(legal.replace(play.held), n <= drawn || each_frame);
     count_frame();
     reward_a += rule.reward();
     reward_b += rule.reward_b();

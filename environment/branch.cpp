@@ -8,9 +8,10 @@
 namespace racebeam {
 
 Branching::Branching(Environment& environment)
-    : environment_(environment), undisturbed_(environment.save(true)) {}
+    : environment_(environment), undisturbed_(environment.save(true)), drawing_(environment.drawing()) {}
 
 void Branching::enter(const Environment::Saved& root) {
+  environment_.set_drawing(Drawing::kNone);
   if (!root.random) environment_.restore(*undisturbed_);
   environment_.restore(root);
   end_ = {};
@@ -32,7 +33,10 @@ int Branching::act(const BranchAct& act) {
   return reward;
 }
 
-void Branching::leave() { environment_.restore(*undisturbed_); }
+void Branching::leave() {
+  environment_.set_drawing(drawing_);
+  environment_.restore(*undisturbed_);
+}
 
 void branch(Environment& environment, const Environment::Saved& root,
             std::span<const std::vector<BranchAct>> sequences, std::span<BranchEnd> ends) {

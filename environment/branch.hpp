@@ -47,6 +47,7 @@ class Branching {
  private:
   Environment& environment_;
   std::shared_ptr<const Environment::Saved> undisturbed_;
+  Drawing drawing_;  // before; nobody looks at what a branch shows
   BranchEnd end_;
 };
 

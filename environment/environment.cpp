@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "emulator/palette.hpp"
@@ -55,15 +54,6 @@ void check_offered(int number, const std::vector<int>& offered, const std::strin
                               list);
 }
 
-int number_of(Drawing drawing) {
-  switch (drawing) {
-    case Drawing::kNone: return 0;
-    case Drawing::kLast: return 1;
-    case Drawing::kLastTwo: return 2;
-    default: return std::numeric_limits<int>::max();
-  }
-}
-
 std::size_t ram_index(int index) {
   if (index >= 0 && index < kRamSize) return static_cast<std::size_t>(index);
   throw std::out_of_range("RAM has no byte " + std::to_string(index) + "; there are 0 to 127");
@@ -86,7 +76,7 @@ Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_pt
       sticky(settings.sticky),
       hands(console.has_paddles(), paddle_limits(settings, *game)),
       lives_at_start(rule.initial_lives()),
-      drawn_frames(number_of(settings.color_averaging ? Drawing::kLastTwo : Drawing::kLast)),
+      drawing(settings.color_averaging ? Drawing::kLastTwo : Drawing::kLast),
       blend(settings.color_averaging ? &racebeam::blend(console.format()) : nullptr) {
   random.seed(settings.random_seed);  // in classic mode the console has drawn from it
   play.mode = game->default_mode;
@@ -126,7 +116,8 @@ int Environment::act_for(int frames, int a) {
 
 void Environment::watch(std::function<void()> each_frame) { impl_->each_frame = std::move(each_frame); }
 
-void Environment::set_drawing(Drawing drawing) { impl_->drawn_frames = number_of(drawing); }
+void Environment::set_drawing(Drawing drawing) { impl_->drawing = drawing; }
+Drawing Environment::drawing() const { return impl_->drawing; }
 
 void Environment::reset_game() { impl_->reset(); }
 

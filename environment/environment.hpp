@@ -54,6 +54,7 @@ class Environment {
   // asked for, which costs more. kLast unless told; kLastTwo with colour averaging, kEvery while somebody watches.
   // Who takes previous_screen() as well wants kLastTwo, who takes rewards and RAM alone wants kNone.
   void set_drawing(Drawing drawing);
+  Drawing drawing() const;
 
   // Called after each frame of an act, not for those of a reset; nothing: no longer. For recordings.
   void watch(std::function<void()> each_frame);

@@ -43,7 +43,7 @@ struct Environment::Impl {
   std::optional<BootFacts> boot_facts;  // of the image; studied at the first reset
   bool drew_at_reset = false;           // the generator took part in the last one
   std::function<void()> each_frame;  // empty: nobody watches
-  int drawn_frames;                  // the last of each act
+  Drawing drawing;
 
   // With colour averaging, the screen is made when it is first asked for.
   const Blend* const blend;  // null: no averaging

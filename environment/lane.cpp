@@ -82,6 +82,7 @@ void Lane::play(int action, BatchResults& results) {
   bool over = false, lost = false, too_long = false;
   int left = settings_.frame_skip;
   for (;; --left) {
+    environment_.set_drawing(left <= looked_at() ? Drawing::kLast : Drawing::kNone);
     reward += environment_.act(action);
     ++elapsed_;
     over = environment_.game_over();
@@ -103,15 +104,22 @@ void Lane::play(int action, BatchResults& results) {
   tell(results);
 }
 
+// How many of a step's last frames are looked at, unless it ends before them.
+int Lane::looked_at() const {
+  if (settings_.stack > 0) return pools() ? 2 : 1;
+  return settings_.screens ? 1 : 0;
+}
+
+bool Lane::pools() const { return settings_.max_pool && settings_.frame_skip > 1; }
+
 // What the small screen is made of. The reference looks at the last frame but one and at the last, and not any
 // more once the episode is over, so that what it saw before takes their place. left: of the step's frames, with the
 // one that was just run.
 void Lane::look(int left) {
-  const bool pools = settings_.max_pool && settings_.frame_skip > 1;
   if (!finished_) {
-    pools ? make_brighter_grey(environment_.screen(), environment_.previous_screen(), grey_, pooled_)
+    pools() ? make_brighter_grey(environment_.screen(), environment_.previous_screen(), grey_, pooled_)
           : make_grey(environment_.screen(), grey_, pooled_);
-  } else if (left == 1 && pools) {
+  } else if (left == 1 && pools()) {
     const auto before = environment_.previous_screen();
     for (std::size_t i = 0; i < pooled_.size(); ++i) pooled_[i] = std::max(pooled_[i], grey_[before[i]]);
   }

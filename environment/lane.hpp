@@ -22,6 +22,8 @@ class Lane {
  private:
   void begin_episode(BatchResults& results);
   void play(int action, BatchResults& results);
+  int looked_at() const;
+  bool pools() const;
   void look(int left);
   void push(BatchResults& results);
   void tell(BatchResults& results) const;

@@ -97,6 +97,9 @@ class BlockEmitter {
   void load_rom_again();
   void write(const Instruction& instruction);
   void write_fixed(const Instruction& instruction, Reg32 value);
+  void append(const Instruction& instruction, unsigned reg, Reg32 value);
+  void touch_tia(int cycles);
+  void write_hmclr(const Instruction& instruction, Reg32 value);
   void write_register(const Instruction& instruction, unsigned reg, Reg32 value);
   void write_wsync(const Instruction& instruction);
   void write_zero_page_indexed(const Instruction& instruction, Xbyak::Reg64 index, Reg32 value);

@@ -235,8 +235,26 @@ void BlockEmitter::write_fixed(const Instruction& instruction, Reg32 value) {
   const unsigned reg = address & 0x3F;
   if (is_tia(address) && (as_.window.plain_registers >> reg & 1) != 0) return write_register(instruction, reg, value);
   if (is_tia(address) && reg == WSYNC && !as_.window.cartridge_watches()) return write_wsync(instruction);
+  if (is_tia(address) && reg == HMCLR && !as_.window.cartridge_watches()) return write_hmclr(instruction, value);
+  if (is_tia(address) && reg > CXCLR && !as_.window.cartridge_watches()) return touch_tia(elapsed_ + instruction.cycles);
   as_.mov(as_.eax, address);
   call_write(instruction, value, here());
+}
+
+// A register that is not there: the access alone counts.
+void BlockEmitter::touch_tia(int cycles) {
+  as_.lea(as_.edx, as_.ptr[as_.rbp + cycles]);
+  as_.mov(as_.dword_of(as_.layout.last_access), as_.edx);
+}
+
+// WriteLog::append, in line: the motions are something else now.
+void BlockEmitter::write_hmclr(const Instruction& instruction, Reg32 value) {
+  static_assert(HMP1 == HMP0 + 1 && HMM0 == HMP0 + 2 && HMM1 == HMP0 + 3 && HMBL == HMP0 + 4);
+  constexpr int kFirst = offsetof(WriteLog, written) + 2 * HMP0;
+  for (const int at : {0, 4}) as_.mov(as_.dword[as_.r15 + (kFirst + at)], WriteLog::kUnknown << 16 | WriteLog::kUnknown);
+  as_.mov(as_.word[as_.r15 + (kFirst + 8)], WriteLog::kUnknown);
+  append(instruction, HMCLR, value);
+  clobbered_flags();
 }
 
 // WriteLog::append_change, in line.
@@ -252,6 +270,13 @@ void BlockEmitter::write_register(const Instruction& instruction, unsigned reg, 
     if (const unsigned other = WriteLog::kDisturbed[reg]; other != WriteLog::kNobody)
       as_.or_(as_.byte[as_.r15 + written(other) + 1], WriteLog::kUnsettled >> 8);
   }
+  append(instruction, reg, value);
+  as_.L(repeated);
+  clobbered_flags();
+}
+
+// Cycle, register and value, as a TiaWrite.
+void BlockEmitter::append(const Instruction& instruction, unsigned reg, Reg32 value) {
   as_.lea(as_.ecx, as_.ptr[as_.rbp + (elapsed_ + instruction.cycles)]);
   as_.sub(as_.ecx, as_.dword[as_.r15 + offsetof(WriteLog, base)]);
   as_.shl(as_.ecx, TiaWrite::kCycleShift);
@@ -259,8 +284,6 @@ void BlockEmitter::write_register(const Instruction& instruction, unsigned reg, 
   as_.mov(as_.rdx, as_.ptr[as_.r15 + offsetof(WriteLog, next)]);
   as_.mov(as_.ptr[as_.rdx], as_.ecx);
   as_.add(as_.qword[as_.r15 + offsetof(WriteLog, next)], sizeof(std::uint32_t));
-  as_.L(repeated);
-  clobbered_flags();
 }
 
 // Waits until the line's end: a division by 76, for cycles below 69,000 (the limit is far below).
@@ -273,8 +296,7 @@ void BlockEmitter::write_wsync(const Instruction& instruction) {
   as_.shr(as_.eax, 22);
   as_.imul(as_.eax, as_.eax, 76);
   as_.add(as_.eax, as_.ecx);
-  as_.lea(as_.edx, as_.ptr[as_.rbp + cycles]);
-  as_.mov(as_.dword_of(as_.layout.last_access), as_.edx);
+  touch_tia(cycles);
   as_.mov(as_.ebp, as_.eax);
   elapsed_ = -static_cast<int>(instruction.cycles);  // they are counted when the instruction is done
   clobbered_flags();
