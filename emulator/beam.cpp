@@ -134,7 +134,8 @@ void Beam::spill(std::uint8_t* row, int first, int last) {
 bool Beam::end_picture(std::int32_t begin) {
   if (tia_.comb_armed) return false;
   const int line_clock = kLineClocks - tia_.left, last = line_clock - kBlankClocks;
-  const int first = std::max(begin - (tia_.cursor - line_clock) - kBlankClocks, 0);
+  const std::int32_t first_visible = tia_.cursor - line_clock + kBlankClocks;
+  const int first = std::max(begin, first_visible) - first_visible;
   if (last > first && !tia_.vblank && draws_pixels()) spill(picture_->pixel.data() + tia_.pixel - last, first, last);
   return true;
 }
