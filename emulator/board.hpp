@@ -68,7 +68,6 @@ class Board {
   void begin_step(Picture& picture, WriteLog& scratch, Pixels pixels = Pixels::kDrawn);
   void end_step();
   bool needs_exact_step() const;
-  bool exact() const { return exact_; }
   void set_format_limits();  // after `video` or the frame's origin have changed
 
   void map_memory();               // everything that is derived from the state: after a reset

@@ -28,8 +28,8 @@ class TiaWrite {
 };
 
 // What of its writes a step has not played yet, for one machine at a time: a scratch list that machines share.
-// Of writes that repeat what the register holds nothing is kept, nor of reads: only a picture that stops half-way
-// shows them, and its step is run again without a log (Console::Impl::run_step). Translated code appends as
+// Of writes that repeat what the register holds nothing is kept, nor of reads: where they can be seen, the step is run
+// again, access by access (Board::end_step, Console::Impl::run_step). Translated code appends as
 // append_change() does, and finds the members at fixed places; it may mark kUnsettled more often than needed.
 struct WriteLog {
   // No step has more instructions than half of this; a plain store is one entry, and whoever appends more, or waits,

@@ -6,19 +6,14 @@ import sys
 import tempfile
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(SOURCE, "tests", "server"), os.path.join(SOURCE, "clients", "python")]
-SKIPPED = 77
-PYTHON = os.path.join(SOURCE, ".venv", "bin", "python")
+sys.path[:0] = [os.path.join(SOURCE, folder) for folder in ("tests/server", "tests/support", "clients/python")]
 
-try:
-    import numpy as np
-    from PIL import Image, ImageSequence
-except ImportError as missing:
-    if os.path.exists(PYTHON) and "RACEBEAM_REFERENCE" not in os.environ:
-        os.environ["RACEBEAM_REFERENCE"] = PYTHON
-        os.execv(PYTHON, [PYTHON, "-B", *sys.argv])
-    print(f"SKIPPED: {missing.name} is not in .venv (scripts/reference)")
-    sys.exit(SKIPPED)
+import reference_python  # noqa: E402
+
+reference_python.require("numpy", "PIL")
+
+import numpy as np  # noqa: E402
+from PIL import Image, ImageSequence  # noqa: E402
 
 import unittest  # noqa: E402
 import wave  # noqa: E402

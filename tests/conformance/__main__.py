@@ -6,16 +6,20 @@ picture and its actions too. Status: 0 all identical, 1 something is not, 2 the 
 nothing to compare with, 130 stopped.
 """
 
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import reference_python  # isort: skip
+
+reference_python.require("ale_py", "numpy")
 
 import argparse
 import datetime
 import os
-import pathlib
 import random
 import shlex
 import signal
-import sys
 
 import ours
 from compare import FAILED, IDENTICAL, Comparison

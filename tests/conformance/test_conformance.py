@@ -1,15 +1,19 @@
 """The suite itself: it must find what differs, say where, show it, and never count what it did not compare."""
 
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import reference_python  # isort: skip
+
+reference_python.require("ale_py", "numpy")
 
 import json
 import os
-import pathlib
 import shlex
 import signal
 import struct
 import subprocess
-import sys
 import tempfile
 import time
 import unittest

@@ -6,21 +6,17 @@ import sys
 import unittest
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-PYTHON = os.path.join(SOURCE, ".venv", "bin", "python")
 PROBE = os.environ.get("RACEBEAM_BATCH_PROBE", os.path.join(SOURCE, "build/release/tests/environment/batch_probe"))
-SKIPPED = 77
 
-try:
-    import numpy as np
-    from ale_py import roms
-    from ale_py.vector_env import AtariVectorEnv
-    from gymnasium.vector import AutoresetMode
-except ImportError as missing:
-    if os.path.exists(PYTHON) and "RACEBEAM_REFERENCE" not in os.environ:
-        os.environ["RACEBEAM_REFERENCE"] = PYTHON
-        os.execv(PYTHON, [PYTHON, "-B", *sys.argv])
-    print(f"SKIPPED: {missing.name} is not in .venv (scripts/reference)")
-    sys.exit(SKIPPED)
+sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))
+import reference_python  # noqa: E402
+
+reference_python.require("numpy", "ale_py", "gymnasium")
+
+import numpy as np  # noqa: E402
+from ale_py import roms  # noqa: E402
+from ale_py.vector_env import AtariVectorEnv  # noqa: E402
+from gymnasium.vector import AutoresetMode  # noqa: E402
 
 # Our names of the reference's settings.
 NAMES = {"frameskip": "frame_skip", "repeat_action_probability": "sticky", "noop_max": "noop_max",
