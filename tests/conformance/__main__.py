@@ -56,6 +56,8 @@ def parse_arguments():
     add("--publish", action="store_true", help="write docs/conformance.md, too")
     add("--racebeam-options", default="", metavar="WORDS",
         help="options for racebeam's side alone, as --racebeam-options='--system-seed 1'")
+    add("--forms", action="store_true",
+        help=f"play each run in all forms of racebeam's machine, too: {', '.join(ours.FORMS)}")
     return parser, parser.parse_args()
 
 
@@ -114,7 +116,8 @@ def compare_all(runs, options, kept):
     if len(todo) < len(runs):
         print(f"{len(runs) - len(todo)} runs are done already")
     progress = Progress(len(todo))
-    compare = lambda run: Comparison(run, options.out, extra).result()
+    forms = ours.FORMS if options.forms else ()
+    compare = lambda run: Comparison(run, options.out, extra, forms).result()
     for run, returned in pool_results(compare, todo, options.jobs, PATIENCE):
         result = as_result(run, returned)
         kept.add(result)
@@ -150,7 +153,7 @@ def main():
         check_numbers(options)
         first = base_seed(options.seed)
         identity = {"version": ours.version(), "program": ours.digest(), "reference": REFERENCE_VERSION,
-                    "options": options.racebeam_options, "seeds": [first + i for i in range(options.seeds)]}
+                    "options": options.racebeam_options, "forms": options.forms, "seeds": [first + i for i in range(options.seeds)]}
         path = options.out / ("run.jsonl" if options.run else "results.jsonl")
         kept = Results(path, identity, options.resume)
         runs, gaps = chosen_runs(options, kept.identity["seeds"])

@@ -41,8 +41,8 @@ def differing_lists(game, reference):
 
 
 class Comparison:
-    def __init__(self, run, folder, extra=()):
-        self.run, self.folder, self.extra = run, folder, extra
+    def __init__(self, run, folder, extra=(), forms=()):
+        self.run, self.folder, self.extra, self.forms = run, folder, extra, forms
         self.image = Image(run.game)
         self.steps = list(run.steps())
         self.played = 0  # steps
@@ -65,7 +65,20 @@ class Comparison:
                                     self.explain(reference, number, theirs, line, printed.end))
         if printed.end:
             return self.verdict(DIFFERENT, reference.frames, f"racebeam ended with {printed.end}")
+        for form in self.forms:
+            difference = self.difference_of(form, printed.lines)
+            if difference:
+                return self.verdict(DIFFERENT, reference.frames, difference)
         return self.verdict(IDENTICAL, reference.frames, "")
+
+    def difference_of(self, form, lines):
+        """What another form of our machine prints else than these lines, or nothing."""
+        options, variables = ours.FORMS[form]
+        other = ours.play(self.run, self.image, self.steps, [*self.extra, *options], variables)
+        for number, (line, theirs) in enumerate(itertools.zip_longest(lines, other.lines)):
+            if line != theirs:
+                return f"{form}, line {number}: {theirs or other.end}, where all else have {line}"
+        return f"{form} ended with {other.end}" if other.end else ""
 
     def verdict(self, verdict, frames, report):
         return {"run": self.run.name, "verdict": verdict, "frames": frames, "report": report}

@@ -14,6 +14,12 @@ from run import step_word
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BINARY = os.environ.get("RACEBEAM_BINARY", str(SOURCE / "build/release/racebeam"))
 PATIENCE = 300  # seconds
+# The forms of the machine that must be the same, beside the one that this processor gets: options, environment.
+FORMS = {
+    "interpreter": (["--cpu", "interpreter"], {}),
+    "translator": (["--cpu", "translator"], {}),
+    "plain": ([], {"RACEBEAM_SIMD": "plain"}),
+}
 
 
 def version():
@@ -49,10 +55,10 @@ class Printed:
     end: str  # why there are no more lines
 
 
-def play(run, image, steps, extra=()):
+def play(run, image, steps, extra=(), variables={}):
     script = "\n".join(map(step_word, steps)) + "\n"
     done = subprocess.run(trace_command(run, image.path, "-", extra), input=script, capture_output=True, text=True,
-                          timeout=PATIENCE)
+                          timeout=PATIENCE, env={**os.environ, **variables})
     complaints = done.stderr.splitlines()
     end = "" if done.returncode == 0 else f"status {done.returncode}: {complaints[-1] if complaints else ''}"
     return Printed(done.stdout.splitlines(), end)

@@ -6,6 +6,7 @@ import datetime
 from compare import IDENTICAL
 from images import HOST, WITHOUT_RULE
 from not_comparable import NOT_COMPARABLE
+from ours import FORMS
 from run import COLORS_EVERY, WRITE, parse_run
 
 HEAD = """# Conformance
@@ -30,6 +31,7 @@ an episode's frames, truncate at the loss of a life, or turn paddles by random s
 | racebeam | {version} |
 | reference | ale-py {reference} |
 | seeds | {seeds} |
+| forms of racebeam's machine | {forms} |
 """
 
 
@@ -81,7 +83,8 @@ def markdown(results, identity, command, gaps):
         by_game[parse_run(result["run"]).game].append(result)
     head = HEAD.format(every=COLORS_EVERY, write=WRITE, command=command, date=datetime.date.today().isoformat(),
                        version=identity["version"], reference=identity["reference"],
-                       seeds=", ".join(map(str, identity["seeds"])))
+                       seeds=", ".join(map(str, identity["seeds"])),
+                       forms=", ".join(["as this processor gets it", *(FORMS if identity["forms"] else ())]))
     hosted = ", ".join(game for game in WITHOUT_RULE if game in by_game)
     parts = [head, "## Verdict", "", totals(results), "", mismatches(results), "## Not comparable", "", gap_table(gaps),
              "", "## Games", "", "| game | frames, default settings | other settings | frames in them | verdict |",

@@ -20,7 +20,7 @@ class Results:
         """The identity kept in the file, and its results. Raises ValueError if they are about something else."""
         header, *lines = self.path.read_text().splitlines()
         kept = json.loads(header)
-        for key in ("program", "reference", "options"):
+        for key in ("program", "reference", "options", "forms"):
             if kept.get(key) != identity[key]:
                 raise ValueError(f"can't resume {self.path}: its {key} was {kept.get(key)}, this is {identity[key]}")
         for line in lines:

@@ -105,6 +105,22 @@ class Verdicts(Suite):
             for a, b, mark in zip(left, right, marks):
                 self.assertEqual(a != b, mark)
 
+    def test_all_forms_of_the_machine_are_compared(self):
+        status, printed = self.short("--forms")
+        self.assertEqual(status, 0, printed)
+        self.assertIn("interpreter, translator, plain |", (self.out / "conformance.md").read_text())
+
+    def test_a_form_that_differs_is_found(self):
+        for form, condition in (("interpreter", "case $* in *interpreter*)"), ("plain", "case $RACEBEAM_SIMD in plain)")):
+            other = self.out / "racebeam"
+            other.write_text(f"#!/bin/sh\n{condition} {ours.BINARY} \"$@\" | sed '9s/.$/x/';; "
+                             f"*) exec {ours.BINARY} \"$@\";; esac\n")
+            other.chmod(0o755)
+            status, printed = self.short("--forms", binary=other)
+            self.assertEqual(status, 1, printed)
+            self.assertIn(f"{form}, line 8: ", printed)
+            other.unlink()
+
     def test_a_racebeam_that_does_not_run_is_a_difference(self):
         broken = self.out / "racebeam"
         broken.write_text('#!/bin/sh\ncase $1 in trace) echo "racebeam: no" >&2; exit 1;; esac\n'
