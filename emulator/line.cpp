@@ -94,18 +94,14 @@ std::uint8_t Line::outdated(const TiaRegisters& tia) const {
 }
 
 void Line::refresh(const TiaState& tia, std::uint8_t objects) {
-  const auto set = [this](Object object, const PixelMask& pixels) {
-    mask[object] = pixels;
-    covered = static_cast<std::uint8_t>((covered & ~bit(object)) | (pixels.any() ? bit(object) : 0));
-  };
   for (unsigned i = 0; i < 2; ++i) {
-    if (objects >> (kP0 + i) & 1)
-      set(static_cast<Object>(kP0 + i), player_mask(tia.player[i]));
-    if (objects >> (kM0 + i) & 1)
-      set(static_cast<Object>(kM0 + i), missile_mask(tia, i));
+    if (objects >> (kP0 + i) & 1) draw_player(mask[kP0 + i], tia.player[i]);
+    if (objects >> (kM0 + i) & 1) draw_missile(mask[kM0 + i], tia, i);
   }
-  if (objects & bit(kBall)) set(kBall, ball_mask(tia));
-  if (objects & bit(kPlayfield)) set(kPlayfield, playfield_mask(tia));
+  if (objects & bit(kBall)) draw_ball(mask[kBall], tia);
+  if (objects & bit(kPlayfield)) draw_playfield(mask[kPlayfield], tia);
+  covered = 0;
+  for (unsigned i = 0; i < kObjects; ++i) covered |= static_cast<std::uint8_t>((mask[i].any() ? 1U : 0U) << i);
   set_layers(*this, tia);
   shown = tia;
 }

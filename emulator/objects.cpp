@@ -67,17 +67,15 @@ constexpr unsigned wrapped(int position) {
 }
 
 // A player whose pixels, left one in bit 0, are `graphics`. Wide players start a pixel late.
-PixelMask place_player(const PlayerState& player, std::uint8_t graphics) {
-  PixelMask mask;
+void place_player(PixelMask& mask, const PlayerState& player, std::uint8_t graphics) {
   const Copies& copies = kCopies[player.nusiz & 7];
   if (copies.scale > 1) {
     const std::uint64_t wide = copies.scale == 2 ? kTables.twice[graphics] : kTables.four_times[graphics];
     if (!player.skip) mask.add(wide << 1, player.position);
-    return mask;
+    return;
   }
   for (unsigned i = player.skip ? 1 : 0; i < copies.count; ++i)
     mask.add(graphics, wrapped(player.position + copies.offset[i]));
-  return mask;
 }
 
 }  // namespace
@@ -95,53 +93,54 @@ std::uint32_t playfield_bits(const TiaState& tia) {
   return static_cast<std::uint32_t>(tia.pf[0] >> 4 | kTables.reverse[tia.pf[1]] << 4 | tia.pf[2] << 12);
 }
 
-PixelMask playfield_mask(const TiaState& tia) {
+void draw_playfield(PixelMask& mask, const TiaState& tia) {
   const std::uint32_t bits = playfield_bits(tia);
   // 20 bits, of four pixels each, are 80 pixels: a word and a quarter.
   const auto spread = [](std::uint32_t part) { return std::uint64_t{kTables.four_times[part & 0xFF]}; };
   const std::uint64_t low = spread(bits) | spread(bits >> 8) << 32;
   const std::uint64_t high = spread(bits >> 16) & 0xFFFF;
-  PixelMask mask{{low, high, 0}};
+  mask.word[0] = low;
   if (!tia.reflect) {
-    mask.word[1] |= low << 16;
+    mask.word[1] = high | low << 16;
     mask.word[2] = low >> 48 | high << 16;
-    return mask;
+    return;
   }
   const auto mirror = [](std::uint32_t part) { return std::uint64_t{kTables.four_times[kTables.reverse[part & 0xFF]]}; };
   // Right half: bits 19 to 0. As bytes of eight bits from the left: 19-12, 11-4, 3-0.
   const std::uint64_t right = mirror(bits >> 12) | mirror(bits >> 4) << 32;
   const std::uint64_t last = mirror(bits << 4) & 0xFFFF;
-  mask.word[1] |= right << 16;
+  mask.word[1] = high | right << 16;
   mask.word[2] = right >> 48 | last << 16;
+}
+
+void draw_player(PixelMask& mask, const PlayerState& player) {
+  const std::uint8_t graphics = shown_graphics(player);
+  mask.clear();
+  if (graphics != 0) place_player(mask, player, player.refp ? graphics : kTables.reverse[graphics]);
+}
+
+PixelMask player_shape(const PlayerState& player) {
+  PixelMask mask;
+  place_player(mask, player, 0xFF);
   return mask;
 }
 
-PixelMask player_mask(const PlayerState& player) {
-  const std::uint8_t graphics = shown_graphics(player);
-  if (graphics == 0) return {};
-  return place_player(player, player.refp ? graphics : kTables.reverse[graphics]);
-}
-
-PixelMask player_shape(const PlayerState& player) { return place_player(player, 0xFF); }
-
-PixelMask missile_mask(const TiaState& tia, unsigned which) {
+void draw_missile(PixelMask& mask, const TiaState& tia, unsigned which) {
   const MissileState& missile = tia.missile[which];
   const bool cosmic = which == 0;
-  PixelMask mask;
-  if (!missile_enabled(missile) || (cosmic && tia.cosmic_shape == CosmicShape::kHidden)) return mask;
+  mask.clear();
+  if (!missile_enabled(missile) || (cosmic && tia.cosmic_shape == CosmicShape::kHidden)) return;
   const std::uint8_t nusiz = tia.player[which].nusiz;
   unsigned size = nusiz >> 4 & 3;
   if (cosmic && tia.cosmic_shape == CosmicShape::kStretched) size |= 1;
   const Copies& copies = kCopies[nusiz & 7];
   for (unsigned i = 0; i < copies.count; ++i)
     mask.add((1U << (1U << size)) - 1, wrapped(missile.position + copies.offset[i]));
-  return mask;
 }
 
-PixelMask ball_mask(const TiaState& tia) {
-  PixelMask mask;
+void draw_ball(PixelMask& mask, const TiaState& tia) {
+  mask.clear();
   if (ball_enabled(tia.ball)) mask.add((1U << (1U << (tia.ctrlpf >> 4 & 3))) - 1, tia.ball.position);
-  return mask;
 }
 
 }  // namespace racebeam

@@ -27,10 +27,12 @@ inline bool playfield_enabled(const TiaRegisters& tia) { return ((tia.pf[0] & 0x
 
 std::uint8_t enabled_objects(const TiaRegisters& tia);  // TiaRegisters::enabled, made anew
 
-PixelMask playfield_mask(const TiaState& tia);
-PixelMask player_mask(const PlayerState& player);
-PixelMask missile_mask(const TiaState& tia, unsigned which);
-PixelMask ball_mask(const TiaState& tia);
+// The pixels that an object covers. They are put where they belong, word by word, as they are read later: a mask that is
+// handed on as a whole would wait until its words have left the processor's store buffer.
+void draw_playfield(PixelMask& mask, const TiaState& tia);
+void draw_player(PixelMask& mask, const PlayerState& player);
+void draw_missile(PixelMask& mask, const TiaState& tia, unsigned which);
+void draw_ball(PixelMask& mask, const TiaState& tia);
 
 // The pixels of an object's shape whatever its graphics (tia.md section 6, "Provisional pixels").
 PixelMask player_shape(const PlayerState& player);

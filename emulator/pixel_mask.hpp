@@ -11,6 +11,8 @@ constexpr int kLinePixels = 160;
 struct PixelMask {
   std::array<std::uint64_t, 3> word{};  // the last word uses its low 32 bits
 
+  void clear() { word[0] = word[1] = word[2] = 0; }
+
   // Adds up to 33 pixels, bit 0 first, from pixel `at` (0-159) on; what leaves the line comes in at its left.
   void add(std::uint64_t pixels, unsigned at) {
     const unsigned shift = at % 64;
