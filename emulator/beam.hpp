@@ -48,7 +48,12 @@ class Beam {
   // A register of these objects (bit n: Object n) has changed.
   void changed(std::uint8_t objects) { stale_ |= objects; }
 
-  void lose_track() { lost_track_ = true; }  // they have changed, and nobody said which
+
+  // They are about to change, and nobody will say which.
+  void lose_track() {
+    if (!lost_track_) line_.shown = tia_.registers();
+    lost_track_ = true;
+  }
 
   // Line by line, for lines that are drawn as a whole.
   bool at_line_start() const { return tia_.left == kLineClocks && tia_.cursor >= start(); }

@@ -6,8 +6,6 @@
 namespace racebeam {
 namespace {
 
-constexpr std::uint8_t kScoreMode = 2, kPriorityMode = 4;  // bits of CTRLPF
-
 constexpr std::uint8_t bit(Object object) { return static_cast<std::uint8_t>(1U << object); }
 
 struct Pair {
@@ -29,35 +27,6 @@ constexpr std::array<Pair, 15> kPairs = {{
     pair(kBall, kPlayfield, 6, 7),                        // CXBLPF
     pair(kP0, kP1, 7, 7), pair(kM0, kM1, 7, 6),           // CXPPMM
 }};
-
-constexpr PixelMask kLeftHalf = {{~std::uint64_t{0}, 0xFFFF, 0}};
-constexpr PixelMask kRightHalf = {{0, ~std::uint64_t{0xFFFF}, 0xFFFFFFFF}};
-
-// Three layers make every priority mode.
-void set_layers(Line& line, const TiaRegisters& tia) {
-  const std::uint8_t ctrlpf = tia.ctrlpf;
-  const auto& m = line.mask;
-  line.layers = 0;
-  const auto add = [&line](const PixelMask& mask, Color color) {
-    if (mask.any()) line.layer[line.layers++] = {mask, color};
-  };
-  const PixelMask &playfield = m[kPlayfield], &ball = m[kBall];
-  const bool score = (ctrlpf & kScoreMode) != 0;
-  if (score && !(ctrlpf & kPriorityMode)) {
-    add(ball, kColupf);
-    add(m[kP1] | m[kM1] | (playfield & kRightHalf), kColup1);
-    add(m[kP0] | m[kM0] | (playfield & kLeftHalf), kColup0);
-  } else if (score && tia.enabled == bit(kPlayfield)) {
-    add(playfield & kRightHalf, kColup1);
-    add(playfield & kLeftHalf, kColup0);
-  } else {
-    const bool in_front = (ctrlpf & kPriorityMode) != 0;
-    if (!in_front) add(playfield | ball, kColupf);
-    add(m[kP1] | m[kM1], kColup1);
-    add(m[kP0] | m[kM0], kColup0);
-    if (in_front) add(playfield | ball, kColupf);
-  }
-}
 
 // For each set of covered objects, the latches that they can set.
 constexpr auto make_possible() {
@@ -94,16 +63,16 @@ std::uint8_t Line::outdated(const TiaRegisters& tia) const {
 }
 
 void Line::refresh(const TiaState& tia, std::uint8_t objects) {
+  const auto note = [this](Object object) {
+    covered = static_cast<std::uint8_t>((covered & ~bit(object)) | (mask[object].any() ? 1U : 0U) << object);
+  };
   for (unsigned i = 0; i < 2; ++i) {
-    if (objects >> (kP0 + i) & 1) draw_player(mask[kP0 + i], tia.player[i]);
-    if (objects >> (kM0 + i) & 1) draw_missile(mask[kM0 + i], tia, i);
+    const auto player = static_cast<Object>(kP0 + i), missile = static_cast<Object>(kM0 + i);
+    if (objects & bit(player)) draw_player(mask[player], tia.player[i]), note(player);
+    if (objects & bit(missile)) draw_missile(mask[missile], tia, i), note(missile);
   }
-  if (objects & bit(kBall)) draw_ball(mask[kBall], tia);
-  if (objects & bit(kPlayfield)) draw_playfield(mask[kPlayfield], tia);
-  covered = 0;
-  for (unsigned i = 0; i < kObjects; ++i) covered |= static_cast<std::uint8_t>((mask[i].any() ? 1U : 0U) << i);
-  set_layers(*this, tia);
-  shown = tia;
+  if (objects & bit(kBall)) draw_ball(mask[kBall], tia), note(kBall);
+  if (objects & bit(kPlayfield)) draw_playfield(mask[kPlayfield], tia), note(kPlayfield);
 }
 
 bool can_meet(std::uint8_t objects, Collisions known) { return (kPossible[objects] & ~known) != 0; }

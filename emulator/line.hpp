@@ -1,9 +1,8 @@
-// One line's objects, turned into pixels and collisions (spec: tia.md, sections 10 and 11).
+// One line's objects and their collisions (spec: tia.md, section 11).
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <span>
 
 #include "emulator/objects.hpp"
 #include "emulator/pixel_mask.hpp"
@@ -16,24 +15,13 @@ using Collisions = std::uint16_t;
 
 enum Color : unsigned { kColup0, kColup1, kColupf, kColubk };  // indices of TiaRegisters::color
 
-// Pixels of one colour, by its index in TiaRegisters::color.
-struct Layer {
-  PixelMask mask;
-  unsigned color = 0;
-};
-
 struct Line {
   std::array<PixelMask, kObjects> mask;  // by Object
-  std::array<Layer, 3> layer;            // what hides what: from the back to the front
-  std::size_t layers = 0;                // so many of these; the others are empty
   std::uint8_t covered = 0;              // bit n: mask n has pixels
-
-  std::span<const Layer> shown_layers() const { return std::span(layer).first(layers); }
-
-  TiaRegisters shown;                    // what the masks were made from
+  TiaRegisters shown;                    // the registers when the masks were last known to be theirs
 
   std::uint8_t outdated(const TiaRegisters& tia) const;     // objects whose registers are others than those
-  void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew, and the layers
+  void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew
 };
 
 // Can any of these objects (bit n: Object n) meet, but for those that are `known` to?

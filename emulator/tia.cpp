@@ -212,6 +212,7 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
       if (record->view.seen & kMoves) tia_.hmove_clock = static_cast<std::uint32_t>(cursor + 3 * record->hmove_cycle);
       if (record->view.seen & kClears) beam_.clear_collisions();
     } else {
+      beam_.lose_track();
       registers.write(tia_);
       play_recalled(next, *record);
       registers.read(tia_);
@@ -220,8 +221,8 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
     tia_.collisions |= record->meetings;
   }
   if (record == first) return enough;
-  registers.write(tia_);
   beam_.lose_track();
+  registers.write(tia_);
   beam_.pass_lines(static_cast<int>(record - first));
   return enough;
 }
