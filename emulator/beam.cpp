@@ -50,6 +50,7 @@ void Beam::begin_frame() {
 void Beam::aim(Picture& picture, Pixels pixels) {
   picture_ = &picture;
   pixels_ = pixels;
+  forgotten_ = 0;
   look_afresh();
 }
 
@@ -62,6 +63,8 @@ void Beam::forget() {
 
 void Beam::draw_beyond(std::int32_t clock) {
   const std::int32_t stop = end();
+  const bool in_line = tia_.cursor >= start() && clock <= tia_.cursor + tia_.left && clock <= stop;
+  if (in_line && !exact_spans()) return draw_in_line(clock);
   if (clock < start() || tia_.cursor >= stop || tia_.cursor >= clock) return;
   clock = std::min(clock, stop);
   do {
@@ -75,13 +78,29 @@ void Beam::draw_beyond(std::int32_t clock) {
   } while (tia_.cursor < clock);
 }
 
+// Most spans: from the cursor to a clock that is on the same line, and visible.
+void Beam::draw_in_line(std::int32_t clock) {
+  const int first = std::max(kLinePixels - tia_.left, 0);
+  tia_.left -= clock - tia_.cursor;
+  tia_.cursor = clock;
+  const int last = kLinePixels - tia_.left;
+  std::uint8_t* row = picture_->pixel.data() + tia_.pixel - first;
+  if (tia_.pixel >= forgotten_) forget_row();
+  draw_visible(row, first, last);
+  if (tia_.comb_armed && first < kCombEnd - kBlankClocks) blank_comb(row, first, last);
+  tia_.pixel += last - first;
+}
+
 void Beam::finish_line() {
-  const int begin = kLineClocks - tia_.left;
-  const int clocks = tia_.left;
-  tia_.cursor += clocks;
+  if (tia_.left > 0) draw_in_line(line_end());
   tia_.left = kLineClocks;
-  draw_span(begin, clocks);
   end_line();
+}
+
+// The cursor's row will show something else.
+void Beam::forget_row() {
+  if (has_record()) record().known = LineRecord::kNothing;
+  forgotten_ = (static_cast<std::int32_t>(row()) + 1) * kLinePixels;
 }
 
 void Beam::pass_lines(int count) {
@@ -95,13 +114,13 @@ void Beam::draw_span(int begin, int clocks) {
   const int first = std::max(visible - kBlankClocks, 0);
   const int last = std::max(end_clock - kBlankClocks, first);
   std::uint8_t* row = picture_->pixel.data() + tia_.pixel - first;
-  if (has_record()) record().known = LineRecord::kNothing;
+  if (tia_.pixel >= forgotten_) forget_row();
   if (last > first) draw_visible(row, first, last);
   if (tia_.comb_armed && visible < kCombEnd) blank_comb(row, visible, end_clock, first, last);
   tia_.pixel += last - first;
 }
 
-void Beam::draw_visible(std::uint8_t* row, int first, int last) {
+RACEBEAM_INLINE void Beam::draw_visible(std::uint8_t* row, int first, int last) {
   if (tia_.vblank) {
     if (draws_pixels()) std::memset(row + first, 0, static_cast<std::size_t>(last - first));
     return;
@@ -113,7 +132,7 @@ void Beam::draw_visible(std::uint8_t* row, int first, int last) {
   if (exact_spans()) spill(row, first, last);
 }
 
-void Beam::collide(int first, int last) {
+RACEBEAM_INLINE void Beam::collide(int first, int last) {
   if (!draws_pixels() && !can_meet(tia_.enabled, meetings_)) return;
   if (lost_track_) stale_ |= line_.outdated(tia_);
   lost_track_ = false;
@@ -140,7 +159,14 @@ bool Beam::end_picture(std::int32_t begin) {
   return true;
 }
 
-// The eight pixels at the start of a line that an HMOVE leaves black. The reference blanks from the span's first pixel
+// The eight pixels at the start of a line that an HMOVE leaves black.
+void Beam::blank_comb(std::uint8_t* row, int first, int last) {
+  constexpr int kWidth = kCombEnd - kBlankClocks;
+  if (draws_pixels()) std::memset(row + first, 0, static_cast<std::size_t>(std::min(kWidth, last) - first));
+  if (last >= kWidth) tia_.comb_armed = 0;
+}
+
+// The same, as exact as can be: the reference blanks from the span's first pixel
 // on, past its end: seen only when drawing stops there.
 void Beam::blank_comb(std::uint8_t* row, int begin, int end, int first, int last) {
   int blank_to = first + kCombEnd - begin;

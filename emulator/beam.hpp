@@ -97,6 +97,8 @@ class Beam {
   }
 
   void draw_beyond(std::int32_t clock);
+  void draw_in_line(std::int32_t clock);
+  void forget_row();
   std::size_t row() const { return static_cast<std::size_t>(tia_.pixel) / kLinePixels; }
   void find_window();
   void draw_span(int begin, int clocks);
@@ -104,6 +106,7 @@ class Beam {
   void collide(int first, int last);
   void spill(std::uint8_t* row, int first, int last);
   void blank_comb(std::uint8_t* row, int begin, int end, int first, int last);
+  void blank_comb(std::uint8_t* row, int first, int last);
   void act_on_line_end();
   void advance_cosmic();
 
@@ -117,6 +120,7 @@ class Beam {
   bool lost_track_ = false;
   std::uint16_t seen_ = 0;
   Collisions meetings_ = 0;
+  std::int32_t forgotten_ = 0;  // the rows before this pixel are known to have changed
   Pixels pixels_ = Pixels::kDrawn;
 };
 
