@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace racebeam {
 namespace {
@@ -47,11 +48,15 @@ void Beam::begin_frame() {
   tia_.pixel = 0;
 }
 
-void Beam::aim(Picture& picture, Pixels pixels) {
+void Beam::aim(Picture& picture, Pixels pixels, Collisions sought) {
   picture_ = &picture;
   pixels_ = pixels;
-  forgotten_ = 0;
+  forgotten_ = draws_pixels() ? 0 : std::numeric_limits<std::int32_t>::max();
+  unsought_ = draws_pixels() ? Collisions{0} : static_cast<Collisions>(~sought);
+  sought_objects_ = objects_of(static_cast<Collisions>(~unsought_));
+  cleared_ = false;
   look_afresh();
+  if (!draws_pixels()) meetings_ = unsought_ | tia_.collisions;
 }
 
 void Beam::forget() {
@@ -99,8 +104,32 @@ void Beam::finish_line() {
 
 // The cursor's row will show something else.
 void Beam::forget_row() {
-  if (has_record()) record().known = LineRecord::kNothing;
+  if (has_record()) record().known = false;
   forgotten_ = (static_cast<std::int32_t>(row()) + 1) * kLinePixels;
+}
+
+void Beam::pass_to(std::int32_t clock) {
+  clock = std::min(clock, end());
+  if (clock < start() || tia_.cursor >= clock) return;
+  const auto pass = [this](std::int32_t clocks) {
+    const int first = kLineClocks - tia_.left, last = first + clocks;
+    const auto comb_end = static_cast<std::uint32_t>(tia_.cursor + kCombEnd - first);
+    const bool since_hmove = static_cast<std::int32_t>(comb_end - tia_.hmove_clock) > 0;
+    if (first < kCombEnd && last >= kCombEnd && since_hmove) tia_.comb_armed = 0;
+    tia_.pixel += std::max(last, kBlankClocks) - std::max(first, kBlankClocks);
+    tia_.cursor += clocks;
+    tia_.left -= clocks;
+  };
+  while (clock > line_end()) {
+    pass(tia_.left);
+    end_line();
+    const int others = tia_.cosmic ? 0 : (clock - 1 - tia_.cursor) / kLineClocks;  // at whose end there is nothing to do
+    pass_lines(others);
+    if (others > 0 && static_cast<std::int32_t>(static_cast<std::uint32_t>(tia_.cursor - kLineClocks + kCombEnd) - tia_.hmove_clock) > 0)
+      tia_.comb_armed = 0;
+    tia_.left = kLineClocks;
+  }
+  pass(clock - tia_.cursor);
 }
 
 void Beam::pass_lines(int count) {
@@ -136,10 +165,13 @@ RACEBEAM_INLINE void Beam::collide(int first, int last) {
   if (!draws_pixels() && !can_meet(tia_.enabled, meetings_)) return;
   if (lost_track_) stale_ |= line_.outdated(tia_);
   lost_track_ = false;
-  if (stale_ != 0) line_.refresh(tia_, stale_);
-  stale_ = 0;
-  meetings_ |= racebeam::meetings(line_, first, last, meetings_);
-  tia_.collisions |= meetings_;
+  if (const std::uint8_t stale = stale_ & sought_objects_; stale != 0) {
+    line_.refresh(tia_, stale);
+    stale_ ^= stale;
+  }
+  const Collisions found = racebeam::meetings(line_, first, last, meetings_);
+  meetings_ |= found;
+  tia_.collisions |= found;
 }
 
 // The reference writes some pixels four at a time, and so up to three beyond the span (tia.md, "Provisional pixels").

@@ -34,8 +34,10 @@ class Beam {
  public:
   Beam(TiaState& state, const Video& video);
 
-  void begin_frame();                            // cursor to the window's start
-  void aim(Picture& picture, Pixels pixels);   // where pixels go
+  void begin_frame();  // cursor to the window's start
+
+  // Where pixels go; without them, which pairs are looked for if they meet.
+  void aim(Picture& picture, Pixels pixels, Collisions sought);
 
   // Everything derived from the registers is made anew: after a reset or a restored state.
   void forget();
@@ -44,6 +46,15 @@ class Beam {
   RACEBEAM_INLINE void draw_to(std::int32_t clock) {
     if (clock > tia_.cursor && !pass_blank(clock)) draw_beyond(clock);
   }
+
+  // Goes there without a look at what lines show, but not without acting on their ends.
+  void pass_to(std::int32_t clock);
+
+  // Can anything meet that is looked for, and has not met yet, as the registers are? Where pixels are drawn, it matters
+  // to nobody.
+  bool may_meet() const { return !tia_.vblank && can_meet(tia_.enabled, meetings_); }
+
+  std::uint8_t sought_objects() const { return sought_objects_; }  // of the pairs that are looked for
 
   // A register of these objects (bit n: Object n) has changed.
   void changed(std::uint8_t objects) { stale_ |= objects; }
@@ -78,7 +89,12 @@ class Beam {
   void look_afresh() { seen_ = meetings_ = 0; }
   std::uint16_t seen() const { return seen_; }
   Collisions meetings() const { return meetings_; }
-  void clear_collisions() { tia_.collisions = meetings_ = 0; }
+  void clear_collisions() {
+    tia_.collisions = 0;
+    meetings_ = unsought_;
+    cleared_ = true;
+  }
+  bool cleared() const { return cleared_; }  // the collisions, since the step began
 
   bool exact_spans() const { return pixels_ == Pixels::kExact; }
   bool draws_pixels() const { return pixels_ != Pixels::kNone; }
@@ -119,7 +135,10 @@ class Beam {
   std::uint8_t stale_ = 0xFF;   // masks to make anew
   bool lost_track_ = false;
   std::uint16_t seen_ = 0;
-  Collisions meetings_ = 0;
+  Collisions meetings_ = 0;     // that are known: they need not be looked for
+  Collisions unsought_ = 0;     // nor these
+  std::uint8_t sought_objects_ = 0;
+  bool cleared_ = false;
   std::int32_t forgotten_ = 0;  // the rows before this pixel are known to have changed
   Pixels pixels_ = Pixels::kDrawn;
 };

@@ -49,6 +49,7 @@ void Console::Impl::reset() {
   const std::uint8_t open = state().frame.open, greyed = state().frame.greyed;
   state().cycle = 0;
   set_timer();
+  latches.unknown = 0;
   state().tia = TiaState{};
   state().frame = FrameState{};
   state().frame.open = open;
@@ -116,7 +117,10 @@ void Console::step(bool draw) { impl_->step(draw); }
 Inputs& Console::inputs() { return impl_->state().inputs; }
 Sound& Console::sound() { return impl_->board.sound; }
 const Sound& Console::sound() const { return impl_->board.sound; }
-const State& Console::state() const { return impl_->board.state; }
+const State& Console::state() const {
+  impl_->settle_latches();
+  return impl_->board.state;
+}
 
 std::span<const std::uint8_t> Console::cartridge_ram() const { return impl_->board.cartridge_ram; }
 
@@ -128,6 +132,7 @@ void Console::check(const State& state, std::span<const std::uint8_t> cartridge_
 void Console::restore(const State& state, std::span<const std::uint8_t> cartridge_ram) {
   impl_->check_ram_size(cartridge_ram);
   Board& board = impl_->board;
+  impl_->latches.unknown = 0;
   board.restore(state);
   std::ranges::copy(cartridge_ram, board.cartridge_ram.begin());
 }

@@ -22,6 +22,14 @@ struct Console::Impl {
   Format format;
   Pictures pictures;
   Pictures spare;  // buffers of the console's own that a snapshot's have displaced, or null
+  // Collisions are looked for where the picture is drawn, and else only those that the game has read so far. What the
+  // others would be can be found out: nobody sees a state in which they are not known.
+  struct {
+    Collisions sought = 0;
+    Collisions unknown = 0;  // of the state's latches
+    FrameStart step;         // the step that would tell, if any are
+  } latches;
+
   const std::unique_ptr<Translator> translator;  // null: the interpreter runs all
 
   State& state() { return board.state; }
@@ -38,8 +46,12 @@ struct Console::Impl {
 
   // step.cpp
   void step(bool draw);
-  bool step_over(const FrameStart& start, bool draw);
+  bool step_over(FrameStart& start, bool draw);
   bool run_step(Picture& picture, const FrameStart& start, Pixels pixels);
+  FrameStart here() const { return {board.state, board.cartridge_ram}; }
+  bool reads_unknown_latches(FrameStart& start, bool drew);
+  void note_latches(FrameStart& start, Collisions looked_for);
+  void settle_latches();
   void go_back(const FrameStart& start);
   void draw_now(std::shared_ptr<Picture>& picture);
   Picture& canvas();

@@ -28,7 +28,6 @@ constexpr std::array<Pair, 15> kPairs = {{
     pair(kP0, kP1, 7, 7), pair(kM0, kM1, 7, 6),           // CXPPMM
 }};
 
-// For each set of covered objects, the latches that they can set.
 constexpr auto make_possible() {
   std::array<Collisions, 64> table{};
   for (unsigned objects = 0; objects < 64; ++objects)
@@ -36,7 +35,7 @@ constexpr auto make_possible() {
       if ((objects & bit(p.a)) && (objects & bit(p.b))) table[objects] |= p.latch;
   return table;
 }
-constexpr auto kPossible = make_possible();
+static_assert(make_possible().back() == kAllPairs);
 
 // kPairs by the number of the latch's bit. (Bit 12, D6 of CXBLPF, is nobody's.)
 constexpr auto make_pair_of_latch() {
@@ -75,10 +74,19 @@ void Line::refresh(const TiaState& tia, std::uint8_t objects) {
   if (objects & bit(kPlayfield)) draw_playfield(mask[kPlayfield], tia), note(kPlayfield);
 }
 
-bool can_meet(std::uint8_t objects, Collisions known) { return (kPossible[objects] & ~known) != 0; }
+constinit const std::array<Collisions, 64> kPossibleMeetings = make_possible();
+
+std::uint8_t objects_of(Collisions pairs) {
+  unsigned objects = 0;
+  for (unsigned left = pairs & kAllPairs; left != 0; left &= left - 1) {
+    const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(left))];
+    objects |= bit(p.a) | bit(p.b);
+  }
+  return static_cast<std::uint8_t>(objects);
+}
 
 Collisions meetings(const Line& line, int first, int last, Collisions known) {
-  unsigned left = kPossible[line.covered] & ~known;
+  unsigned left = kPossibleMeetings[line.covered] & ~known;
   if (left == 0) return 0;
   const PixelMask clip = PixelMask::range(first, last);
   Collisions found = 0;

@@ -24,8 +24,14 @@ struct Line {
   void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew
 };
 
+// For each set of objects (bit n: Object n), the pairs that there are in it.
+extern const std::array<Collisions, 64> kPossibleMeetings;
+constexpr Collisions kAllPairs = 0xEFFF;  // D6 of CXBLPF is nobody's
+
+std::uint8_t objects_of(Collisions pairs);
+
 // Can any of these objects (bit n: Object n) meet, but for those that are `known` to?
-bool can_meet(std::uint8_t objects, Collisions known);
+inline bool can_meet(std::uint8_t objects, Collisions known) { return (kPossibleMeetings[objects] & ~known) != 0; }
 
 // The pairs that meet in these pixels; those that are `known` need not be looked at.
 Collisions meetings(const Line& line, int first, int last, Collisions known);

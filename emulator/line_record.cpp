@@ -104,7 +104,7 @@ void add_positions(TiaRegisters& mask, unsigned objects) {
 }  // namespace
 
 void LineRecord::open(const TiaRegisters& registers) {
-  known = kNothing;  // until the line is whole
+  known = false;  // until the line is whole
   start = registers;
   summed_up = false;
   view = {};

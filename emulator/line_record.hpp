@@ -42,7 +42,6 @@ class LineWrite {
 };
 
 struct LineRecord {
-  enum Known : std::uint8_t { kNothing, kMeetings, kPixels };  // and pixels: the buffer's row shows the line
   static constexpr std::size_t kMostEvents = 28;
 
   TiaRegisters start;   // at the line's first clock
@@ -51,7 +50,7 @@ struct LineRecord {
   TiaRegisters sets;    // and for each that is known at the end: those that count, and those that are written
   Collisions meetings;  // pairs that met on the line, after the last CXCLR
   LineView view;        // why bytes count
-  Known known = kNothing;
+  bool known = false;   // the buffer's row shows this line
   bool summed_up;            // then `start` and `end` are 0 but for these bytes
   std::uint8_t count;        // of events
   std::int8_t hmove_cycle;   // of the last HMOVE, if the line kMoves

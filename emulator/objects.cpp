@@ -80,14 +80,7 @@ void place_player(PixelMask& mask, const PlayerState& player, std::uint8_t graph
 
 }  // namespace
 
-std::uint8_t enabled_objects(const TiaRegisters& tia) {
-  unsigned objects = (ball_enabled(tia.ball) ? 1U : 0U) << kBall | (playfield_enabled(tia) ? 1U : 0U) << kPlayfield;
-  for (unsigned i = 0; i < 2; ++i) {
-    objects |= (shown_graphics(tia.player[i]) != 0 ? 1U : 0U) << (kP0 + i);
-    objects |= (missile_enabled(tia.missile[i]) ? 1U : 0U) << (kM0 + i);
-  }
-  return static_cast<std::uint8_t>(objects);
-}
+std::uint8_t enabled_objects(const TiaRegisters& tia) { return enabled_among(tia, kAllObjects); }
 
 std::uint32_t playfield_bits(const TiaState& tia) {
   return static_cast<std::uint32_t>(tia.pf[0] >> 4 | kTables.reverse[tia.pf[1]] << 4 | tia.pf[2] << 12);

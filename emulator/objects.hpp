@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "emulator/inlining.hpp"
 #include "emulator/pixel_mask.hpp"
 #include "emulator/state.hpp"
 
@@ -25,6 +26,20 @@ inline bool ball_enabled(const BallState& ball) { return (ball.vdel ? ball.old_e
 
 inline bool playfield_enabled(const TiaRegisters& tia) { return ((tia.pf[0] & 0xF0) | tia.pf[1] | tia.pf[2]) != 0; }
 
+// Those of these objects that are enabled.
+RACEBEAM_INLINE std::uint8_t enabled_among(const TiaRegisters& tia, unsigned objects) {
+  unsigned found = 0;
+  const auto look = [&](unsigned object, bool enabled) { found |= (enabled ? 1U : 0U) << object; };
+  for (unsigned i = 0; i < 2; ++i) {
+    if (objects >> (kP0 + i) & 1) look(kP0 + i, shown_graphics(tia.player[i]) != 0);
+    if (objects >> (kM0 + i) & 1) look(kM0 + i, missile_enabled(tia.missile[i]));
+  }
+  if (objects >> kBall & 1) look(kBall, ball_enabled(tia.ball));
+  if (objects >> kPlayfield & 1) look(kPlayfield, playfield_enabled(tia));
+  return static_cast<std::uint8_t>(found);
+}
+
+constexpr unsigned kAllObjects = (1U << kObjects) - 1;
 std::uint8_t enabled_objects(const TiaRegisters& tia);  // TiaRegisters::enabled, made anew
 
 // The pixels that an object covers. They are put where they belong, word by word, as they are read later: a mask that is

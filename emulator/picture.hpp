@@ -32,7 +32,7 @@ struct Picture {
 
   // The pixels were written by somebody else.
   void forget_lines() {
-    for (LineRecord& record : line) record.known = LineRecord::kNothing;
+    for (LineRecord& record : line) record.known = false;
   }
 };
 

@@ -1,8 +1,10 @@
 // What a write to each register of the TIA does to the picture's state (spec: tia.md, sections 4 and 7 to 9).
 //
-// A Painter is told before anything that can be seen changes: draw_to(clock) asks for what stands so far to be drawn,
-// reach(clock) says that the beam is there and nothing has changed, changed(objects) names what has (bit n: Object n).
-// One whose kDraws is false hears only the last, and may hear it for nothing; it brings TiaRegisters::enabled up to date
+// A Painter is told before these objects (bit n: Object n), or colours, change: draw_to(clock, objects) asks for what stands
+// so far to be drawn, come_to(clock) that the ends of lines have been acted on, too, and reach(clock) says that the beam is there and nothing
+// has changed. Afterwards, changed(objects) names what has, and enabled() says that
+// TiaRegisters::enabled or VBLANK may be others. minds(objects): does it matter whether one of them is enabled? While looks() is false,
+// it may hear all that for nothing, and brings TiaRegisters::enabled up to date
 // itself, afterwards.
 #pragma once
 
@@ -22,7 +24,7 @@ template <class Painter>
 class RegisterEffects {
  public:
   RegisterEffects(TiaState& state, const FrameState& frame, const Video& video, Painter painter)
-      : tia_(state), frame_(frame), video_(video), painter_(painter) {}
+      : tia_(state), frame_(frame), video_(video), first_cycle_(state.origin / 3), painter_(painter) {}
 
   // The writes in [first, last) of a log whose cycles count from `base`.
   void play(const std::uint32_t* first, const std::uint32_t* last, std::int32_t base);
@@ -49,19 +51,19 @@ class RegisterEffects {
   }
 
   // CPU cycle within the line, 0-75. The origin is a multiple of three.
-  int line_cycle(std::int32_t cycle) const { return (cycle - tia_.origin / 3) % kLineCycles; }
+  int line_cycle(std::int32_t cycle) const { return (cycle - first_cycle_) % kLineCycles; }
 
   // On odd line counts PAL loses its colour (tia.md, section 12).
   std::uint8_t color_loss() const { return video_.pal ? frame_.lines & 1 : 0; }
 
-  // The objects whose control has been written are enabled, or not.
-  void enable(unsigned object_number, bool on) {
-    if (!Painter::kDraws) return;
-    const unsigned rest = tia_.enabled & ~(1U << object_number);
-    tia_.enabled = static_cast<std::uint8_t>(rest | (on ? 1U : 0U) << object_number);
+  // The control of these objects has been written: they are enabled now, or not.
+  RACEBEAM_INLINE void control(unsigned objects) {
+    if (!painter_.minds(objects)) return;
+    const auto enabled = static_cast<std::uint8_t>((tia_.enabled & ~objects) | enabled_among(tia_, objects));
+    if (enabled == tia_.enabled) return;
+    tia_.enabled = enabled;
+    painter_.enabled();
   }
-  void enable_player(unsigned which) { enable(kP0 + which, shown_graphics(tia_.player[which]) != 0); }
-  void enable_missile(unsigned which) { enable(kM0 + which, missile_enabled(tia_.missile[which])); }
 
   template <class T>
   bool assign(T& reg, T value, std::int32_t clock, std::uint8_t objects);
@@ -85,17 +87,18 @@ class RegisterEffects {
   TiaState& tia_;
   const FrameState& frame_;
   const Video& video_;
+  const std::int32_t first_cycle_;  // of line 0
   Painter painter_;
 };
 
 template <class Painter>
 template <class T>
 RACEBEAM_INLINE bool RegisterEffects<Painter>::assign(T& reg, T value, std::int32_t clock, std::uint8_t objects) {
-  if (Painter::kDraws && reg == value) {
+  if (painter_.looks() && reg == value) {
     painter_.reach(clock);
     return false;
   }
-  painter_.draw_to(clock);
+  painter_.draw_to(clock, objects);
   reg = value;
   painter_.changed(objects);
   return true;
@@ -119,7 +122,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t
   const auto flag = [value](int bit) { return static_cast<std::uint8_t>(value >> bit & 1); };
   const auto motion = [value] { return static_cast<std::uint8_t>(value >> 4); };
   switch (write.reg()) {
-    case VBLANK: assign(tia_.vblank, flag(1), clock + 1, kNoObject); break;
+    case VBLANK: assign(tia_.vblank, flag(1), clock + 1, kAllObjects), painter_.enabled(); break;
     case NUSIZ0: write_nusiz(0, value, clock + 8); break;
     case NUSIZ1: write_nusiz(1, value, clock + 8); break;
     case COLUP0: case COLUP1: case COLUPF: case COLUBK: write_color(write.reg() - COLUP0, value, clock); break;
@@ -134,8 +137,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t
     case RESBL:  strobe_ball(clock); break;
     case GRP0:   write_graphics(0, value, clock + 1); break;
     case GRP1:   write_graphics(1, value, clock + 1); break;
-    case ENAM0:  assign(m0.enabled, flag(1), clock, object(kM0, 0)), enable_missile(0); break;
-    case ENAM1:  assign(m1.enabled, flag(1), clock, object(kM0, 1)), enable_missile(1); break;
+    case ENAM0:  assign(m0.enabled, flag(1), clock, object(kM0, 0)), control(object(kM0, 0)); break;
+    case ENAM1:  assign(m1.enabled, flag(1), clock, object(kM0, 1)), control(object(kM0, 1)); break;
     case ENABL:  write_ball(flag(1), ball.old_enabled, ball.vdel, clock); break;
     case HMP0:   painter_.reach(clock); p0.motion = motion(); break;
     case HMP1:   painter_.reach(clock); p1.motion = motion(); break;
@@ -164,8 +167,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_nusiz(unsigned which, std::
   PlayerState& player = tia_.player[which];
   const bool reselects = player.skip || (which == 0 && tia_.cosmic);
   value &= 0x37;
-  if (Painter::kDraws && player.nusiz == value && !reselects) return painter_.reach(clock);
-  painter_.draw_to(clock);
+  if (painter_.looks() && player.nusiz == value && !reselects) return painter_.reach(clock);
+  painter_.draw_to(clock, object(kP0, which) | object(kM0, which));
   player.nusiz = value;
   player.skip = 0;
   if (which == 0) tia_.cosmic_shape = CosmicShape::kNormal;
@@ -177,8 +180,9 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, 
   const bool latches = line_cycle(clock / 3) < 49;  // later, the playfield turns round at the end of the line only
   const std::uint8_t reflect = latches ? value & 1 : tia_.reflect;
   value &= 0x37;
-  if (Painter::kDraws && tia_.ctrlpf == value && tia_.reflect == reflect) return painter_.reach(clock);
-  painter_.draw_to(clock);
+  if (painter_.looks() && tia_.ctrlpf == value && tia_.reflect == reflect) return painter_.reach(clock);
+  if (latches) painter_.draw_to(clock, kBallBit | kPlayfieldBit);
+  else painter_.come_to(clock);
   // Drawing may have passed a line's end, and with it the latch.
   tia_.reflect = latches ? value & 1 : tia_.reflect;
   tia_.ctrlpf = value;
@@ -190,7 +194,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, s
   static constexpr std::uint8_t kDelay[4] = {4, 5, 2, 3};  // until the next block of four pixels
   const std::int32_t clock = 3 * cycle;
   assign(tia_.pf[which], value, clock + kDelay[line_cycle(cycle) % 4], kPlayfieldBit);
-  enable(kPlayfield, playfield_enabled(tia_));
+  control(kPlayfieldBit);
 }
 
 // Writing one player's graphics moves the other's into the register that VDELPx shows.
@@ -199,44 +203,40 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, st
   PlayerState& written = tia_.player[which];
   PlayerState& other = tia_.player[1 - which];
   std::uint8_t objects = kBallBit | object(kP0, 0) | object(kP0, 1);
-  if (Painter::kDraws) {
+  if (painter_.looks()) {
     objects = 0;
     if (!written.vdel && written.grp != value) objects |= object(kP0, which);
     if (other.vdel && other.old_grp != other.grp) objects |= object(kP0, 1 - which);
     if (which == 1 && tia_.ball.vdel && tia_.ball.old_enabled != tia_.ball.enabled) objects |= kBallBit;
-    if (objects != 0) painter_.draw_to(clock);
-    else painter_.reach(clock);
   }
+  if (objects != 0) painter_.draw_to(clock, objects);
+  else painter_.reach(clock);
   written.grp = value;
   other.old_grp = other.grp;
-  enable_player(0);
-  enable_player(1);
-  if (which == 1) {
-    tia_.ball.old_enabled = tia_.ball.enabled;
-    enable(kBall, ball_enabled(tia_.ball));
-  }
+  if (which == 1) tia_.ball.old_enabled = tia_.ball.enabled;
+  control(object(kP0, 0) | object(kP0, 1) | (which == 1 ? kBallBit : 0));
   painter_.changed(objects);
 }
 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_vdel(unsigned which, std::uint8_t value, std::int32_t clock) {
   assign(tia_.player[which].vdel, value, clock, object(kP0, which));
-  enable_player(which);
+  control(object(kP0, which));
 }
 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, std::uint8_t old_enabled, std::uint8_t vdel, std::int32_t clock) {
   BallState& ball = tia_.ball;
   const bool shown = vdel ? old_enabled != 0 : enabled != 0;
-  if (!Painter::kDraws || shown != ball_enabled(ball)) {
-    painter_.draw_to(clock);
+  if (!painter_.looks() || shown != ball_enabled(ball)) {
+    painter_.draw_to(clock, kBallBit);
     painter_.changed(kBallBit);
   } else {
     painter_.reach(clock);
   }
   ball.enabled = enabled;
   ball.vdel = vdel;
-  enable(kBall, shown);
+  control(kBallBit);
 }
 
 // Unlocking a missile leaves it in the middle of its player.
@@ -245,7 +245,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_resmp(unsigned which, std::
   MissileState& missile = tia_.missile[which];
   const bool unlocks = missile.locked && !value;
   const bool changed = assign(missile.locked, value, clock, object(kM0, which));
-  enable_missile(which);
+  control(object(kM0, which));
   if (!changed || !unlocks) return;
   const PlayerState& player = tia_.player[which];
   missile.position = wrapped(player.position + 4 * static_cast<int>(kCopies[player.nusiz & 7].scale));
@@ -258,7 +258,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_hmm0(std::uint8_t motion, s
   MissileState& missile = tia_.missile[0];
   const bool enters = static_cast<std::uint32_t>(clock) == tia_.hmove_clock + 63 && missile.motion == 7 && motion == 6;
   if (enters) {
-    painter_.draw_to(clock);
+    painter_.come_to(clock);
     tia_.cosmic = 1;
     tia_.cosmic_count = 0;
     painter_.changed(object(kM0, 0));
@@ -283,7 +283,7 @@ RACEBEAM_INLINE std::uint8_t RegisterEffects<Painter>::strobe_position(std::int3
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std::int32_t clock) {
   PlayerState& player = tia_.player[which];
-  painter_.draw_to(clock);
+  painter_.draw_to(clock, object(kP0, which));
   const std::uint8_t position = strobe_position(clock, 3, 5);
   const int distance = wrapped(position - player.position);
   const Copies& copies = kCopies[player.nusiz & 7];
@@ -292,8 +292,9 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std
   for (unsigned i = 0; i < copies.count; ++i) {
     const int into = distance - copies.offset[i];
     if (into >= 0 && into <= 3) skip = false;
-    if (into >= 4 && into <= 3 + width) painter_.draw_to(clock + 11);  // the old copy is being drawn: it is finished first
+    if (into >= 4 && into <= 3 + width) painter_.draw_to(clock + 11, object(kP0, which));  // the old copy is being drawn: it is finished first
   }
+  if (skip) painter_.come_to(clock);
   player.position = position;
   player.skip = skip;
   painter_.changed(object(kP0, which));
@@ -301,7 +302,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std
 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_missile(unsigned which, std::int32_t clock) {
-  painter_.draw_to(clock + 8);
+  painter_.draw_to(clock + 8, object(kM0, which));
   const std::uint32_t since = static_cast<std::uint32_t>(clock) - tia_.hmove_clock;
   const int h = 3 * line_cycle(clock / 3);
   std::uint8_t position = strobe_position(clock, 2, 4);
@@ -316,7 +317,7 @@ template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_ball(std::int32_t clock) {
   struct Exception { std::uint32_t since; int h; std::uint8_t position; };
   static constexpr Exception kExceptions[] = {{54, 60, 10}, {54, 69, 10}, {9, 18, 3}, {21, 30, 6}, {18, 27, 5}};
-  painter_.draw_to(clock);
+  painter_.draw_to(clock, kBallBit);
   const std::uint32_t since = static_cast<std::uint32_t>(clock) - tia_.hmove_clock;
   const int h = 3 * line_cycle(clock / 3);
   tia_.ball.position = strobe_position(clock, 2, 4);
@@ -329,25 +330,29 @@ template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(std::int32_t cycle) {
   const std::int32_t clock = 3 * cycle;
   const int x = line_cycle(cycle);
-  painter_.draw_to(clock);
+  const bool arms = video_.hmove_blanks && (x == 75 || x <= 20);
+  if (arms) painter_.draw_to(clock, kAllObjects);
+  else painter_.come_to(clock);
   const auto& movement = kMovement[static_cast<std::size_t>(x)];
   const auto move = [&](std::uint8_t& position, std::uint8_t motion, std::uint8_t objects) {
     if (movement[motion] == 0) return;
     position = wrapped(position + movement[motion]);
     painter_.changed(objects);
   };
-  const bool moves = movement[0] != 0 || any_motion();
-  for (unsigned i = 0; i < 2; ++i) {
-    PlayerState& player = tia_.player[i];
-    if (moves) {
-      move(player.position, player.motion, object(kP0, i));
-      move(tia_.missile[i].position, tia_.missile[i].motion, object(kM0, i));
-    }
-    if (player.skip) painter_.changed(object(kP0, i));
-    player.skip = 0;
+  auto& [p0, p1] = tia_.player;
+  auto& [m0, m1] = tia_.missile;
+  if (movement[0] != 0 || any_motion()) {
+    move(p0.position, p0.motion, object(kP0, 0));
+    move(p1.position, p1.motion, object(kP0, 1));
+    move(m0.position, m0.motion, object(kM0, 0));
+    move(m1.position, m1.motion, object(kM0, 1));
+    move(tia_.ball.position, tia_.ball.motion, kBallBit);
   }
-  if (moves) move(tia_.ball.position, tia_.ball.motion, kBallBit);
-  if (video_.hmove_blanks && (x == 75 || x <= 20)) tia_.comb_armed = 1;
+  if ((p0.skip | p1.skip) != 0) {
+    painter_.changed(object(kP0, 0) | object(kP0, 1));
+    p0.skip = p1.skip = 0;
+  }
+  if (arms) tia_.comb_armed = 1;
   tia_.cosmic = 0;
   show_cosmic_normally();
   tia_.hmove_clock = static_cast<std::uint32_t>(clock);
@@ -356,7 +361,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(std::int32_t cycle) 
 // What is not drawn yet may still meet: it is drawn before the latches are cleared.
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::clear_collisions(std::int32_t clock) {
-  painter_.draw_to(clock);
+  painter_.draw_to(clock, kAllObjects);
   painter_.clear_collisions();
 }
 

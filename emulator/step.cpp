@@ -30,11 +30,15 @@ void Console::Impl::step(bool draw) {
     frame.greyed = 0;
     frame.open = 1;
   }
-  const FrameStart start{state(), board.cartridge_ram};
+  FrameStart start = here();
   const bool keeps_old_pixels = draw && !pictures.current->is_undrawn && is_own(pictures.current);
   if (!opens || keeps_old_pixels || !step_over(start, draw)) {
+    settle_latches();
+    start = here();
     draw_now(pictures.current);
     run_step(canvas(), start, Pixels::kDrawn);
+    latches.sought |= board.tia.asked();
+    note_latches(start, kAllPairs);
   }
   state().cpu.latch = state().riot.ram.back();  // RAM is looked at over the bus after each step (console.md, section 4)
   if (!frame.open) {
@@ -49,16 +53,19 @@ void Console::Impl::step(bool draw) {
 
 // Runs a frame without a look at what its picture shows so far. It must fill the whole window: false if it does not, or
 // does not close, and the machine stands at its start again.
-bool Console::Impl::step_over(const FrameStart& start, bool draw) {
+bool Console::Impl::step_over(FrameStart& start, bool draw) {
   std::shared_ptr<Picture>& current = pictures.current;
   if (!spare.current) std::swap(spare.current, spare.previous);
   std::shared_ptr<Picture>& place = is_own(current) ? current : spare.current;
   if (!is_own(place)) place = std::make_shared<Picture>();
-  const bool closes = run_step(*place, start, draw ? Pixels::kDrawn : Pixels::kNone) && !state().frame.open;
+  bool closes;
+  do closes = run_step(*place, start, draw ? Pixels::kDrawn : Pixels::kNone) && !state().frame.open;
+  while (reads_unknown_latches(start, draw));
   if (!closes || !board.tia.drew_all()) {
     go_back(start);
     return false;
   }
+  note_latches(start, draw ? kAllPairs : latches.sought);
   place->is_undrawn = !draw;
   if (!draw) place->undrawn = start;
   if (&place != &current) current = std::exchange(place, nullptr);
@@ -71,10 +78,10 @@ bool Console::Impl::run_step(Picture& picture, const FrameStart& start, Pixels p
   thread_local WriteLog log;
   const auto repeat = [&](Pixels how) {
     go_back(start);
-    board.begin_step(picture, log, how);
+    board.begin_step(picture, log, how, latches.sought);
     interpret(board, kInstructionsPerStep);
   };
-  board.begin_step(picture, log, pixels);
+  board.begin_step(picture, log, pixels, latches.sought);
   if (translator == nullptr) {
     interpret(board, kInstructionsPerStep);
   } else if (!translator->run(board, kInstructionsPerStep)) {
@@ -98,13 +105,57 @@ void Console::Impl::go_back(const FrameStart& start) {
 void Console::Impl::draw_now(std::shared_ptr<Picture>& picture) {
   if (!picture->is_undrawn) return;
   if (!is_own(picture)) picture = std::make_shared<Picture>(*picture);
-  const FrameStart now{state(), board.cartridge_ram};
+  const FrameStart now = here();
   const Sound sound = board.sound;
   go_back(picture->undrawn);
   run_step(*picture, picture->undrawn, Pixels::kDrawn);
   picture->is_undrawn = false;
   go_back(now);
   board.sound = sound;
+}
+
+// Has the step read latches that nobody has looked for? Then it is to be run again, from `start`.
+bool Console::Impl::reads_unknown_latches(FrameStart& start, bool drew) {
+  const Collisions unsought = board.tia.asked() & ~latches.sought;
+  if (unsought == 0) return false;
+  latches.sought |= unsought;
+  if (drew && (latches.unknown & unsought) == 0) return false;
+  go_back(start);
+  settle_latches();
+  start = here();
+  return true;
+}
+
+// After a step from `start` on in which these pairs were looked for.
+void Console::Impl::note_latches(FrameStart& start, Collisions looked_for) {
+  const bool lived_on = latches.unknown != 0 && !board.tia.cleared();
+  if (lived_on) {
+    const FrameStart now = here();
+    go_back(start);
+    settle_latches();
+    start = here();
+    go_back(now);
+    state().tia.collisions |= start.state.tia.collisions;
+    latches.sought = kAllPairs;  // a game that keeps them from frame to frame
+  }
+  latches.unknown = kAllPairs & ~looked_for & ~state().tia.collisions;
+  if (latches.unknown != 0) latches.step = start;
+}
+
+// Runs the last step again, with a look at all pairs.
+void Console::Impl::settle_latches() {
+  if (latches.unknown == 0) return;
+  const FrameStart now = here();
+  const Sound sound = board.sound;
+  const Collisions sought = std::exchange(latches.sought, kAllPairs);
+  go_back(latches.step);
+  run_step(*pictures.current, latches.step, Pixels::kNone);
+  const Collisions found = state().tia.collisions;
+  go_back(now);
+  state().tia.collisions = found;
+  board.sound = sound;
+  latches.sought = sought;
+  latches.unknown = 0;
 }
 
 // The picture that is drawn on: the console's own, not one that a snapshot holds too.

@@ -12,26 +12,64 @@ namespace {
 
 // Draws what stood before a change, as far as the beam had come.
 struct Drawing {
-  static constexpr bool kDraws = true;
   Beam& beam;
   std::int32_t& reached;
 
   RACEBEAM_INLINE void reach(std::int32_t clock) const { reached = clock > reached ? clock : reached; }
-  RACEBEAM_INLINE void draw_to(std::int32_t clock) const {
+  RACEBEAM_INLINE void draw_to(std::int32_t clock, unsigned) const { come_to(clock); }
+  RACEBEAM_INLINE void come_to(std::int32_t clock) const {
     reach(clock);
     beam.draw_to(reached);
   }
+  static constexpr bool looks() { return true; }
+  static constexpr bool minds(unsigned) { return true; }
   RACEBEAM_INLINE void changed(std::uint8_t objects) const { beam.changed(objects); }
+  RACEBEAM_INLINE void enabled() const {}
   RACEBEAM_INLINE void clear_collisions() const { beam.clear_collisions(); }
+};
+
+// Pixels are not wanted, collisions are: the beam stays behind, except while objects are shown that may meet.
+struct Following {
+  Beam& beam;
+  TiaState& tia;
+  std::int32_t& reached;
+  bool& watches;
+  const unsigned sought = beam.sought_objects();
+
+  RACEBEAM_INLINE void reach(std::int32_t clock) const { reached = clock > reached ? clock : reached; }
+  RACEBEAM_INLINE bool looks() const { return watches; }
+  RACEBEAM_INLINE void draw_to(std::int32_t clock, unsigned objects) const {
+    reach(clock);
+    if (watches && (objects & sought) != 0) beam.draw_to(reached);
+  }
+  RACEBEAM_INLINE bool minds(unsigned objects) const { return (sought & objects) != 0; }
+  RACEBEAM_INLINE void come_to(std::int32_t clock) const {
+    reach(clock);
+    if (watches) beam.draw_to(reached);
+    else beam.pass_to(reached);
+  }
+  RACEBEAM_INLINE void changed(std::uint8_t objects) const { beam.changed(objects); }
+  RACEBEAM_INLINE void enabled() const {
+    const bool watched = watches;
+    watches = beam.may_meet() || tia.cosmic;
+    if (watches && !watched) beam.pass_to(reached);
+  }
+  RACEBEAM_INLINE void clear_collisions() const {
+    beam.clear_collisions();
+    enabled();
+  }
 };
 
 // The line's pixels are there already; only the registers are wanted.
 struct Recalling {
-  static constexpr bool kDraws = false;
   Beam& beam;
 
   RACEBEAM_INLINE void reach(std::int32_t) const {}
-  RACEBEAM_INLINE void draw_to(std::int32_t) const {}
+  RACEBEAM_INLINE void draw_to(std::int32_t, unsigned) const {}
+  static constexpr bool looks() { return false; }
+  RACEBEAM_INLINE void come_to(std::int32_t) const {}
+  static constexpr bool minds(unsigned) { return false; }
+  RACEBEAM_INLINE void enabled() const {}
   RACEBEAM_INLINE void changed(std::uint8_t objects) const { beam.changed(objects); }
   RACEBEAM_INLINE void clear_collisions() const { beam.clear_collisions(); }
 };
@@ -55,8 +93,8 @@ enum class Likeness { kOther, kBegins, kLooks, kIsSame };  // kLooks: but the re
 
 // How much a line that starts with `registers` and meets the writes from `entry` on is like a remembered one.
 RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::uint32_t* entry, std::uint32_t origin,
-                                 const LineRecord& record, LineRecord::Known wanted) {
-  if (record.known < wanted) return Likeness::kOther;
+                                 const LineRecord& record) {
+  if (!record.known) return Likeness::kOther;
   const bool same = record.summed_up && registers.start(record);
   if (!same && !registers.look_like(record)) return Likeness::kOther;
   const LineWrite next(entry[record.count], origin);
@@ -83,8 +121,10 @@ void Tia::begin_frame() {
   for (std::uint8_t& color : tia_.color) color = static_cast<std::uint8_t>((color & 0xFE) | loss);
 }
 
-void Tia::begin_step(Picture& picture, WriteLog& log, Pixels pixels) {
-  beam_.aim(picture, pixels);
+void Tia::begin_step(Picture& picture, WriteLog& log, Pixels pixels, Collisions sought) {
+  beam_.aim(picture, pixels, sought);
+  asked_ = 0;
+  watches_ = beam_.may_meet() || tia_.cosmic;
   log_ = &log;
   played_ = log.next;
   recorded_ = nullptr;
@@ -98,12 +138,23 @@ bool Tia::play_log(std::int32_t cycle, Collisions asked) {
   if (empty && cycle < log_->base) return true;
   const std::int32_t last = empty ? 0 : TiaWrite(log_->next[-1]).cycle();
   *log_->next = TiaWrite(std::max(cycle - log_->base, last), WriteLog::kNobody, 0).packed();
+  if (!beam_.draws_pixels()) return follow_log();
   for (;;) {
     skip(end_of_unseen());
     if (at_line() && take_lines(asked)) return false;
     if (played_ == log_->next) return true;
     play(played_ + 1);
   }
+}
+
+// Where no pixels are wanted.
+bool Tia::follow_log() {
+  skip(end_of_unseen());
+  const Following painter{beam_, tia_, reached_, watches_};
+  painter.enabled();
+  RegisterEffects(tia_, frame_, video_, painter).play(played_, log_->next, log_->base);
+  played_ = log_->next;
+  return true;
 }
 
 void Tia::empty_log(std::int32_t cycle) {
@@ -115,18 +166,24 @@ void Tia::empty_log(std::int32_t cycle) {
 void Tia::catch_up(std::int32_t cycle) {
   play_log(cycle);
   touch(cycle);
+  if (!beam_.draws_pixels()) tia_.enabled = enabled_objects(tia_);
 }
 
 void Tia::find_collisions(std::int32_t cycle, Collisions asked) {
+  asked_ |= asked;
   if (play_log(cycle, asked)) touch(cycle);
 }
 
-void Tia::touch(std::int32_t cycle) { Drawing{beam_, reached_}.draw_to(3 * cycle); }
+void Tia::touch(std::int32_t cycle) {
+  if (beam_.draws_pixels()) Drawing{beam_, reached_}.come_to(3 * cycle);
+  else Following{beam_, tia_, reached_, watches_}.come_to(3 * cycle);
+}
 
 bool Tia::end_picture(std::int32_t cycle) {
   play_log(cycle);
   const std::int32_t reached = reached_;
   touch(cycle);
+  if (!beam_.draws_pixels()) tia_.enabled = enabled_objects(tia_);
   return !stopped_inside(cycle) || (reached < 3 * cycle && beam_.end_picture(reached));
 }
 
@@ -191,7 +248,6 @@ bool Tia::take_lines(Collisions asked) {
 // nothing asked for has met on that.
 bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   if (recorded_ != nullptr || !beam_.has_record()) return false;
-  const LineRecord::Known wanted = beam_.draws_pixels() ? LineRecord::kPixels : LineRecord::kMeetings;
   RegisterVectors registers(tia_);
   std::int32_t cursor = tia_.cursor;
   LineRecord* const first = &beam_.record();
@@ -199,7 +255,7 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   LineRecord* record = first;
   bool enough = false;
   for (; record != last; ++record, origin += kLineOfWrites, cursor += kLineClocks) {
-    const Likeness likeness = compare(registers, played_, origin, *record, wanted);
+    const Likeness likeness = compare(registers, played_, origin, *record);
     if (likeness < Likeness::kLooks) {
       const bool can_meet = (record->meetings & asked) != 0 || (record->view.seen & kClears) != 0;
       enough = likeness == Likeness::kBegins && asked != kWholePicture && !can_meet &&
@@ -266,7 +322,7 @@ void Tia::close_record() {
   if (recorded_ == nullptr) return;
   recorded_->view.seen |= beam_.seen();
   recorded_->meetings = beam_.meetings();
-  recorded_->known = beam_.draws_pixels() ? LineRecord::kPixels : LineRecord::kMeetings;
+  recorded_->known = true;
   recorded_->end = tia_.registers();
   recorded_ = nullptr;
 }

@@ -19,12 +19,15 @@ class Tia {
 
   // Pixels go to `picture`, writes come in `log`. Pixels::kExact: the picture shows what the reference has drawn ahead
   // of the beam at every access; then each write must be played, and each read touched, before the next.
-  void begin_step(Picture& picture, WriteLog& log, Pixels pixels);
+  // Pixels::kNone: of collisions, only the pairs `sought` are found.
+  void begin_step(Picture& picture, WriteLog& log, Pixels pixels, Collisions sought);
   void play_log(std::int32_t cycle) { play_log(cycle, kWholePicture); }  // all that was written up to `cycle`
   void empty_log(std::int32_t cycle);    // the same, and makes room; its cycles count from `cycle` from now on
   void touch(std::int32_t cycle);        // an access that changes nothing: draws up to it
   void catch_up(std::int32_t cycle);     // plays all, and draws up to `cycle`
   void find_collisions(std::int32_t cycle, Collisions asked);  // these latches stand as they do at `cycle`
+  Collisions asked() const { return asked_; }      // latches that have been read in this step
+  bool cleared() const { return beam_.cleared(); }  // all latches, in this step
   bool drew_all() const { return tia_.cursor >= beam_.end(); }  // of the window
   // The same, where nothing follows. False if an access that is not in the log may have left something to be seen.
   bool end_picture(std::int32_t cycle);
@@ -36,6 +39,7 @@ class Tia {
   static constexpr Collisions kWholePicture = 0xFFFF;  // asked: not collisions alone
 
   bool play_log(std::int32_t cycle, Collisions asked);
+  bool follow_log();
   void play(const std::uint32_t* next);
   void skip(const std::uint32_t* next);
   const std::uint32_t* end_of_unseen() const;
@@ -55,6 +59,8 @@ class Tia {
   WriteLog* log_ = nullptr;
   const std::uint32_t* played_ = nullptr;  // of its entries, up to here
   LineRecord* recorded_ = nullptr;  // the cursor's line, as far as it has been drawn
+  Collisions asked_ = 0;
+  bool watches_ = false;      // something may meet, in a step without pixels
   std::int32_t reached_ = 0;  // the beam as the reference has it: ours may be behind, with the same registers
 };
 
