@@ -57,15 +57,18 @@ class Program {
     if (random_.percent(10)) {  // a collision register, once in some frames
       put({0xA5, 0x91, 0xD0, 0x04, 0xA5, static_cast<std::uint8_t>(random_.below(8)), 0x85, 0x98});
     }
+    if (random_.percent(clears_)) put({0x85, CXCLR});
     switch (random_.below(4)) {
-      case 0: put({0xA5, static_cast<std::uint8_t>(random_.below(8))}); break;  // a collision register
+      case 0: put({0xA5, static_cast<std::uint8_t>(random_.below(reads_))}); break;  // a collision register
       case 1: put({0xA5, 0x91}); break;
       default: put({0xA9, random_.byte()}); break;
     }
-    put({0x85, static_cast<std::uint8_t>(VBLANK + (random_.percent(95) ? 3 + random_.below(CXCLR - 3) : 0))});
+    put({0x85, static_cast<std::uint8_t>(VBLANK + (random_.percent(95) ? 3 + random_.below(CXCLR - 4) : 0))});
   }
 
   Random random_;
+  const int reads_ = 1 + random_.below(8);                       // so many collision registers are read in each frame
+  const int clears_ = random_.percent(50) ? 0 : random_.below(10);  // and cleared before so many of 100 writes
   std::vector<std::uint8_t> code_;
 };
 
@@ -123,6 +126,33 @@ void play(unsigned seed, int frames) {
       }
     }
     if (saved.size() > 4) saved.erase(saved.begin());
+  }
+}
+
+// In frame 10, and in no other, the program looks whether player 0 and the playfield met in the frame before.
+std::vector<std::uint8_t> late_reader() {
+  std::vector<std::uint8_t> code = {
+      0xA9, 0x02, 0x85, VSYNC, 0x85, WSYNC, 0x85, WSYNC, 0x85, WSYNC, 0xA9, 0x00, 0x85, VSYNC,
+      0xE6, 0x90, 0xA5, 0x90, 0xC9, 0x0A, 0xD0, 0x04, 0xA5, 0x02, 0x85, 0x98,  // CXP0FB
+      0x85, CXCLR, 0xA9, 0xFF, 0x85, GRP0, 0x85, PF0, 0x85, PF1, 0x85, PF2,
+      0xA2, 0xFA, 0x85, WSYNC, 0xCA, 0xD0, 0xFB, 0x4C, 0x00, 0xF0};
+  code.resize(4096);
+  code[0xFFD] = 0xF0;
+  return code;
+}
+
+TEST_CASE("A collision that nobody had looked for is known when it is read at last") {
+  const auto rom = std::make_shared<const std::vector<std::uint8_t>>(late_reader());
+  const bool draws_that = GENERATE(false, true);
+  Machine machine(rom, {});
+  Console& console = machine.console;
+  console.set_ram(0x10, 0);
+  console.set_ram(0x18, 0);
+  for (int frame = 0; frame <= 12; ++frame) {  // the program counts from the end of the first VSYNC on
+    INFO("frame " << frame << ", the tenth drawn: " << draws_that);
+    console.step(draws_that && frame == 10);
+    REQUIRE(int{console.ram()[0x10]} == frame);
+    REQUIRE((console.ram()[0x18] & 0x80) == (frame >= 10 ? 0x80 : 0));
   }
 }
 
