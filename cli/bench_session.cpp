@@ -26,7 +26,9 @@ constexpr int kMostTimes = 1'000'000;
 class BenchSession {
  public:
   BenchSession(const Cartridge& cartridge, const MachineOptions& options, bool look)
-      : cartridge_(cartridge), options_(options), look_(look), environment_(power_on(cartridge, options)) {}
+      : cartridge_(cartridge), options_(options), look_(look), environment_(power_on(cartridge, options)) {
+    if (!look_) environment_.set_drawing(Drawing::kNone);
+  }
 
   Json play(const std::vector<int>& actions) {
     begin();
