@@ -51,10 +51,19 @@ struct LineRecord {
   Collisions meetings;  // pairs that met on the line, after the last CXCLR
   LineView view;        // why bytes count
   bool known = false;   // the buffer's row shows this line
+  std::uint8_t fruitless = 0;  // so many lines that were drawn here were not met again
   bool summed_up;            // then `start` and `end` are 0 but for these bytes
   std::uint8_t count;        // of events
   std::int8_t hmove_cycle;   // of the last HMOVE, if the line kMoves
   std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
+
+  // Another line is drawn here: is it to be remembered? Where nothing was of use for some frames, only now and then.
+  bool is_worthwhile() {
+    constexpr std::uint8_t kPatience = 8, kRest = 24;
+    if (known && summed_up) fruitless = 0;
+    else fruitless = fruitless < kRest ? static_cast<std::uint8_t>(fruitless + 1) : kPatience;
+    return fruitless <= kPatience;
+  }
 
   void open(const TiaRegisters& registers);
 

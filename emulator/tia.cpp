@@ -294,7 +294,7 @@ void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
 
 // Draws the cursor's line up to the last write, or to its end if the next one lies beyond: then it returns true.
 bool Tia::draw_line(std::uint32_t origin) {
-  if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr) {
+  if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr && beam_.record().is_worthwhile()) {
     recorded_ = &beam_.record();
     recorded_->open(tia_.registers());
     beam_.look_afresh();
@@ -309,6 +309,8 @@ bool Tia::draw_line(std::uint32_t origin) {
 // lines, or are too many, are left, and the line is not remembered.
 bool Tia::record_writes(std::uint32_t origin) {
   const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;
+  if (recorded_ == nullptr)
+    while (LineWrite(*next, origin).acts_here()) ++next;
   play(next);
   const LineWrite write(*next, origin);
   if (!write.is_of_line()) return true;
