@@ -154,8 +154,7 @@ RACEBEAM_INLINE void Beam::draw_visible(std::uint8_t* row, int first, int last) 
     if (draws_pixels()) std::memset(row + first, 0, static_cast<std::size_t>(last - first));
     return;
   }
-  const bool score = (tia_.enabled & object_bit(kPlayfield)) != 0 && (tia_.ctrlpf & 2) != 0;
-  seen_ |= tia_.enabled | kLit | (score ? kScoreSeen : 0);
+  note_seen();
   collide(first, last);
   if (draws_pixels()) draw_pixels_(line_, tia_, row, first, last);
   if (exact_spans()) spill(row, first, last);

@@ -47,6 +47,11 @@ class Beam {
     if (clock > tia_.cursor && !pass_blank(clock)) draw_beyond(clock);
   }
 
+  // The same, if only these pixels will be others: there is nothing to draw yet when none of them has been passed.
+  RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart& part) {
+    if (clock > tia_.cursor && !pass_blank(clock) && !passes_none(clock, part)) draw_beyond(clock);
+  }
+
   // Goes there without a look at what lines show, but not without acting on their ends.
   void pass_to(std::int32_t clock);
 
@@ -110,6 +115,19 @@ class Beam {
     tia_.cursor = clock;
     tia_.left -= clocks;
     return true;
+  }
+
+  bool passes_none(std::int32_t clock, const PlayfieldPart& part) {
+    if (exact_spans() || tia_.cursor < start_ || clock > line_end() || clock > end_) return false;
+    const int first = kLinePixels - tia_.left, last = first + clock - tia_.cursor;
+    const bool left = first < part.left_end && last > part.left, right = first < part.right_end && last > part.right;
+    if (left || right) return false;
+    note_seen();
+    return true;
+  }
+  RACEBEAM_INLINE void note_seen() {
+    const bool score = (tia_.enabled & object_bit(kPlayfield)) != 0 && (tia_.ctrlpf & 2) != 0;
+    seen_ |= tia_.enabled | kLit | (score ? kScoreSeen : 0);
   }
 
   void draw_beyond(std::int32_t clock);

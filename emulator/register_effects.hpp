@@ -192,8 +192,16 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, std::uint8_t value, std::int32_t cycle) {
   static constexpr std::uint8_t kDelay[4] = {4, 5, 2, 3};  // until the next block of four pixels
-  const std::int32_t clock = 3 * cycle;
-  assign(tia_.pf[which], value, clock + kDelay[line_cycle(cycle) % 4], kPlayfieldBit);
+  static_assert(kLineCycles % 4 == 0);
+  const std::int32_t clock = 3 * cycle + kDelay[(cycle - first_cycle_) % 4];
+  std::uint8_t& reg = tia_.pf[which];
+  if (painter_.looks() && reg == value) {
+    painter_.reach(clock);
+  } else {
+    painter_.draw_before(clock, kPlayfieldParts[tia_.reflect][which]);
+    reg = value;
+    painter_.changed(kPlayfieldBit);
+  }
   control(kPlayfieldBit);
 }
 

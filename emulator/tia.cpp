@@ -17,6 +17,10 @@ struct Drawing {
 
   RACEBEAM_INLINE void reach(std::int32_t clock) const { reached = clock > reached ? clock : reached; }
   RACEBEAM_INLINE void draw_to(std::int32_t clock, unsigned) const { come_to(clock); }
+  RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart& part) const {
+    reach(clock);
+    beam.draw_before(reached, part);
+  }
   RACEBEAM_INLINE void come_to(std::int32_t clock) const {
     reach(clock);
     beam.draw_to(reached);
@@ -42,6 +46,7 @@ struct Following {
     reach(clock);
     if (watches && (objects & sought) != 0) beam.draw_to(reached);
   }
+  RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart&) const { draw_to(clock, object_bit(kPlayfield)); }
   RACEBEAM_INLINE bool minds(unsigned objects) const { return (sought & objects) != 0; }
   RACEBEAM_INLINE void come_to(std::int32_t clock) const {
     reach(clock);
@@ -66,6 +71,7 @@ struct Recalling {
 
   RACEBEAM_INLINE void reach(std::int32_t) const {}
   RACEBEAM_INLINE void draw_to(std::int32_t, unsigned) const {}
+  RACEBEAM_INLINE void draw_before(std::int32_t, const PlayfieldPart&) const {}
   static constexpr bool looks() { return false; }
   RACEBEAM_INLINE void come_to(std::int32_t) const {}
   static constexpr bool minds(unsigned) { return false; }
