@@ -51,6 +51,7 @@ void Beam::begin_frame() {
 void Beam::aim(Picture& picture, Pixels pixels, Collisions sought) {
   picture_ = &picture;
   pixels_ = pixels;
+  if (draws_pixels() && picture.line.empty()) picture.line.resize(static_cast<std::size_t>(video_.height));
   forgotten_ = draws_pixels() ? 0 : std::numeric_limits<std::int32_t>::max();
   unsought_ = draws_pixels() ? Collisions{0} : static_cast<Collisions>(~sought);
   sought_objects_ = objects_of(static_cast<Collisions>(~unsought_));
@@ -154,7 +155,8 @@ RACEBEAM_INLINE void Beam::draw_visible(std::uint8_t* row, int first, int last) 
     if (draws_pixels()) std::memset(row + first, 0, static_cast<std::size_t>(last - first));
     return;
   }
-  note_seen();
+  const bool score = (tia_.enabled & object_bit(kPlayfield)) != 0 && (tia_.ctrlpf & 2) != 0;
+  seen_ |= tia_.enabled | kLit | (score ? kScoreSeen : 0);
   collide(first, last);
   if (draws_pixels()) draw_pixels_(line_, tia_, row, first, last);
   if (exact_spans()) spill(row, first, last);

@@ -80,8 +80,8 @@ class Beam {
   void finish_line();                                       // draws the rest of the line and acts on its end
   void pass_lines(int count);  // which are there already, and whose ends have been acted on
   int lines_to_end() const { return (end() - 1 - tia_.cursor) / kLineClocks; }  // without the last
-  bool has_record() const { return row() < Picture::kRecordedRows; }
-  int rows_to_end_of_records() const { return Picture::kRecordedRows - static_cast<int>(row()); }
+  bool has_record() const { return row() < picture_->line.size(); }
+  int rows_to_end_of_records() const { return static_cast<int>(picture_->line.size() - row()); }
   LineRecord& record() { return picture_->line[row()]; }
 
   RACEBEAM_INLINE void end_line() {
@@ -122,12 +122,8 @@ class Beam {
     const int first = kLinePixels - tia_.left, last = first + clock - tia_.cursor;
     const bool left = first < part.left_end && last > part.left, right = first < part.right_end && last > part.right;
     if (left || right) return false;
-    note_seen();
+    if (tia_.enabled & object_bit(kPlayfield)) seen_ |= object_bit(kPlayfield);  // if it was enabled, its place has a say
     return true;
-  }
-  RACEBEAM_INLINE void note_seen() {
-    const bool score = (tia_.enabled & object_bit(kPlayfield)) != 0 && (tia_.ctrlpf & 2) != 0;
-    seen_ |= tia_.enabled | kLit | (score ? kScoreSeen : 0);
   }
 
   void draw_beyond(std::int32_t clock);

@@ -162,6 +162,15 @@ std::shared_ptr<const Picture> Console::drawn(std::shared_ptr<Picture> picture) 
   return picture;
 }
 
+void Console::rest() {
+  impl_->spare = {};
+  for (const auto* const picture : {&impl_->pictures.current, &impl_->pictures.previous}) {
+    if (picture->use_count() > 1) continue;  // a snapshot holds it, too
+    std::atomic_thread_fence(std::memory_order_acquire);
+    (*picture)->line = {};
+  }
+}
+
 std::span<const std::uint8_t, 128> Console::ram() const { return impl_->board.state.riot.ram; }
 
 void Console::set_ram(int index, std::uint8_t value) {

@@ -42,7 +42,7 @@ class LineWrite {
 };
 
 struct LineRecord {
-  static constexpr std::size_t kMostEvents = 28;
+  static constexpr std::size_t kMostEvents = 16;
 
   TiaRegisters start;   // at the line's first clock
   TiaRegisters end;     // when the line is over
@@ -59,7 +59,7 @@ struct LineRecord {
 
   // Another line is drawn here: is it to be remembered? Where nothing was of use for some frames, only now and then.
   bool is_worthwhile() {
-    constexpr std::uint8_t kPatience = 8, kRest = 24;
+    constexpr std::uint8_t kPatience = 16, kRest = 40;
     if (known && summed_up) fruitless = 0;
     else fruitless = fruitless < kRest ? static_cast<std::uint8_t>(fruitless + 1) : kPatience;
     return fruitless <= kPatience;

@@ -21,10 +21,9 @@ struct FrameStart {
 
 struct Picture {
   static constexpr int kRows = 320;  // the window, and what a reset may shift it down by (tia.md, section 2)
-  static constexpr int kRecordedRows = 250;  // of the tallest picture that games have
 
   alignas(64) std::array<std::uint8_t, static_cast<std::size_t>(kRows) * kLinePixels> pixel{};
-  std::array<LineRecord, kRecordedRows> line;
+  std::vector<LineRecord> line;  // for each row of the window, once something has been drawn; or none
 
   // The last frame on this buffer was run without its pixels. From here it can be run again, and then fills them all.
   FrameStart undrawn;
