@@ -31,10 +31,12 @@ struct Slot {
 // What happens to a write once the cartridge has seen it.
 enum class Delivery : bool { kTaken, kToTia };
 
+using PortReader = std::uint8_t (*)(Slot&, std::uint16_t address, std::int32_t cycle);
+
 struct Acts {
   void (*reset)(Slot&);  // initial banks
   void (*map)(Slot&);    // shows what the banks select
-  std::uint8_t (*read)(Slot&, std::uint16_t address, std::int32_t cycle);  // of a hidden page, or seen at the TIA
+  PortReader read;       // of a hidden page, or seen at the TIA
   Delivery (*write)(Slot&, std::uint16_t address, std::uint8_t value);  // of any cartridge address, or seen at the TIA
 
   // Can the cartridge be in `state`, which comes from elsewhere? Whatever indexes or selects something has to be
@@ -42,6 +44,9 @@ struct Acts {
   bool (*admits)(const Slot&, const CartridgeState& state);
 
   void (*power_on)(Slot&) = nullptr;  // what is not zero before the first reset
+
+  // For code that knows its addresses beforehand: what does the work of `read` there. Null where that may select a bank.
+  PortReader (*port_reader)(std::uint16_t address) = nullptr;
 };
 
 struct Scheme : Acts {
@@ -52,7 +57,6 @@ struct Scheme : Acts {
   unsigned ram;            // bytes on the cartridge, or of its registers
   bool random_ram;         // filled at every reset
   bool watches_tia;        // takes part in accesses to the TIA's addresses
-  unsigned quiet_ports = 0;  // so many bytes of the 4K, from its start: reading them does something, but selects no bank
 };
 
 // RAM of at most this size is part of the state; larger RAM lies in a block of its own, so that the state of the many

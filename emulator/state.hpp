@@ -96,7 +96,7 @@ struct FrameState {
 
 struct CartridgeState {
   std::array<std::uint8_t, 8> bank{};   // what each window shows; its meaning is the scheme's
-  std::array<std::uint8_t, 256> ram{};  // on-board RAM, or registers; larger RAM lies beside the state (scheme.hpp)
+  alignas(4) std::array<std::uint8_t, 256> ram{};  // on-board RAM, or registers; larger lies beside the state (scheme.hpp)
 };
 
 // No frame lasts so long but that of a program that has gone astray; between two steps, T is below this.

@@ -18,7 +18,7 @@ PARTS = (
     ("CPU, translator", r"emulator/translator/(?!bus_calls)"),
     ("CPU, interpreter", r"emulator/(core|cpu|opcodes|operations|addressing|decimal|timer_loop|inlining)\b"),
     ("TIA, log and registers", r"emulator/(tia|write_log|register_effects|registers|vectors|motion)\b"),
-    ("TIA, lines and pixels", r"emulator/(beam|line|line_key|objects|picture|pixel_mask|palette)\b"),
+    ("TIA, lines and pixels", r"emulator/(beam|line|line_key|line_record|objects|picture|pixel_mask|palette)\b"),
     ("sound", r"emulator/sound\b"),
     ("bus, cartridge, RIOT", r"emulator/"),
     ("rules", r"games/"),

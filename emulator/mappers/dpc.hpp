@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <new>
 
 #include "emulator/mappers/atari.hpp"
 
@@ -28,34 +29,26 @@ struct Fetcher {
   void set_high(unsigned high) { counter = static_cast<std::uint16_t>((high & 7) << 8 | low()); }
 };
 
-// Kept in the bytes that other schemes have RAM in.
+// Kept in the bytes that other schemes have RAM in, and used there.
 struct Chip {
-  double fraction;  // of a music clock, not yet counted
+  [[gnu::packed]] double fraction;  // of a music clock, not yet counted
   std::array<Fetcher, kFetchers> fetcher;
   std::uint8_t random, spare[7];
 };
 static_assert(sizeof(Chip) <= kRamInState && std::is_trivially_copyable_v<Chip>);
+static_assert(alignof(Chip) <= alignof(CartridgeState));
 
-inline Chip chip_of(const Slot& slot) {
-  Chip chip;
-  std::memcpy(&chip, slot.state.ram.data(), sizeof chip);
-  return chip;
-}
-
-inline void keep(Slot& slot, const Chip& chip) { std::memcpy(slot.state.ram.data(), &chip, sizeof chip); }
+inline Chip& chip_of(Slot& slot) { return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data())); }
 
 // Once: a reset leaves the fetchers alone.
 inline void power_on(Slot& slot) {
-  Chip chip{};
-  chip.random = 1;
-  keep(slot, chip);
+  chip_of(slot) = Chip{};
+  chip_of(slot).random = 1;
 }
 
 inline void reset(Slot& slot) {
   atari::reset(slot);
-  Chip chip = chip_of(slot);
-  chip.fraction = 0;
-  keep(slot, chip);
+  chip_of(slot).fraction = 0;
 }
 
 inline void map(Slot& slot) {
@@ -71,26 +64,44 @@ inline void touch(Slot& slot, std::uint16_t address) {
   map(slot);
 }
 
-inline void clock_random(Chip& chip) {
-  const unsigned r = chip.random;
-  const unsigned in = ~(r >> 7 ^ r >> 5 ^ r >> 4 ^ r >> 3) & 1;
-  chip.random = static_cast<std::uint8_t>(r << 1 | in);
-}
+constexpr std::array<std::uint8_t, 256> kNextRandom = [] {
+  std::array<std::uint8_t, 256> next{};
+  for (unsigned r = 0; r < next.size(); ++r)
+    next[r] = static_cast<std::uint8_t>(r << 1 | (~(r >> 7 ^ r >> 5 ^ r >> 4 ^ r >> 3) & 1));
+  return next;
+}();
+
+inline void clock_random(Chip& chip) { chip.random = kNextRandom[chip.random]; }
 
 // A music fetcher goes round from its top to 0, and is loud from the top down to the bottom.
 inline void count_down(Fetcher& fetcher, int clocks) {
   const int period = fetcher.top + 1;
-  int low = fetcher.top == 0 ? 0 : fetcher.low() - clocks % period;
+  if (clocks >= period) [[unlikely]] clocks %= period;  // a division
+  int low = fetcher.top == 0 ? 0 : fetcher.low() - clocks;
   if (low < 0) low += period;
   fetcher.set_low(static_cast<unsigned>(low));
-  if (low <= fetcher.bottom) fetcher.flag = 0x00;
-  else if (low <= fetcher.top) fetcher.flag = 0xFF;
+  const std::uint8_t flag = low <= fetcher.top ? 0xFF : fetcher.flag;
+  fetcher.flag = low <= fetcher.bottom ? 0x00 : flag;
+}
+
+// Music clocks in so many cycles; the usual ones without a division.
+constexpr double divided_clocks(std::int32_t cycles) { return 15750.0 * cycles / 1193191.66666667; }
+
+constexpr std::array<double, 256> kClocks = [] {
+  std::array<double, 256> clocks{};
+  for (std::int32_t cycles = 0; cycles < 256; ++cycles) clocks[static_cast<std::size_t>(cycles)] = divided_clocks(cycles);
+  return clocks;
+}();
+
+inline double clocks_in(std::int32_t cycles) {
+  const auto number = static_cast<std::uint32_t>(cycles);
+  return number < kClocks.size() ? kClocks[number] : divided_clocks(cycles);
 }
 
 inline void run_music(Slot& slot, Chip& chip, std::int32_t cycle) {
   const auto passed = static_cast<std::int32_t>(static_cast<std::uint32_t>(cycle) - slot.machine.frame.cartridge_clock);
   slot.machine.frame.cartridge_clock = static_cast<std::uint32_t>(cycle);
-  const double clocks = 15750.0 * passed / 1193191.66666667 + chip.fraction;
+  const double clocks = clocks_in(passed) + chip.fraction;
   const int whole = static_cast<int>(clocks);
   chip.fraction = clocks - whole;
   if (whole <= 0) return;
@@ -103,30 +114,51 @@ inline std::uint8_t amplitude(const Chip& chip) {
   static constexpr std::uint8_t kLevels[8] = {0, 4, 5, 9, 6, 10, 11, 15};
   unsigned voices = 0;
   for (unsigned i = kFirstMusic; i < kFetchers; ++i)
-    if (chip.fetcher[i].music && chip.fetcher[i].flag) voices |= 1U << (i - kFirstMusic);
+    voices |= static_cast<unsigned>(chip.fetcher[i].music & chip.fetcher[i].flag) << (i - kFirstMusic);
   return kLevels[voices];
 }
 
-inline std::uint8_t fetch(Slot& slot, Chip& chip, std::uint16_t address, std::int32_t cycle) {
+// What the eight functions of a fetcher read as.
+enum Function : unsigned { kRandomOrSound, kDisplayed, kMasked, kFlag = 7 };
+
+template <unsigned kFunction>
+std::uint8_t fetch(Slot& slot, std::uint16_t address, std::int32_t cycle) {
+  Chip& chip = chip_of(slot);
+  clock_random(chip);
   const unsigned number = address & 7;
   Fetcher& fetcher = chip.fetcher[number];
   if (fetcher.low() == fetcher.top) fetcher.flag = 0xFF;
   else if (fetcher.low() == fetcher.bottom) fetcher.flag = 0x00;
 
-  const std::uint8_t display = slot.rom[kDisplay + kDisplaySize - 1 - fetcher.counter];
+  const auto displayed = [&] { return slot.rom[kDisplay + kDisplaySize - 1 - fetcher.counter]; };
   std::uint8_t result = 0;
-  switch (address >> 3 & 7) {
-    case 0:
-      if (number >= 4) run_music(slot, chip, cycle);
-      result = number < 4 ? chip.random : amplitude(chip);
-      break;
-    case 1: result = display; break;
-    case 2: result = display & fetcher.flag; break;
-    case 7: result = fetcher.flag; break;
-    default: break;
+  if (kFunction == kRandomOrSound && number < 4) {
+    result = chip.random;
+  } else if (kFunction == kRandomOrSound) {
+    run_music(slot, chip, cycle);
+    result = amplitude(chip);
+  } else if (kFunction == kDisplayed) {
+    result = displayed();
+  } else if (kFunction == kMasked) {
+    result = displayed() & fetcher.flag;
+  } else if (kFunction == kFlag) {
+    result = fetcher.flag;
   }
   if (!fetcher.music) fetcher.counter = (fetcher.counter - 1) & (kDisplaySize - 1);
   return result;
+}
+
+// What is no fetcher's is the image's.
+inline std::uint8_t read_image(Slot& slot, std::uint16_t address, std::int32_t) {
+  clock_random(chip_of(slot));
+  return atari::bank(slot)[address & 0xFFF];
+}
+
+inline PortReader port_reader(std::uint16_t address) {
+  static constexpr PortReader kReaders[8] = {fetch<0>, fetch<1>, fetch<2>, fetch<3>, fetch<4>, fetch<5>, fetch<6>, fetch<7>};
+  const unsigned offset = address & 0xFFF;
+  if (offset < kReadPort) return kReaders[offset >> 3];
+  return offset < kPorts ? read_image : nullptr;
 }
 
 inline void set_register(Chip& chip, std::uint16_t address, std::uint8_t value) {
@@ -162,22 +194,17 @@ inline bool admits(const Slot& slot, const CartridgeState& state) {
 }
 
 inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t cycle) {
-  const unsigned offset = address & 0xFFF;
+  if (const PortReader reader = port_reader(address)) return reader(slot, address, cycle);
   touch(slot, address);
-  Chip chip = chip_of(slot);
-  clock_random(chip);
-  const std::uint8_t value = offset < kReadPort ? fetch(slot, chip, address, cycle) : atari::bank(slot)[offset];
-  keep(slot, chip);
-  return value;
+  return read_image(slot, address, cycle);
 }
 
 inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t value) {
   const unsigned offset = address & 0xFFF;
   touch(slot, address);
-  Chip chip = chip_of(slot);
+  Chip& chip = chip_of(slot);
   clock_random(chip);
   if (offset >= kReadPort && offset < kPorts) set_register(chip, address, value);
-  keep(slot, chip);
   return Delivery::kTaken;
 }
 

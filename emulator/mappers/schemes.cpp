@@ -40,7 +40,7 @@ constexpr Acts kF4sc     = {atari::reset,           atari::map,          atari::
 constexpr Acts kE0       = {parker::reset,          parker::map,         parker::read,   parker::write,         parker::admits};
 constexpr Acts kE7       = {mnetwork::reset,        mnetwork::map,       mnetwork::read, mnetwork::write,       mnetwork::admits};
 constexpr Acts kFe       = {activision::reset,      activision::map,     no_hidden_page, kIgnore,               no_banks};
-constexpr Acts kDpc      = {dpc::reset,             dpc::map,            dpc::read,      dpc::write,            dpc::admits, dpc::power_on};
+constexpr Acts kDpc      = {dpc::reset,             dpc::map,            dpc::read,      dpc::write,            dpc::admits, dpc::power_on, dpc::port_reader};
 constexpr Acts k3f       = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write,    tigervision::admits};
 constexpr Acts k3e       = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e, tigervision::admits_3e};
 constexpr Acts kUa       = {atari::reset,           ua::map,             ua::read,       ua::write,             atari::admits};
@@ -68,7 +68,7 @@ constexpr Scheme kSchemes[] = {
     {kE0,       "E0",           8192, 0,        0, 0,     0, false, false},
     {kE7,       "E7",          16384, 0,        0, 0,  2048, true,  false},
     {kFe,       "FE",           8192, 0,        0, 0,     0, false, false},
-    {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false, false, 0x80},
+    {kDpc,      "DPC",         10240, 0xFF8,    2, 1, kChip, false, false},
     {k3f,       "3F",           2048, 0,        0, 0,     0, false, true},
     {k3e,       "3E",           2048, 0,        0, 0, 32768, true,  true},
     {kUa,       "UA",           8192, 0,        2, 0,     0, false, true},

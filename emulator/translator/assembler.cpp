@@ -19,6 +19,8 @@ Layout::Layout(Board& board) {
   stop = at(board.stop);
   code_span = at(board.code.span);
   last_access = at(board.last_access_);
+  slot = at(board.slot);
+  sound = at(board.sound.registers);
   limit = at(board.translated.limit);
   first_line = at(board.translated.first_line);
   nz = at(board.translated.nz);

@@ -18,7 +18,7 @@ namespace racebeam::translator {
 struct Layout {
   explicit Layout(Board& board);
 
-  std::int32_t ram, a, x, y, sp, cycle, pages, stop, code_span, last_access;
+  std::int32_t ram, a, x, y, sp, cycle, pages, stop, code_span, last_access, slot, sound;
   std::int32_t limit, first_line, nz, carry, overflow, decimal, interrupt;
 };
 

@@ -99,6 +99,7 @@ class BlockEmitter {
   void write_fixed(const Instruction& instruction, Reg32 value);
   void append(const Instruction& instruction, unsigned reg, Reg32 value);
   void touch_tia(int cycles);
+  void write_sound(const Instruction& instruction, unsigned reg, Reg32 value);
   void write_hmclr(const Instruction& instruction, Reg32 value);
   void write_register(const Instruction& instruction, unsigned reg, Reg32 value);
   void write_wsync(const Instruction& instruction);

@@ -27,7 +27,14 @@ BlockEmitter::Value BlockEmitter::read(const Instruction& instruction) {
 BlockEmitter::Value BlockEmitter::read_fixed(const Instruction& instruction) {
   const std::uint16_t address = instruction.operand;
   if (is_ram(address)) return {Value::Kind::kMemory, 0, as_.rbx + (as_.layout.ram + (address & 0x7F))};
-  if (!is_cartridge(address) || as_.window.is_quiet_port(address)) {
+  if (const PortReader reader = as_.window.port_reader(address)) {
+    as_.lea(as_.edx, as_.ptr[as_.rbp + (elapsed_ + instruction.cycles)]);
+    call_port(as_, reader, address);
+    if (rom_loaded_) load_rom_again();
+    clobbered_flags();
+    return {Value::Kind::kEax};
+  }
+  if (!is_cartridge(address)) {
     as_.mov(as_.eax, address);
     as_.mov(as_.ecx, instruction.length == 3 ? high_byte(address) : address);  // the operand was on the bus before
     read_device(instruction, here());

@@ -43,9 +43,11 @@ void BlockEmitter::write_fixed(const Instruction& instruction, Reg32 value) {
   }
   const unsigned reg = address & 0x3F;
   if (is_tia(address) && (as_.window.plain_registers >> reg & 1) != 0) return write_register(instruction, reg, value);
-  if (is_tia(address) && reg == WSYNC && !as_.window.cartridge_watches()) return write_wsync(instruction);
-  if (is_tia(address) && reg == HMCLR && !as_.window.cartridge_watches()) return write_hmclr(instruction, value);
-  if (is_tia(address) && reg > CXCLR && !as_.window.cartridge_watches()) return touch_tia(elapsed_ + instruction.cycles);
+  const bool is_free = is_tia(address) && !as_.window.cartridge_watches();
+  if (is_free && reg == WSYNC) return write_wsync(instruction);
+  if (is_free && reg == HMCLR) return write_hmclr(instruction, value);
+  if (is_free && reg >= AUDC0 && reg <= AUDV1) return write_sound(instruction, reg, value);
+  if (is_free && reg > CXCLR) return touch_tia(elapsed_ + instruction.cycles);
   as_.mov(as_.eax, address);
   call_write(instruction, value, here());
 }
@@ -54,6 +56,12 @@ void BlockEmitter::write_fixed(const Instruction& instruction, Reg32 value) {
 void BlockEmitter::touch_tia(int cycles) {
   as_.lea(as_.edx, as_.ptr[as_.rbp + cycles]);
   as_.mov(as_.dword_of(as_.layout.last_access), as_.edx);
+}
+
+// Sound::write, in line.
+void BlockEmitter::write_sound(const Instruction& instruction, unsigned reg, Reg32 value) {
+  as_.mov(as_.byte_of(as_.layout.sound + static_cast<int>(reg - AUDC0)), value.cvt8());
+  touch_tia(elapsed_ + instruction.cycles);
 }
 
 // WriteLog::append, in line: the motions are something else now.

@@ -64,6 +64,13 @@ void call_read(Assembler& as) {
   call(as, read_bus);
 }
 
+void call_port(Assembler& as, PortReader reader, std::uint16_t address) {
+  as.lea(as.rdi, as.ptr[as.rbx + as.layout.slot]);
+  as.mov(as.esi, address);
+  call(as, reader);
+  as.movzx(as.eax, as.al);
+}
+
 void call_write_bus(Assembler& as) {
   as.mov(as.rdi, as.rbx);
   as.mov(as.esi, as.eax);

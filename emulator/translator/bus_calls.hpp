@@ -8,8 +8,11 @@
 
 namespace racebeam::translator {
 
-// eax: address of the TIA, the RIOT, or a quiet port; ecx: the data bus before; edx: cycle. Answers the byte in eax.
+// eax: address of the TIA or the RIOT; ecx: the data bus before; edx: cycle. Answers the byte in eax.
 void call_read(Assembler& as);
+
+// edx: cycle. Answers the byte of a port of the cartridge in eax.
+void call_port(Assembler& as, PortReader reader, std::uint16_t address);
 
 // eax: address; ecx: value; edx: cycle. Answers the cycle after it in eax.
 void call_write_bus(Assembler& as);

@@ -48,7 +48,8 @@ bool may_switch_banks(const Instruction& instruction, const Window& window) {
     return is_cartridge(instruction.operand) && ((instruction.operand - window.code.first) & 0x3FFFU) + count <= window.code.span;
   };
   switch (instruction.mode) {
-    case Mode::absolute: return is_cartridge(instruction.operand) && !in_window(1) && !window.is_quiet_port(instruction.operand);
+    case Mode::absolute:
+      return is_cartridge(instruction.operand) && !in_window(1) && window.port_reader(instruction.operand) == nullptr;
     case Mode::absolute_x: case Mode::absolute_y: return !in_window(256);
     case Mode::indirect_x: case Mode::indirect_y: return true;
     default: return false;

@@ -56,7 +56,7 @@ const std::string& refusal() {
 
 struct Translator::Impl {
   explicit Impl(Board& board)
-      : code(translator::ImageCode::of(board.slot.rom, {board.plain_registers(), board.slot.scheme.quiet_ports})), layout(board) {}
+      : code(translator::ImageCode::of(board.slot.rom, {board.plain_registers(), board.slot.scheme.port_reader})), layout(board) {}
 
   // The windows that were looked into last: a bank switch finds its way back without asking the image.
   struct Seen {

@@ -3,17 +3,22 @@
 #include <cstdint>
 
 #include "emulator/memory_map.hpp"
+#include "emulator/scheme.hpp"
 
 namespace racebeam::translator {
 
 // What all boards with the same cartridge scheme have in common.
 struct Wiring {
   std::uint64_t plain_registers;  // of the TIA: writes that only go to the log
-  unsigned quiet_ports;           // of the scheme
+  PortReader (*port_reader_at)(std::uint16_t address);  // of the scheme
 
   bool operator==(const Wiring&) const = default;
   bool cartridge_watches() const { return plain_registers == 0; }  // accesses to the TIA
-  bool is_quiet_port(std::uint16_t address) const { return (address & 0x1000) != 0 && (address & 0x0FFFU) < quiet_ports; }
+
+  // What reads a port of the cartridge that selects no bank; null if there is none at `address`.
+  PortReader port_reader(std::uint16_t address) const {
+    return (address & 0x1000) != 0 && port_reader_at != nullptr ? port_reader_at(address) : nullptr;
+  }
 };
 
 // What the code of a window is translated for: constant as long as it is valid.
