@@ -23,7 +23,7 @@ struct Core {
   std::int32_t budget;     // instructions still to run
   std::uint32_t at;        // PC, counted from the start of the code window
   std::uint8_t A, X, Y, SP;
-  std::uint8_t n, z;       // N is bit 7 of n; Z is set when z is 0
+  std::uint32_t nz;        // N is bit 15 or bit 7; Z is set when bits 7-0 are 0
   std::uint8_t C, V, D, I; // 0 or 1
   std::uint8_t latch;      // the data bus after the last access
   const std::uint8_t* code = nullptr;  // the bytes of the instruction that runs
@@ -52,19 +52,21 @@ struct Core {
 
   // The status byte as it is pushed: bits 5 and 4 are always 1.
   RACEBEAM_INLINE std::uint8_t status() const {
-    return static_cast<std::uint8_t>((n & 0x80) | V << 6 | 0x30 | D << 3 | I << 2 | (z == 0) << 1 | C);
+    return static_cast<std::uint8_t>(is_negative() << 7 | V << 6 | 0x30 | D << 3 | I << 2 | is_zero() << 1 | C);
   }
 
   RACEBEAM_INLINE void set_status(std::uint8_t p) {
-    n = p;
     V = p >> 6 & 1;
     D = p >> 3 & 1;
     I = p >> 2 & 1;
-    z = static_cast<std::uint8_t>(~p & 2);
     C = p & 1;
+    set_nz(p, ~p & 2);
   }
 
-  RACEBEAM_INLINE void set_nz(std::uint8_t value) { n = z = value; }
+  RACEBEAM_INLINE void set_nz(std::uint8_t value) { nz = value; }
+  RACEBEAM_INLINE void set_nz(std::uint8_t negative, std::uint32_t nonzero) { nz = (negative & 0x80U) << 8 | nonzero; }
+  RACEBEAM_INLINE bool is_negative() const { return (nz & 0x8080) != 0; }
+  RACEBEAM_INLINE bool is_zero() const { return (nz & 0xFF) == 0; }
 
   RACEBEAM_INLINE std::uint8_t read(std::uint16_t address) {
     const std::uint8_t* page = board.map.page_of(address);
@@ -81,9 +83,7 @@ struct Core {
   RACEBEAM_INLINE unsigned fetch_opcode() {
     if (at < board.code.span) [[likely]] code = board.code.memory + at;
     else locate_code();
-    const unsigned opcode = code[0];
-    latch = static_cast<std::uint8_t>(opcode);
-    return opcode;
+    return code[0];
   }
 
   RACEBEAM_INLINE void locate_code() {
@@ -92,8 +92,9 @@ struct Core {
     jump(pc);
   }
 
-  // Its cycles up to the end but penalties.
-  RACEBEAM_INLINE void begin(std::int32_t base_cycles) {
+  // It has been fetched: its cycles up to the end but penalties.
+  RACEBEAM_INLINE void begin(std::uint8_t opcode, std::int32_t base_cycles) {
+    latch = opcode;
     ++at;
     cycle += base_cycles;
   }

@@ -94,7 +94,7 @@ void interpret(Board& board, std::int32_t instructions) {
 
   NEXT();
 #define OP(code, name, mode_name, access, cycles)                                \
-  op_##code : cpu.begin(cycles);                                                 \
+  op_##code : cpu.begin(0x##code, cycles);                                                 \
   access<mode::mode_name<is_read(#access[0])>, operation::name>(cpu);            \
   NEXT();
 #include "emulator/opcodes.inc"

@@ -54,8 +54,7 @@ RACEBEAM_INLINE void cpx(Core& cpu, Byte m) { compare(cpu, cpu.X, m); }
 RACEBEAM_INLINE void cpy(Core& cpu, Byte m) { compare(cpu, cpu.Y, m); }
 
 RACEBEAM_INLINE void bit(Core& cpu, Byte m) {
-  cpu.n = m;
-  cpu.z = cpu.A & m;
+  cpu.set_nz(m, cpu.A & m);
   cpu.V = m >> 6 & 1;
 }
 
@@ -190,14 +189,14 @@ RACEBEAM_INLINE void dex(Core& cpu) { cpu.set_nz(--cpu.X); }
 RACEBEAM_INLINE void dey(Core& cpu) { cpu.set_nz(--cpu.Y); }
 
 // Branch: is it taken?
-RACEBEAM_INLINE bool bpl(Core& cpu) { return (cpu.n & 0x80) == 0; }
-RACEBEAM_INLINE bool bmi(Core& cpu) { return (cpu.n & 0x80) != 0; }
+RACEBEAM_INLINE bool bpl(Core& cpu) { return !cpu.is_negative(); }
+RACEBEAM_INLINE bool bmi(Core& cpu) { return cpu.is_negative(); }
 RACEBEAM_INLINE bool bvc(Core& cpu) { return cpu.V == 0; }
 RACEBEAM_INLINE bool bvs(Core& cpu) { return cpu.V != 0; }
 RACEBEAM_INLINE bool bcc(Core& cpu) { return cpu.C == 0; }
 RACEBEAM_INLINE bool bcs(Core& cpu) { return cpu.C != 0; }
-RACEBEAM_INLINE bool bne(Core& cpu) { return cpu.z != 0; }
-RACEBEAM_INLINE bool beq(Core& cpu) { return cpu.z == 0; }
+RACEBEAM_INLINE bool bne(Core& cpu) { return !cpu.is_zero(); }
+RACEBEAM_INLINE bool beq(Core& cpu) { return cpu.is_zero(); }
 
 // Stack and jumps, in the order of accesses of cpu.md, section 4.
 RACEBEAM_INLINE void pha(Core& cpu) { cpu.push(cpu.A); }
