@@ -30,7 +30,7 @@ class TiaWrite {
 // What of its writes a step has not played yet, for one machine at a time: a scratch list that machines share.
 // Of writes that repeat what the register holds nothing is kept, nor of reads: where they can be seen, the step is run
 // again, access by access (Board::end_step, Console::Impl::run_step). Translated code appends as
-// append_change() does, and finds the members at fixed places; it may mark kUnsettled more often than needed.
+// append_change() does, and finds the members at fixed places.
 struct WriteLog {
   // No step has more instructions than half of this; a plain store is one entry, and whoever appends more, or waits,
   // asks is_short_of_room() first. So neither the list nor the cycle's 18 bits can overflow, whatever the program does.
@@ -92,10 +92,10 @@ struct WriteLog {
 
   // The same, unless it repeats the last one and the register only holds what is written.
   void append_change(std::int32_t cycle, unsigned reg, std::uint8_t value) {
-    const std::uint16_t before = written[reg];
-    if (before == value) return;
-    written[reg] = value | kNeverRepeats[reg];
-    if ((before & ~kUnsettled) != value) written[kDisturbed[reg]] |= kUnsettled;
+    const unsigned before = written[reg], after = value;
+    if (before == after) return;
+    written[reg] = static_cast<std::uint16_t>(after | kNeverRepeats[reg]);
+    if ((before & ~unsigned{kUnsettled}) != after) written[kDisturbed[reg]] |= kUnsettled;
     *next++ = TiaWrite(cycle - base, reg, value).packed();
   }
 };

@@ -81,11 +81,19 @@ void BlockEmitter::write_register(const Instruction& instruction, unsigned reg, 
   const Xbyak::Reg16 word_value(value.getIdx());
   Xbyak::Label repeated;
   if (WriteLog::kNeverRepeats[reg] == 0) {
+    const unsigned other = WriteLog::kDisturbed[reg];
+    if (other != WriteLog::kNobody) as_.movzx(as_.edx, as_.word[as_.r15 + written(reg)]);
     as_.cmp(as_.word[as_.r15 + written(reg)], word_value);
     as_.je(repeated);
     as_.mov(as_.word[as_.r15 + written(reg)], word_value);
-    if (const unsigned other = WriteLog::kDisturbed[reg]; other != WriteLog::kNobody)
+    if (other != WriteLog::kNobody) {
+      Xbyak::Label same_value;
+      as_.and_(as_.edx, WriteLog::kUnknown | 0xFF);
+      as_.cmp(as_.edx, value);
+      as_.je(same_value);
       as_.or_(as_.byte[as_.r15 + written(other) + 1], WriteLog::kUnsettled >> 8);
+      as_.L(same_value);
+    }
   }
   append(instruction, reg, value);
   as_.L(repeated);
