@@ -10,15 +10,15 @@ using Address = std::uint16_t;
 
 template <bool kPenalty>
 RACEBEAM_INLINE Address indexed(Core& cpu, Address base, std::uint8_t index) {
-  const Address address = static_cast<Address>(base + index);
-  if (kPenalty && (address ^ base) > 0xFF) ++cpu.cycle;
-  return address;
+  if (kPenalty) cpu.add_penalty((base & 0xFFU) + index);
+  return static_cast<Address>(base + index);
 }
 
 // A pointer in the zero page; its high byte is read from p+1, which is $0100 when p is $FF.
 RACEBEAM_INLINE Address pointer(Core& cpu, std::uint8_t p) {
+  if (p >= 0x80 && p != 0xFF) [[likely]] return cpu.read_word_of_ram(p);
   const std::uint8_t low = cpu.read(ZeroPage{p});
-  if (p == 0xFF) [[unlikely]] return static_cast<Address>(low | cpu.read(0x0100) << 8);
+  if (p == 0xFF) return static_cast<Address>(low | cpu.read(0x0100) << 8);
   return static_cast<Address>(low | cpu.read(ZeroPage{static_cast<std::uint8_t>(p + 1)}) << 8);
 }
 

@@ -145,7 +145,7 @@ const std::uint8_t* Board::fetch_slowly(std::uint16_t pc, std::uint8_t latch, st
   latch = opcode;
   for (unsigned i = 1; i < kOpcodes[opcode].length; ++i)
     fetched_[i] = latch = read(static_cast<std::uint16_t>(pc + i), latch, cycle + kOpcodes[opcode].cycles);
-  code.span = 0;
+  code = {fetched_.data(), pc, 0, nullptr};
   return fetched_.data();
 }
 
@@ -158,14 +158,14 @@ std::uint8_t Board::read(std::uint16_t address, std::uint8_t latch, std::int32_t
 std::uint8_t Board::read_cartridge(std::uint16_t address, std::int32_t cycle) {
   const std::uint64_t banks = selected_banks();
   const std::uint8_t value = slot.scheme.read(slot, address, cycle);
-  if (selected_banks() != banks) code.span = 0;
+  if (selected_banks() != banks) code.close();
   return value;
 }
 
 Delivery Board::write_cartridge(std::uint16_t address, std::uint8_t value) {
   const std::uint64_t banks = selected_banks();
   const Delivery delivery = slot.scheme.write(slot, address, value);
-  if (selected_banks() != banks) code.span = 0;
+  if (selected_banks() != banks) code.close();
   return delivery;
 }
 
@@ -249,8 +249,7 @@ std::uint8_t Board::collision_bits(unsigned reg, std::int32_t cycle) {
 std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
   const unsigned reg = address & 0x3F;
   if (cycle >= overlong_cycle_) {
-    state.frame.open = 0;
-    stop = true;
+    close_frame();
   }
   switch (reg) {
     case VSYNC: write_vsync(value, cycle); break;
@@ -286,9 +285,14 @@ void Board::write_vsync(std::uint8_t value, std::int32_t cycle) {
     frame.vsync_finish = clock + kLineClocks;
   } else if (static_cast<std::int32_t>(clock) >= static_cast<std::int32_t>(frame.vsync_finish)) {
     frame.vsync_finish = 0x7FFFFFFF;
-    frame.open = 0;
-    stop = true;
+    close_frame();
   }
+}
+
+void Board::close_frame() {
+  state.frame.open = 0;
+  stop = true;
+  code.close();
 }
 
 void Board::write_dump(bool on, std::int32_t cycle) {

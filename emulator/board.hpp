@@ -33,7 +33,7 @@ class Board {
   Slot slot;
   std::vector<std::uint8_t> cartridge_ram;  // what doesn't fit into the state; mostly none
   WriteLog* log = nullptr;  // of the step that runs
-  CodeWindow code;    // where the CPU fetches; nowhere after the map has changed
+  CodeWindow code;    // where the CPU fetches; nowhere after the map has changed, and when the frame has closed
   bool stop = false;  // the frame has closed: the CPU ends after this instruction
 
   // What the CPU does where there is no plain memory. `latch` is the data bus before the access.
@@ -49,7 +49,8 @@ class Board {
 
   // A TIA write that only concerns the picture: the log is all it needs. There is none in an exact step.
   bool is_plain_write(std::uint16_t address, std::int32_t cycle) const {
-    return (plain_registers_ >> (address & 0x3F) & 1) != 0 && cycle < overlong_cycle_;
+    if (cycle >= overlong_cycle_) [[unlikely]] return false;
+    return (plain_registers_ >> (address & 0x3F) & 1) != 0;
   }
 
   // Moves the code window to `pc`. False where there is no plain memory, or less than an instruction needs.
@@ -82,6 +83,7 @@ class Board {
   std::uint8_t read_riot(std::uint16_t address, std::int32_t cycle);
   void write_riot(std::uint16_t address, std::uint8_t value, std::int32_t cycle);
   std::int32_t write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
+  void close_frame();
   void write_vsync(std::uint8_t value, std::int32_t cycle);
   void write_dump(bool on, std::int32_t cycle);
   [[gnu::noinline]] std::int32_t write_anywhere(std::uint16_t address, std::uint8_t value, std::int32_t cycle,

@@ -1,4 +1,4 @@
-// The 6507's registers while instructions run, and its way to the bus. Everything is inlined into run() in cpu.cpp,
+// The 6507's registers while instructions run, and its way to the bus. Everything is inlined into interpret() in cpu.cpp,
 // so that the registers are locals of one function.
 #pragma once
 
@@ -6,6 +6,7 @@
 
 #include "emulator/board.hpp"
 #include "emulator/inlining.hpp"
+#include "emulator/opcodes.hpp"
 #include "emulator/timer_loop.hpp"
 
 namespace racebeam {
@@ -19,27 +20,96 @@ struct ZeroPage {
 
 struct Core {
   Board& board;
-  std::int32_t cycle;      // T: at the end of the instruction from its second bus access on (cpu.md, section 3)
-  std::int32_t budget;     // instructions still to run
-  std::uint32_t at;        // PC, counted from the start of the code window
-  std::uint8_t A, X, Y, SP;
+  std::int64_t clock;      // cycle() and executed() in one number: an instruction counts both with one addition
+  std::uintptr_t at;       // PC, as the place in the host's memory that the code window shows there
+  std::uintptr_t start, end;  // of the window; end is 0 if locate() must be asked for the next instruction
+  std::uintptr_t origin;   // where address 0 would be
+  std::int32_t budget;     // instructions that may be executed
   std::uint32_t nz;        // N is bit 15 or bit 7; Z is set when bits 7-0 are 0
+  std::uint8_t A, X, Y, SP;
   std::uint8_t C, V, D, I; // 0 or 1
   std::uint8_t latch;      // the data bus after the last access
-  const std::uint8_t* code = nullptr;  // the bytes of the instruction that runs
+  bool counted = false;    // the alarm has been seen
 
-  explicit Core(Board& on, std::int32_t instructions)
-      : board(on), cycle(on.state.cycle), budget(instructions), A(on.state.cpu.A), X(on.state.cpu.X),
-        Y(on.state.cpu.Y), SP(on.state.cpu.SP), latch(on.state.cpu.latch) {
+  static constexpr int kCycleBit = 24;
+  static constexpr std::int64_t kCycle = 1 << kCycleBit;
+
+  // This bit of the clock is set when the budget is so short that it might end in a row of instructions without a jump;
+  // no row is longer than a window. From there on locate() counts; before, only jumps and branches look at the bit.
+  static constexpr std::int64_t kAlarm = 1 << (kCycleBit - 1);
+  static constexpr std::int32_t kLongestRow = 4096;
+
+  Core(Board& on, std::int32_t instructions)
+      : board(on), budget(instructions), A(on.state.cpu.A), X(on.state.cpu.X), Y(on.state.cpu.Y), SP(on.state.cpu.SP),
+        latch(on.state.cpu.latch) {
+    clock = on.state.cycle * kCycle + kAlarm - (budget - kLongestRow);
+    take_window();
     jump(on.state.cpu.PC);
+    end = 0;
     set_status(on.state.cpu.P);
   }
 
-  RACEBEAM_INLINE std::uint16_t PC() const { return static_cast<std::uint16_t>(board.code.first + at); }
-  RACEBEAM_INLINE void jump(std::uint16_t target) { at = static_cast<std::uint16_t>(target - board.code.first); }
+  // T: at the end of the instruction from its second bus access on (cpu.md, section 3).
+  RACEBEAM_INLINE std::int32_t cycle() const { return static_cast<std::int32_t>(clock >> kCycleBit); }
+
+  // A cycle more if bit 8 of `carry` is set.
+  RACEBEAM_INLINE void add_penalty(std::uint32_t carry) { clock += (carry & 0x100) * (kCycle >> 8); }
+  RACEBEAM_INLINE void set_cycle(std::int32_t cycle) { clock = (clock & (kCycle - 1)) + cycle * kCycle; }
+  RACEBEAM_INLINE std::int32_t executed() const {
+    return static_cast<std::int32_t>((clock & (kCycle - 1)) - kAlarm) + (budget - kLongestRow);
+  }
+
+  RACEBEAM_INLINE static const std::uint8_t* byte_at(std::uintptr_t where) {
+    return reinterpret_cast<const std::uint8_t*>(where);
+  }
+  RACEBEAM_INLINE static std::uintptr_t place(const std::uint8_t* byte) { return reinterpret_cast<std::uintptr_t>(byte); }
+
+  RACEBEAM_INLINE void take_window() {
+    start = place(board.code.memory);
+    origin = start - board.code.first;
+    end = counted ? 0 : place(board.code.end);
+  }
+
+  RACEBEAM_INLINE std::uint16_t PC() const { return static_cast<std::uint16_t>(at - origin); }
+  RACEBEAM_INLINE void jump(std::uint16_t target) {
+    at = start + static_cast<std::uint16_t>(target - static_cast<std::uint16_t>(start - origin));
+    look_at_budget();
+  }
+
+  // Answers the cycles that it takes beyond those of a branch that is not taken.
+  RACEBEAM_INLINE int branch(std::int8_t offset) {
+    const auto next = static_cast<std::uint32_t>(at - origin);
+    at += static_cast<std::uintptr_t>(std::intptr_t{offset});
+    const auto target = static_cast<std::uint32_t>(at - origin);
+    const std::uint32_t crosses = (next ^ target) & 0x100;
+    clock += kCycle;
+    add_penalty(crosses);
+    if (at < start) [[unlikely]] end = 0;
+    look_at_budget();
+    return crosses == 0 ? 1 : 2;
+  }
+
+  RACEBEAM_INLINE void look_at_budget() {
+    if (clock & kAlarm) [[unlikely]] end = 0;
+  }
+
+  // After an access to a device: the window may show something else, or the frame may have closed.
+  RACEBEAM_INLINE void look_at_window() {
+    if (board.code.end == nullptr) end = 0;
+  }
+
+  // Finds the next instruction where it may be anywhere. False if there is none to be executed.
+  RACEBEAM_INLINE bool locate() {
+    counted = (clock & kAlarm) != 0;
+    if (board.stop || board.state.cpu.jammed || (counted && executed() >= budget)) return false;
+    const std::uint16_t pc = PC(), offset = static_cast<std::uint16_t>(pc - board.code.first);
+    at = place(offset < board.code.span ? board.code.memory + offset : board.locate_code(pc, latch, cycle()));
+    take_window();
+    return true;
+  }
 
   RACEBEAM_INLINE void store_state() const {
-    board.state.cycle = cycle;
+    board.state.cycle = cycle();
     CpuState& cpu = board.state.cpu;
     cpu.PC = PC();
     cpu.A = A;
@@ -70,45 +140,39 @@ struct Core {
 
   RACEBEAM_INLINE std::uint8_t read(std::uint16_t address) {
     const std::uint8_t* page = board.map.page_of(address);
-    latch = page != nullptr ? page[address & 0x3F] : board.read_device(address, latch, cycle);
-    return latch;
+    if (page == nullptr) [[unlikely]] return read_device(address);
+    return latch = page[address & 0x3F];
   }
 
   RACEBEAM_INLINE std::uint8_t read(ZeroPage address) {
-    if (address.at < 0x80) return read(std::uint16_t{address.at});
+    if (address.at < 0x80) [[unlikely]] return read(std::uint16_t{address.at});
     return latch = board.state.riot.ram[address.at - 0x80U];
   }
 
-  // The instruction at PC: its bytes, wherever they are.
-  RACEBEAM_INLINE unsigned fetch_opcode() {
-    if (at < board.code.span) [[likely]] code = board.code.memory + at;
-    else locate_code();
-    return code[0];
+  RACEBEAM_INLINE std::uint16_t read_word_of_ram(unsigned zero_page) { return word(&board.state.riot.ram[zero_page - 0x80U]); }
+
+  RACEBEAM_INLINE std::uint8_t read_device(std::uint16_t address) {
+    latch = board.read_device(address, latch, cycle());
+    look_at_window();
+    return latch;
   }
 
-  RACEBEAM_INLINE void locate_code() {
-    const std::uint16_t pc = PC();
-    code = board.locate_code(pc, latch, cycle);
-    jump(pc);
-  }
-
-  // It has been fetched: its cycles up to the end but penalties.
+  // It has been found: its length, and its cycles up to the end but penalties.
   RACEBEAM_INLINE void begin(std::uint8_t opcode, std::int32_t base_cycles) {
     latch = opcode;
-    ++at;
-    cycle += base_cycles;
+    at += kOpcodes[opcode].length;
+    clock += base_cycles * kCycle + 1;
   }
 
   // Its operand.
-  RACEBEAM_INLINE std::uint8_t fetch() {
-    ++at;
-    return latch = code[1];
-  }
+  RACEBEAM_INLINE std::uint8_t fetch() { return latch = byte_at(at)[-1]; }
+  RACEBEAM_INLINE std::uint16_t fetch_word() { return word(byte_at(at) - 2); }
 
-  RACEBEAM_INLINE std::uint16_t fetch_word() {
-    at += 2;
-    latch = code[2];
-    return static_cast<std::uint16_t>(code[1] | latch << 8);
+  // Two bytes that are read in a row.
+  RACEBEAM_INLINE std::uint16_t word(const std::uint8_t* bytes) {
+    const auto both = static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8);
+    latch = static_cast<std::uint8_t>(both >> 8);
+    return both;
   }
 
   // A byte that is read when its turn comes, like any other.
@@ -117,11 +181,12 @@ struct Core {
   // At the end of a taken branch that may close a timer loop: goes on before the last turn. One turn is left to be run
   // in any case, for what it leaves in the registers.
   RACEBEAM_INLINE void skip_timer_loop(std::int32_t period) {
-    if (at >= board.code.span || budget < 4) return;
-    const std::int32_t sure = sure_timer_turns(code, board.state.riot, cycle + 4, period), most = budget / 2 - 1;
+    if (at >= end) return;
+    const std::uint8_t* code = byte_at(at) + 3;  // the branch
+    const std::int32_t sure = sure_timer_turns(code, board.state.riot, cycle() + 4, period);
+    const std::int32_t most = (budget - executed()) / 2 - 1;
     const std::int32_t turns = sure < most ? sure : most;
-    cycle += turns * period;
-    budget -= 2 * turns;
+    clock += turns * (period * kCycle + 2);
   }
 
   RACEBEAM_INLINE void write(ZeroPage address, std::uint8_t value) {
@@ -143,12 +208,15 @@ struct Core {
   }
 
   RACEBEAM_INLINE void write_device(std::uint16_t address, std::uint8_t value) {
-    if ((address & 0x1080) == 0 && board.is_plain_write(address, cycle)) {
-      board.log->append_change(cycle, address & 0x3F, value);
-    } else {
-      cycle = board.write_device(address, value, cycle, true);
-      if (board.stop) budget = 0;
-    }
+    const std::int32_t now = cycle();
+    if ((address & 0x1080) != 0) [[unlikely]] return write_slowly(address, value, true);
+    if (!board.is_plain_write(address, now)) [[unlikely]] return write_slowly(address, value, true);
+    board.log->append_change(now, address & 0x3F, value);
+  }
+
+  RACEBEAM_INLINE void write_slowly(std::uint16_t address, std::uint8_t value, bool after_read) {
+    set_cycle(board.write_device(address, value, cycle(), after_read));
+    look_at_window();
   }
 
   // after_read: the CPU access before this one was a read, which WSYNC asks for.
@@ -160,8 +228,7 @@ struct Core {
       board.state.riot.ram[address & 0x7F] = value;
       return;
     }
-    cycle = board.write_device(address, value, cycle, after_read);
-    if (board.stop) budget = 0;
+    write_slowly(address, value, after_read);
   }
 
   RACEBEAM_INLINE std::uint8_t pull() { return read(0x0100 | ++SP); }

@@ -1,10 +1,11 @@
 #include "emulator/cpu.hpp"
 
 #include "emulator/addressing.hpp"
+#include "emulator/followers.hpp"
 #include "emulator/operations.hpp"
 
 // Threaded dispatch: every handler ends with its own indirect jump, which a processor predicts far better than the one
-// of a switch. Labels as values are an extension of g++ and clang.
+// of a switch, after it has looked for the opcodes that often follow its own (followers.hpp). Labels as values are an extension of g++ and clang.
 #pragma GCC diagnostic ignored "-Wpedantic"
 
 namespace racebeam {
@@ -55,10 +56,7 @@ template <auto, bool (*kTaken)(Core&)>
 RACEBEAM_INLINE void Branch(Core& cpu) {
   const auto offset = static_cast<std::int8_t>(cpu.fetch());
   if (!kTaken(cpu)) return;
-  const std::uint16_t next = cpu.PC();
-  const int penalty = ((next + offset) ^ next) & 0xFF00 ? 2 : 1;
-  cpu.cycle += penalty;
-  cpu.at += static_cast<std::uint32_t>(std::int32_t{offset});
+  const int penalty = cpu.branch(offset);
   if (offset == kTimerLoopOffset) cpu.skip_timer_loop(kLoadCycles + kBranchCycles + penalty);
 }
 
@@ -86,20 +84,30 @@ void interpret(Board& board, std::int32_t instructions) {
 
   Core cpu(board, instructions);
 
-#define NEXT()                         \
-  do {                                 \
-    if (--cpu.budget < 0) goto done;   \
-    goto* kHandlers[cpu.fetch_opcode()];\
+#define FOLLOWER(code) \
+  if (often_follows(0x##code, kBefore) && next == 0x##code) goto op_##code;
+
+#define NEXT(code)                                      \
+  do {                                                  \
+    constexpr std::uint8_t kBefore = 0x##code;          \
+    if (cpu.at >= cpu.end) [[unlikely]] goto elsewhere; \
+    const unsigned next = *Core::byte_at(cpu.at);       \
+    RACEBEAM_FOLLOWERS(FOLLOWER)                        \
+    goto* kHandlers[next];                              \
   } while (false)
 
-  NEXT();
-#define OP(code, name, mode_name, access, cycles)                                \
-  op_##code : cpu.begin(0x##code, cycles);                                                 \
-  access<mode::mode_name<is_read(#access[0])>, operation::name>(cpu);            \
-  NEXT();
+elsewhere:
+  if (!cpu.locate()) goto done;
+  goto* kHandlers[*Core::byte_at(cpu.at)];
+
+#define OP(code, name, mode_name, access, cycles)                     \
+  op_##code : cpu.begin(0x##code, cycles);                            \
+  access<mode::mode_name<is_read(#access[0])>, operation::name>(cpu); \
+  NEXT(code);
 #include "emulator/opcodes.inc"
 #undef OP
 #undef NEXT
+#undef FOLLOWER
 
 done:
   cpu.store_state();

@@ -12,6 +12,13 @@ struct CodeWindow {
   const std::uint8_t* memory = nullptr;
   std::uint16_t first = 0;
   std::uint16_t span = 0;
+  const std::uint8_t* end = memory + span;
+
+  // What it shows is no longer known; where it is, is.
+  void close() {
+    span = 0;
+    end = nullptr;
+  }
 };
 
 struct MemoryMap {

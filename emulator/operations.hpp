@@ -244,7 +244,7 @@ RACEBEAM_INLINE void brk(Core& cpu, Address) {
 // The twelve opcodes that stop the chip until a reset.
 RACEBEAM_INLINE void jam(Core& cpu) {
   cpu.board.state.cpu.jammed = 1;
-  cpu.budget = 0;
+  cpu.end = 0;
 }
 
 }  // namespace racebeam::operation
