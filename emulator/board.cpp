@@ -120,16 +120,18 @@ bool Board::needs_exact_step() const {
   return !exact_ && (fetched_latches_ || (!untouched && !is_exact_));
 }
 
-// What the map shows depends on the banks alone, so that a window that was found once is found again by them.
+// What the map shows depends on the banks alone, so that a window that was found once is found again by them; there is
+// mostly one window for a 1K slice of memory.
 bool Board::find_code(std::uint16_t pc) {
   const std::uint64_t banks = selected_banks();
-  const unsigned page = pc >> 6;
-  KnownWindow& known = known_windows_[(page ^ page >> 4 ^ static_cast<unsigned>(banks * kHash >> 60)) % known_windows_.size()];
-  if (known.page != page || known.banks != banks) {
+  const unsigned slice = pc >> 10;
+  const auto distance = [pc](const CodeWindow& window) { return static_cast<std::uint16_t>(pc - window.first); };
+  KnownWindow& known = known_windows_[((banks * kHash + slice) * kHash >> 56) % known_windows_.size()];
+  if (known.slice != slice || known.banks != banks || distance(known.window) >= known.window.span + 2) {
     if (!map.may_hold_code(pc)) return false;
-    known = {banks, page, map.window_around(pc)};
+    known = {banks, slice, map.window_around(pc)};
   }
-  if (static_cast<std::uint16_t>(pc - known.window.first) >= known.window.span) return false;
+  if (distance(known.window) >= known.window.span) return false;
   code = known.window;
   return true;
 }

@@ -98,12 +98,12 @@ class Board {
 
   struct KnownWindow {
     std::uint64_t banks = 0;
-    unsigned page = ~0U;
+    unsigned slice = ~0U;
     CodeWindow window;
   };
 
   std::shared_ptr<const Rom> rom_;
-  std::array<KnownWindow, 32> known_windows_{};
+  std::array<KnownWindow, 64> known_windows_{};
   Ports ports_;
   std::uint64_t plain_registers_ = 0;
   std::int32_t overlong_cycle_ = 0;  // from this cycle on, a TIA write closes the frame

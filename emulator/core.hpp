@@ -231,8 +231,14 @@ struct Core {
     write_slowly(address, value, after_read);
   }
 
-  RACEBEAM_INLINE std::uint8_t pull() { return read(0x0100 | ++SP); }
-  RACEBEAM_INLINE void read_stack_dummy() { read(0x0100 | SP); }
+  RACEBEAM_INLINE std::uint8_t pull() {
+    ++SP;
+    return read_stack();
+  }
+  RACEBEAM_INLINE std::uint8_t read_stack() {
+    if (SP < 0x80) [[unlikely]] return read(0x0100 | SP);
+    return latch = board.state.riot.ram[SP - 0x80U];
+  }
 };
 
 }  // namespace racebeam

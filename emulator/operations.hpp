@@ -202,30 +202,30 @@ RACEBEAM_INLINE bool beq(Core& cpu) { return cpu.is_zero(); }
 RACEBEAM_INLINE void pha(Core& cpu) { cpu.push(cpu.A); }
 RACEBEAM_INLINE void php(Core& cpu) { cpu.push(cpu.status()); }
 RACEBEAM_INLINE void pla(Core& cpu) {
-  cpu.read_stack_dummy();
+  cpu.read_stack();
   cpu.set_nz(cpu.A = cpu.pull());
 }
 RACEBEAM_INLINE void plp(Core& cpu) {
-  cpu.read_stack_dummy();
+  cpu.read_stack();
   cpu.set_status(cpu.pull());
 }
 RACEBEAM_INLINE void jmp(Core& cpu, Address target) { cpu.jump(target); }
 RACEBEAM_INLINE void jsr(Core& cpu, Address) {
   const Byte low = cpu.fetch();
-  cpu.read_stack_dummy();
+  cpu.read_stack();
   cpu.push(byte(cpu.PC() >> 8));
   cpu.push(byte(cpu.PC() & 0xFF), false);
   cpu.jump(static_cast<Address>(low | cpu.read_at_PC() << 8));
 }
 RACEBEAM_INLINE void rts(Core& cpu, Address) {
-  cpu.read_stack_dummy();
+  cpu.read_stack();
   const Byte low = cpu.pull();
   cpu.jump(static_cast<Address>(low | cpu.pull() << 8));
   cpu.read_at_PC();
   ++cpu.at;
 }
 RACEBEAM_INLINE void rti(Core& cpu, Address) {
-  cpu.read_stack_dummy();
+  cpu.read_stack();
   cpu.set_status(cpu.pull());
   const Byte low = cpu.pull();
   cpu.jump(static_cast<Address>(low | cpu.pull() << 8));

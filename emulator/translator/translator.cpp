@@ -58,7 +58,7 @@ struct Translator::Impl {
   explicit Impl(Board& board)
       : code(translator::ImageCode::of(board.slot.rom, {board.plain_registers(), board.slot.scheme.port_reader})), layout(board) {}
 
-  // The windows that were looked into last: a bank switch finds its way back without asking the image.
+  // Windows that were looked into before, by their place: a bank switch finds its way back without asking the image.
   struct Seen {
     CodeWindow window;
     translator::View* view = nullptr;
@@ -70,23 +70,16 @@ struct Translator::Impl {
 
   std::shared_ptr<translator::ImageCode> code;
   const translator::Layout layout;
-  std::array<Seen, 16> seen{};
-  std::size_t next_seen = 0;
-  Seen current;
+  std::array<Seen, 32> seen{};
 };
 
 translator::View* Translator::Impl::current_view(Board& board) {
   const std::uint16_t pc = board.state.cpu.PC;
   if (static_cast<std::uint16_t>(pc - board.code.first) >= board.code.span && !board.find_code(pc)) return nullptr;
-  if (current.view != nullptr && same(current.window, board.code)) return current.view;
-  for (const Seen& known : seen) {
-    if (known.view == nullptr || !same(known.window, board.code)) continue;
-    current = known;
-    return current.view;
-  }
-  current = {board.code, code->view(board.code, board.slot.rom)};
-  if (current.view != nullptr) seen[next_seen++ % seen.size()] = current;
-  return current.view;
+  const std::uintptr_t place = reinterpret_cast<std::uintptr_t>(board.code.memory) / MemoryMap::kPageSize;
+  Seen& known = seen[(place ^ board.code.first / 1024U) % seen.size()];
+  if (known.view == nullptr || !same(known.window, board.code)) known = {board.code, code->view(board.code, board.slot.rom)};
+  return known.view;
 }
 
 // Where the block at PC starts, made if need be; null if the interpreter must go on.
