@@ -28,6 +28,7 @@ class LineReader {
     std::string_view text;  // without LF, and without a CR before it; good until space() is called
   };
   std::optional<Line> next();
+  bool empty() const { return unread() == 0; }  // next() has given all that came
 
  private:
   std::size_t unread() const { return end_ - begin_; }

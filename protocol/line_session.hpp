@@ -39,10 +39,10 @@ struct LineService {
   std::string version = "0";
   std::shared_ptr<const Images> images;
   LineLimits limits;
-  std::string record_folder;  // recordings go below it; empty: there are none
-  Parallel parallel;          // empty: one after the other
-  std::size_t threads = 1;    // that `parallel` has
-  Admission admission;        // empty: everyone may play; else whose `hello` gives a token
+  std::string record_folder;     // recordings go below it; empty: there are none
+  Parallel parallel;             // empty: one after the other
+  std::size_t threads = 1;       // that `parallel` has
+  Admission admission;           // empty: everyone may play; else whose `hello` gives a token
   CpuKind cpu = CpuKind::kAuto;  // of all machines
 };
 
@@ -59,8 +59,8 @@ class LineSession {
   std::span<char> space();           // where input goes; do not read while it is empty
   void received(std::size_t count);  // so much was put there; 0: the client has closed its end
 
-  // Carries out requests until about `frames` frames have run. True: there is more to do, call it again; when
-  // output is waiting, send it first.
+  // Carries out requests until about `frames` frames have run, or a few with whole replies. True: there is
+  // more to do, call it again; when output is waiting, send it first.
   bool run(int frames = kSlice);
   static constexpr int kSlice = 256;  // some milliseconds, which is what others have to wait
 

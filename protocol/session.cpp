@@ -10,6 +10,7 @@
 namespace racebeam {
 namespace {
 
+constexpr int kFramesOfReplies = 8;   // some tens of microseconds
 constexpr int kFramesOfARequest = 1;  // what any request costs at least, so that a slice ends
 
 const LineLimits& limits(const LineService& service) { return service.limits; }
@@ -71,14 +72,18 @@ void Session::watch() {
 
 bool Session::run(int frames) {
   frames_left_ = frames;
-  while (!done_ && frames_left_ > 0 && !must_send()) {
+  while (!done_ && frames_left_ > 0 && !must_send(frames - frames_left_)) {
     if (!go_on()) return false;
   }
   return !done_;
 }
 
-// A reader that is slow holds up its own requests only.
-bool Session::must_send() const { return work_ == nullptr && out.size() >= limits(service).output; }
+// A reader that is slow holds up its own requests only. Who sent requests ahead reads the first replies, and
+// sends more, while the next are being made: neither waits for the other.
+bool Session::must_send(int frames) const {
+  if (work_ != nullptr || out.empty() || input.empty()) return false;
+  return frames >= kFramesOfReplies || out.size() >= limits(service).output;
+}
 
 // One step; false when there is nothing to do before something comes in.
 bool Session::go_on() {

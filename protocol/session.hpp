@@ -65,7 +65,7 @@ class Session {
   void cancel();
 
  private:
-  bool must_send() const;
+  bool must_send(int frames) const;
   bool go_on();
   void take(const LineReader::Line& line);
   void begin_request();

@@ -183,6 +183,25 @@ TEST_CASE("A request is done in slices, between which others have their turn") {
   CHECK(client.session.output().starts_with("ok frames="));
 }
 
+TEST_CASE("Who sends ahead gets the first replies before the last request is carried out") {
+  LineClient client;
+  client.ask(kLoad);
+  client.ask("observe frame");
+  std::string requests, replies;
+  for (int act = 0; act < 40; ++act) requests += "act NOOP\n";
+  std::ranges::copy(requests, client.session.space().begin());
+  client.session.received(requests.size());
+  CHECK(client.session.run());
+  const auto first = std::ranges::count(client.session.output(), '\n');
+  CHECK(first >= 1);
+  CHECK(first <= 10);
+  replies += client.session.output();
+  client.session.sent(replies.size());
+  replies += client.listen();
+  CHECK(std::ranges::count(replies, '\n') == 40);
+  CHECK(replies.ends_with("ok frame=40\n"));
+}
+
 TEST_CASE("A request that has been cancelled is not answered") {
   LineClient client;
   client.ask(kLoad);
