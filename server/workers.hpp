@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -18,20 +19,26 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  // Runs task(0) ... task(count - 1) and returns when all are done. From any thread, also from several at
-  // once. A task does not throw.
+  // Runs task(0) ... task(count - 1) and returns when all are done. Every thread begins with a share of its
+  // own, the same for the same count, so that what a task uses stays in one processor's cache; who is done
+  // helps the others. From any thread, also from several at once. A task does not throw.
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
 
  private:
+  struct alignas(64) Share {
+    std::atomic<std::size_t> next = 0;  // to be begun
+    std::size_t end = 0;
+  };
   struct Job {
     const std::function<void(std::size_t)>* task;
-    std::size_t count;
-    std::atomic<std::size_t> next = 0;  // to be begun
-    std::size_t helpers = 0;            // threads that work on it beside the caller; under mutex_
+    std::span<Share> shares;  // one a thread; the caller's is the first
+    std::size_t helpers = 0;  // threads that work on it beside the caller; under mutex_
+
+    void work(std::size_t own);  // from that share on
+    bool can_use_help() const;
   };
 
-  static void work(Job& job);
-  void help();
+  void help(std::size_t own);
   Job* pick();  // under mutex_
 
   std::mutex mutex_;
