@@ -117,6 +117,14 @@ void add_operation(CLI::App& command, ServeOptions& options) {
       ->capture_default_str()
       ->group(group);
   command
+      .add_option_function<std::int64_t>(
+          "--busy-poll",
+          [&server](std::int64_t given) { server.busy_poll = std::chrono::microseconds(given); },
+          "Microseconds that a thread waits awake for a client that asked again at once; 0: never")
+      ->check(whole_number(0, 1'000'000))
+      ->default_val(server.busy_poll.count())
+      ->group(group);
+  command
       .add_option("--ready-file", server.ready_file,
                   "Gets the addresses, one a line, once all are served; removed at the end")
       ->type_name("FILE")

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -56,6 +57,25 @@ bool BlockingPair::open_out(const std::string& path, int flags) { return open(ou
 bool BlockingPair::open_in(const std::string& path) { return open(in_, path, O_RDONLY); }
 
 std::size_t BlockingPair::read(std::span<char> space) {
+  const auto began = BusyPoll::Clock::now();
+  const auto found = quick_ ? read_awake(space) : std::nullopt;
+  const std::size_t count = found ? *found : read_asleep(space);
+  quick_ = busy_.came_after(BusyPoll::Clock::now() - began);
+  return count;
+}
+
+// Where the system can't look without waiting, it is left to read_asleep().
+std::optional<std::size_t> BlockingPair::read_awake(std::span<char> space) {
+  iovec part{space.data(), space.size()};
+  for (busy_.begin(); busy_.again() && !halt_.reading;) {
+    const ssize_t count = ::preadv2(in_, &part, 1, -1, RWF_NOWAIT);
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno != EAGAIN) break;
+  }
+  return std::nullopt;
+}
+
+std::size_t BlockingPair::read_asleep(std::span<char> space) {
   while (!halt_.reading) {
     const ssize_t count = ::read(in_, space.data(), space.size());
     if (count >= 0) return static_cast<std::size_t>(count);

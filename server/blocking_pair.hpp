@@ -5,10 +5,14 @@
 #include <pthread.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "server/busy_poll.hpp"
 
 namespace racebeam {
 
@@ -24,7 +28,7 @@ struct Halt {
 
 class BlockingPair {
  public:
-  explicit BlockingPair(const Halt& halt) : halt_(halt) {}
+  BlockingPair(const Halt& halt, std::chrono::microseconds busy_poll) : halt_(halt), busy_(busy_poll) {}
   ~BlockingPair();
   BlockingPair(const BlockingPair&) = delete;
   BlockingPair& operator=(const BlockingPair&) = delete;
@@ -41,7 +45,12 @@ class BlockingPair {
  private:
   bool open(int& descriptor, const std::string& path, int flags);
 
+  std::optional<std::size_t> read_awake(std::span<char> space);  // nothing: nothing has come
+  std::size_t read_asleep(std::span<char> space);
+
   const Halt& halt_;
+  BusyPoll busy_;
+  bool quick_ = false;  // the other end wrote at once, the last time
   int in_ = -1, out_ = -1;
 };
 

@@ -15,13 +15,16 @@ void Client::came_in() { loop.clients.insert(this); }
 void Client::left() { loop.clients.erase(this); }
 
 void Client::received(std::size_t bytes) {
+  const auto answered = active_;
   is_active();
+  quick_ = loop.busy.came_after(active_ - answered);
   loop.meter.bytes_in.add(static_cast<std::int64_t>(bytes));
 }
 
 void Client::sent(std::size_t bytes) {
   is_active();
   loop.meter.bytes_out.add(static_cast<std::int64_t>(bytes));
+  if (quick_) loop.busy.begin();
 }
 
 void Client::end(Code code, const std::string& sentence) {

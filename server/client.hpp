@@ -48,6 +48,7 @@ class Client {
 
  private:
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};
+  bool quick_ = false;  // it asked again at once
   std::string farewell_, reason_;
 };
 

@@ -90,7 +90,8 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
   for (;;) {
     const bool more = session.run();
     client.admitted = session.admitted();
-    if (const std::string_view text = session.output(); !text.empty()) {
+    const std::string_view text = session.output();
+    if (!text.empty()) {
       const std::size_t count = send_at_once(stream, text);
       client.sent(count);
       if (count < text.size()) co_await send_rest(stream, client, text.substr(count));
@@ -98,7 +99,8 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
     }
     if (session.finished()) break;
     if (more) {
-      if (has_gone(client.socket)) throw std::runtime_error("the client left in the middle of a request");
+      if (text.empty() && has_gone(client.socket))
+        throw std::runtime_error("the client left in the middle of a request");
       co_await net::post(client.socket.get_executor(), use_awaitable);
       continue;
     }

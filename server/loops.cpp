@@ -8,9 +8,21 @@
 
 namespace racebeam {
 
-Loops::Loops(unsigned threads, Metrics& metrics) {
+// While it polls, all sessions of the loop have their turn, not only the one that is waited for.
+void Loop::run() {
+  const auto stay = boost::asio::make_work_guard(context);
+  while (!context.stopped()) {
+    if (busy.again()) {
+      context.poll();
+    } else {
+      context.run_one();
+    }
+  }
+}
+
+Loops::Loops(unsigned threads, std::chrono::microseconds busy_poll, Metrics& metrics) {
   for (unsigned thread = 0; thread < std::max(1U, threads); ++thread)
-    loops_.emplace_back(metrics.add_meter());
+    loops_.emplace_back(metrics.add_meter(), busy_poll);
 }
 
 Loop& Loops::idlest() {
@@ -26,12 +38,7 @@ int Loops::sessions() const {
 
 void Loops::run() {
   std::vector<std::jthread> threads;
-  for (Loop& loop : loops_) {
-    threads.emplace_back([&context = loop.context] {
-      const auto stay = boost::asio::make_work_guard(context);
-      context.run();
-    });
-  }
+  for (Loop& loop : loops_) threads.emplace_back([&loop] { loop.run(); });
 }
 
 void Loops::stop() {

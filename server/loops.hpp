@@ -10,6 +10,7 @@
 
 #include <boost/asio/io_context.hpp>
 
+#include "server/busy_poll.hpp"
 #include "server/metrics.hpp"
 
 namespace racebeam {
@@ -17,17 +18,20 @@ namespace racebeam {
 class Client;
 
 struct Loop {
-  explicit Loop(Meter& counting) : meter(counting) {}
+  Loop(Meter& counting, std::chrono::microseconds busy_poll) : meter(counting), busy(busy_poll) {}
+
+  void run();  // until its context is stopped
 
   std::atomic<int> sessions = 0;
   Meter& meter;
+  BusyPoll busy;                        // only touched on the loop's thread
   std::unordered_set<Client*> clients;  // those in a session; only touched on the loop's thread
   boost::asio::io_context context{1};   // the last, so that what waits in it goes first
 };
 
 class Loops {
  public:
-  Loops(unsigned threads, Metrics& metrics);
+  Loops(unsigned threads, std::chrono::microseconds busy_poll, Metrics& metrics);
 
   Loop& first() { return loops_.front(); }
   Loop& idlest();  // with the fewest sessions

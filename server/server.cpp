@@ -64,7 +64,7 @@ class Server {
 
 Server::Server(const ServerSettings& settings, const Services& services)
     : settings_(settings),
-      loops_(static_cast<unsigned>(settings.threads), metrics_),
+      loops_(static_cast<unsigned>(settings.threads), settings.busy_poll, metrics_),
       first_(loops_.first().context),
       signals_(first_, SIGTERM, SIGINT, SIGHUP),
       watch_(settings, loops_, metrics_),
@@ -72,7 +72,8 @@ Server::Server(const ServerSettings& settings, const Services& services)
   if (!settings.ready_file.empty()) ready_file_.emplace(settings.ready_file);
   for (const Endpoint& endpoint : settings.endpoints) {
     if (!is_stream(endpoint.address)) continue;
-    streams_.emplace_back(endpoint, endpoint.classic ? *services.classic : *services.line, metrics_);
+    streams_.emplace_back(endpoint, endpoint.classic ? *services.classic : *services.line, settings.busy_poll,
+                          metrics_);
   }
   if (settings.http.empty()) return;
   const HttpPages pages{[this] { return ready_.load(); }, [this] { return metrics_.text(); }};

@@ -111,8 +111,9 @@ bool StreamSession::ClassicConversation::converse(BlockingPair& streams, const H
   return true;
 }
 
-StreamSession::StreamSession(const Endpoint& endpoint, const Service& service, Metrics& metrics)
-    : address_(endpoint.address), name_(to_string(endpoint)), metrics_(metrics) {
+StreamSession::StreamSession(const Endpoint& endpoint, const Service& service,
+                             std::chrono::microseconds busy_poll, Metrics& metrics)
+    : address_(endpoint.address), name_(to_string(endpoint)), metrics_(metrics), streams_(halt_, busy_poll) {
   Meter& meter = metrics.add_meter();
   if (const auto* line = std::get_if<LineService>(&service)) {
     conversation_ = std::make_unique<LineConversation>(*line, meter);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -19,7 +20,8 @@ class StreamSession {
  public:
   // Makes pipes that are missing and what the session needs, so that who starts the server hears at once when
   // it can't be had: throws std::runtime_error or std::invalid_argument. All outlive the session.
-  StreamSession(const Endpoint& endpoint, const Service& service, Metrics& metrics);
+  StreamSession(const Endpoint& endpoint, const Service& service, std::chrono::microseconds busy_poll,
+                Metrics& metrics);
   ~StreamSession();
   StreamSession(const StreamSession&) = delete;
   StreamSession& operator=(const StreamSession&) = delete;
@@ -48,7 +50,7 @@ class StreamSession {
   std::string name_;
   Metrics& metrics_;
   Halt halt_;
-  BlockingPair streams_{halt_};
+  BlockingPair streams_;
   std::unique_ptr<Conversation> conversation_;
   std::atomic<bool> ended_ = false;
   std::atomic<int> status_ = 0;

@@ -1,0 +1,46 @@
+#include "server/busy_poll.hpp"
+
+#include <catch2/catch.hpp>
+#include <thread>
+
+using namespace racebeam;
+using namespace std::chrono_literals;
+
+namespace {
+
+// How many looks until it gives up.
+int looks(BusyPoll& busy) {
+  int count = 0;
+  for (busy.begin(); busy.again(); ++count) std::this_thread::sleep_for(1ms);
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("Nobody is waited for awake until it is said so, and not for longer than told") {
+  BusyPoll busy(20ms);
+  CHECK_FALSE(busy.again());
+  const auto begin = BusyPoll::Clock::now();
+  CHECK(looks(busy) >= 1);
+  CHECK(BusyPoll::Clock::now() - begin >= 20ms);
+  CHECK_FALSE(busy.again());
+}
+
+TEST_CASE("Only who asked again within that time is worth it") {
+  BusyPoll busy(100us), never(0us);
+  CHECK(busy.came_after(99us));
+  CHECK_FALSE(busy.came_after(100us));
+  CHECK_FALSE(never.came_after(0us));
+}
+
+TEST_CASE("What is in vain is tried ever more seldom, until it was not") {
+  BusyPoll busy(2ms);
+  int tries = 0;
+  for (int turn = 0; turn < 30; ++turn) tries += looks(busy) > 0;
+  CHECK(tries == 4);  // before 1, 3, 7 and 15 that are left out
+  while (!busy.again()) busy.begin();
+  busy.came_after(1ms);
+  tries = 0;
+  for (int turn = 0; turn < 3; ++turn) tries += looks(busy) > 0;
+  CHECK(tries == 2);
+}
