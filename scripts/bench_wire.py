@@ -3,10 +3,12 @@
 Steps (one act, answered with reward, ends, lives, RAM and the screen as runs) of one client, beside an echo server with
 plain sockets that sends the same bytes, and beside the same session in process, without a wire. Then the bytes a frame by
 encoding, and a batch of 64 machines beside one. Rates are by the clock, medians of five rounds; microseconds are processor
-time of the serving process for a step, which others on the machine disturb less.
+time of the serving process for a step, which others on the machine disturb less. Client and server have a processor each
+("apart"), so that every wait ends with waking somebody up, or are put where the system likes ("free"), often on one.
 """
 import argparse
 import glob
+import itertools
 import json
 import os
 import pathlib
@@ -29,6 +31,8 @@ def parse_arguments():
     parser.add_argument("--games", nargs="+", default=GAMES, metavar="GAME", help="for the bytes (default: ten)")
     parser.add_argument("--speed-games", nargs="+", default=["pong", "seaquest"], metavar="GAME", help="for the steps")
     parser.add_argument("--steps", type=int, default=10000, help="of one round (default 10000)")
+    parser.add_argument("--placement", nargs="+", default=["apart", "free"], choices=["apart", "free"],
+                        help="of client and server on the processors (default: both)")
     parser.add_argument("--ahead", type=int, nargs="+", default=[1, 16],
                         help="requests that are under way at a time; 1 waits for each reply (default 1 16)")
     return parser.parse_args()
@@ -66,12 +70,13 @@ class Session:
         self.process.wait()
 
 
-def print_speed(game, steps, ahead):
+def print_speed(game, steps, ahead, placement):
     rom = image(game)
-    done = subprocess.run([WIRE_BENCH, RACEBEAM, rom, str(steps), str(ahead)], capture_output=True, check=True)
+    apart = ["--apart"] if placement == "apart" else []
+    done = subprocess.run([WIRE_BENCH, *apart, RACEBEAM, rom, str(steps), str(ahead)], capture_output=True, check=True)
     found = json.loads(done.stdout)
     alone = found["in_process"]
-    print(f"\n{name_of(rom)}, {ahead} under way, {found['bytes']:.0f} bytes a reply; in process "
+    print(f"\n{name_of(rom)}, {placement}, {ahead} under way, {found['bytes']:.0f} bytes a reply; in process "
           f"{alone['rate']:.0f} steps/s, {alone['microseconds']:.1f} us")
     print(f"{'':8}{'steps/s':>10}{'echo':>10}{'of less':>9}{'us':>8}{'echo us':>9}{'extra us':>10}")
     for transport in TRANSPORTS:
@@ -129,8 +134,8 @@ def main():
     arguments = parse_arguments()
     subprocess.run([ROOT / "scripts/build", "racebeam", "wire_bench"], check=True, stdout=sys.stderr)
     for game in arguments.speed_games:
-        for ahead in arguments.ahead:
-            print_speed(game, arguments.steps, ahead)
+        for ahead, placement in itertools.product(arguments.ahead, arguments.placement):
+            print_speed(game, arguments.steps, ahead, placement)
     print_batch(arguments.speed_games[0])
     print_bytes(arguments.games)
 

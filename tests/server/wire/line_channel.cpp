@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <sched.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <sys/wait.h>
@@ -47,7 +48,26 @@ void do_not_delay(int socket) {
   ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
 }
 
+constexpr unsigned kClientProcessor = 0, kServerProcessor = 1;
+bool apart = false;
+
+void stay_on(unsigned processor) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(processor, &set);
+  checked(::sched_setaffinity(0, sizeof set, &set), "sched_setaffinity");
+}
+
 }  // namespace
+
+void put_apart() {
+  apart = true;
+  stay_on(kClientProcessor);
+}
+
+void run_as_server() {
+  if (apart) stay_on(kServerProcessor);
+}
 
 void LineChannel::send(int descriptor, std::string_view text) {
   while (!text.empty())
@@ -84,6 +104,7 @@ Child start(const std::vector<std::string>& command) {
   checked(::pipe2(from.data(), O_CLOEXEC), "pipe");
   const pid_t process = checked(::fork(), "fork");
   if (process == 0) {
+    run_as_server();
     ::dup2(to[0], STDIN_FILENO);
     ::dup2(from[1], STDOUT_FILENO);
     std::vector<char*> words;

@@ -24,6 +24,10 @@ class LineChannel {
   std::size_t begin_ = 0, end_ = 0;
 };
 
+// Processes run where the system likes; after put_apart(), the caller and its servers on a processor each.
+void put_apart();
+void run_as_server();  // in a child that was forked; start() does so itself
+
 // A program whose standard input and output are `in` and `out` of a channel.
 struct Child {
   pid_t process;

@@ -3,7 +3,8 @@
 // And the processor time that the serving process takes for a step, which does not depend on who else uses
 // the machine.
 //
-//   wire_bench RACEBEAM IMAGE STEPS AHEAD [KEY=VALUE...]   prints one JSON object; settings are those of load
+//   wire_bench [--apart] RACEBEAM IMAGE STEPS AHEAD [KEY=VALUE...]
+//   prints one JSON object; settings are those of load. --apart: client and server on a processor each.
 //   wire_bench --echo FILE                                 the echo server on standard streams: a line of
 //   FILE a line
 #include <sys/wait.h>
@@ -178,6 +179,7 @@ Cost echo_over_socket(const Job& job, const Lines& replies, bool tcp) {
   const int listener = tcp ? wire::listen_tcp(port) : wire::listen_unix(path);
   const pid_t child = ::fork();
   if (child == 0) {
+    wire::run_as_server();
     const int socket = wire::accept_one(listener);
     echo(LineChannel(socket, socket), replies);
     ::_exit(0);
@@ -265,14 +267,18 @@ int bench(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
-  const std::vector<std::string> words(argv + 1, argv + argc);
+  std::vector<std::string> words(argv + 1, argv + argc);
   try {
     if (words.size() == 2 && words[0] == "--echo") {
       const Lines replies = read_lines(words[1]);
       echo(LineChannel(STDIN_FILENO, STDOUT_FILENO), replies);
       return 0;
     }
-    if (words.size() < 4) throw std::runtime_error("RACEBEAM IMAGE STEPS AHEAD [KEY=VALUE...]");
+    if (!words.empty() && words[0] == "--apart") {
+      wire::put_apart();
+      words.erase(words.begin());
+    }
+    if (words.size() < 4) throw std::runtime_error("[--apart] RACEBEAM IMAGE STEPS AHEAD [KEY=VALUE...]");
     return bench(words);
   } catch (const std::exception& error) {
     std::cerr << "wire_bench: " << error.what() << "\n";
