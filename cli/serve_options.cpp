@@ -98,6 +98,8 @@ void add_limits(CLI::App& command, ServeOptions& options) {
   add_number(command, "--max-line", limits.line, 256, "Bytes of a request");
   add_number(command, "--max-output", limits.output, 1024,
              "Bytes that wait for a slow reader, above which its requests wait too");
+  add_number(command, "--max-reply", limits.reply, 1 << 20,
+             "Bytes of a reply that a request may ask for, counted as in PROTOCOL.md");
   add_number(command, "--max-request-frames", limits.request_frames, 1, "Frames that a request may ask for");
   add_number(command, "--record-limit", limits.recording, 1, "Bytes of a recording");
   add_number(command, "--idle", server.idle_seconds, 0,

@@ -37,7 +37,10 @@ std::vector<std::uint8_t> read_mask(const Session& session, Words words) {
 
 void run_open(Session& session, Words arguments) {
   const auto count = number_within(arguments[0], "N", 1, session.service.limits.machines);
-  session.machines.open(static_cast<std::size_t>(count), read_autoreset(arguments.subspan(1)));
+  const auto machines = static_cast<std::size_t>(count);
+  const Autoreset autoreset = read_autoreset(arguments.subspan(1));
+  MachinesWork::check_replies(session, session.fields, machines, autoreset);
+  session.machines.open(machines, autoreset);
   session.start(session.machines);
 }
 

@@ -42,6 +42,8 @@ void run_observe(Session& session, Words arguments) {
   if (!arguments.empty()) {
     std::vector<Field> fields = parse_fields(arguments);
     check_sound(session, fields);
+    const MachinesWork& machines = session.machines;
+    if (!machines.empty()) machines.check_replies(session, fields, machines.size(), machines.autoreset());
     session.fields = std::move(fields);
     if (session.player) session.player->observe(session.fields);
     session.machines.observe(session.fields);

@@ -67,6 +67,7 @@ void run_hello(Session& session, Words arguments) {
   append_pair(out, "max_machines", limits.machines);
   append_pair(out, "max_states", limits.states);
   append_pair(out, "max_request_frames", limits.request_frames);
+  append_pair(out, "max_reply", static_cast<std::int64_t>(limits.reply));
   append_pair(out, "max_idle", limits.idle_seconds);
   append_pair(out, "threads", static_cast<std::int64_t>(session.service.threads));
   append_pair(out, "recording", session.service.record_folder.empty() ? 0 : 1);

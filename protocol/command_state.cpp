@@ -136,7 +136,9 @@ void run_branch(Session& session, Words arguments) {
     acts += branch.branches.back().acts();
   }
   session.check_frames(acts);
-  if (!branch.keep.empty()) check_room(session, branch.branches.size());
+  const std::size_t lists = branch.branches.size();
+  session.check_reply(128 * lists + 8 * static_cast<std::size_t>(acts), std::to_string(lists) + " branches");
+  if (!branch.keep.empty()) check_room(session, lists);
   branch.begin(session);
   session.start(branch);
 }

@@ -90,6 +90,11 @@ std::optional<Encoding> encoding_of(std::string_view name) {
   return found == kEncodings.end() ? std::nullopt : std::optional(found->encoding);
 }
 
+std::size_t text_size(Encoding encoding, std::size_t bytes) {
+  const bool in_base64 = encoding == Encoding::kBase64 || encoding == Encoding::kZlib;
+  return in_base64 ? (bytes + 2) / 3 * 4 : 2 * bytes;
+}
+
 void append_delta(std::string& out, std::span<const std::uint8_t> bytes, std::span<std::uint8_t> before) {
   std::size_t told = 0;  // what comes before is known to the reader
   for (;;) {

@@ -20,6 +20,10 @@ struct EncodingRow {
 std::span<const EncodingRow> encodings();
 std::optional<Encoding> encoding_of(std::string_view name);
 
+// How long `bytes` bytes are as text. What shrinks, more or less, counts as if it did not: runs and delta as
+// hex, which they exceed only where hardly any two neighbours are the same, zlib as base64.
+std::size_t text_size(Encoding encoding, std::size_t bytes);
+
 // What has changed since `before`, then `before` is made equal to `bytes`; of the same size.
 void append_delta(std::string& out, std::span<const std::uint8_t> bytes, std::span<std::uint8_t> before);
 

@@ -121,6 +121,18 @@ std::vector<Field> parse_fields(Words words) {
   return fields;
 }
 
+std::size_t text_size(const std::vector<Field>& fields, const Environment& machine) {
+  constexpr std::size_t kNumber = 8;
+  std::size_t size = 0;
+  Scratch scratch;
+  for (const Field& field : fields) {
+    const auto screens = static_cast<std::size_t>(field.depth) * kSmallSize;
+    const std::size_t bytes = field.row->bytes ? field.row->bytes(machine, scratch).size() : screens;
+    size += field.name.size() + 2 + (field.row->number ? kNumber : text_size(field.encoding, bytes));
+  }
+  return size;
+}
+
 View::View(std::vector<Field> fields, int height) : fields_(std::move(fields)) {
   for (const Field& field : fields_) {
     encoders_.emplace_back(field.encoding);

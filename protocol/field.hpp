@@ -42,6 +42,9 @@ struct Field {
 // Words such as lives, screen:rle, grey84x4; `ends` is two of them, `none` is none. Throws Refusal.
 std::vector<Field> parse_fields(Words words);
 
+// How long they are in a reply about such a machine, about: text_size() of each that is bytes.
+std::size_t text_size(const std::vector<Field>& fields, const Environment& machine);
+
 // Writes the chosen fields of one machine, reply after reply.
 class View {
  public:

@@ -25,6 +25,13 @@ void MachinesWork::observe(const std::vector<Field>& fields) {
   for (Seat& seat : seats_) seat.player->observe(fields);
 }
 
+void MachinesWork::check_replies(const Session& session, const std::vector<Field>& fields, std::size_t count,
+                                 Autoreset autoreset) {
+  const std::size_t once = text_size(fields, session.player->machine());
+  const std::size_t each = autoreset == Autoreset::kSameStep ? 2 * once : once;
+  session.check_reply(count * each, std::to_string(count) + " machines with these fields");
+}
+
 void MachinesWork::open(std::size_t count, Autoreset autoreset) {
   seats_.clear();
   seats_.resize(count);

@@ -54,6 +54,13 @@ void Session::check_frames(std::int64_t acts) const {
                                   std::to_string(most));
 }
 
+void Session::check_reply(std::size_t bytes, const std::string& about) const {
+  const std::size_t most = limits(service).reply;
+  if (bytes <= most) return;
+  throw Refusal(Code::kLimit, "a reply about " + about + " would have about " + std::to_string(bytes) +
+                                  " bytes; it may have " + std::to_string(most));
+}
+
 void Session::admit() {
   admitted = true;
   input.set_longest(longest_line(service, admitted));

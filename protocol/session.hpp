@@ -53,10 +53,11 @@ class Session {
   MachinesWork machines;
 
   void check_frames(std::int64_t acts) const;  // throws Refusal when a request asks for too many
-  void start(Work& work) { work_ = &work; }    // what a handler can't do at once
-  void admit();                                // a token was right
-  void count(const Outcome& outcome);          // into the statistics
-  void watch();                                // the machine, for the recording if there is one
+  void check_reply(std::size_t bytes, const std::string& about) const;  // throws Refusal when it is too long
+  void start(Work& work) { work_ = &work; }                             // what a handler can't do at once
+  void admit();                                                         // a token was right
+  void count(const Outcome& outcome);                                   // into the statistics
+  void watch();  // the machine, for the recording if there is one
 
   bool run(int frames);
   std::string_view whole_replies() const;  // not the one that is being worked on: it may yet be refused

@@ -245,6 +245,29 @@ TEST_CASE("Who does not read is not answered any more, and loses nothing") {
   CHECK_THAT(answers, Contains("ok frame=50 "));
 }
 
+TEST_CASE("A reply that would be too long is refused before anything is done") {
+  LineLimits limits;
+  limits.reply = 1 << 20;  // 15 screens of beamfall, 160 x 210, in hex
+  LineClient client(line_service(limits));
+  CHECK(value(client.ask("hello"), "max_reply") == "1048576");
+  client.ask(kLoad);
+  client.ask("observe screen:hex");
+  CHECK_THAT(client.ask("open 16"),
+             StartsWith("error limit a reply about 16 machines with these fields would have "
+                        "about 1075328 bytes; it may have 1048576"));
+  CHECK(code(client.ask("step NOOP")) == "no-machines");
+  CHECK(client.ask("open 15").size() < limits.reply);
+  CHECK(code(client.ask("observe screen:hex ram screen:rle")) == "bad-arguments");
+  CHECK(code(client.ask("observe screen:hex grey:hex")) == "limit");
+  CHECK(client.ask("observe") == "ok fields=screen");
+  CHECK(client.ask("step NOOP").size() > 15 * 67200);
+  CHECK(code(client.ask("observe screen:rle reward")) == "");
+  CHECK(code(client.ask("open 15")) == "");
+  CHECK(code(client.ask("open 15 autoreset=same-step")) == "limit");
+  client.ask("save a");
+  CHECK(code(client.ask("branch a NOOP*140000")) == "limit");
+}
+
 TEST_CASE("Limits are told, and refused beyond") {
   LineLimits limits;
   limits.machines = 2;

@@ -51,15 +51,16 @@ def run(*words, data=b"", cwd=None):
 
 
 class Server:
-    """A racebeam process. It works in a new folder, which vanishes at the end, or in the one that is given."""
+    """A racebeam process. It works in a new folder, which vanishes at the end, or in the one that is given; its standard
+    error is the log, or the descriptor that is given."""
 
-    def __init__(self, *words, streams=False, folder=None):
+    def __init__(self, *words, streams=False, folder=None, errors=None):
         self.own_folder = tempfile.TemporaryDirectory()
         self.folder = folder or self.own_folder.name
         self.errors = open(os.path.join(self.own_folder.name, "stderr"), "w+b")
         pipe = subprocess.PIPE if streams else subprocess.DEVNULL
         self.process = subprocess.Popen(
-            [BINARY, *words], stdin=pipe, stdout=pipe, stderr=self.errors, cwd=self.folder, bufsize=0,
+            [BINARY, *words], stdin=pipe, stdout=pipe, stderr=errors or self.errors, cwd=self.folder, bufsize=0,
             env={name: value for name, value in os.environ.items() if name != "RACEBEAM_ROMS"})
 
     def __enter__(self):
@@ -91,6 +92,14 @@ class Server:
                 break
             time.sleep(0.005)
         raise AssertionError(f"'{pattern}' is not in the log: {self.log()}")
+
+    def addresses(self, ready_file):
+        """What --ready-file says, as soon as it is there."""
+        deadline = time.monotonic() + PATIENCE
+        while not os.path.exists(self.path(ready_file)) and time.monotonic() < deadline:
+            time.sleep(0.005)
+        with open(self.path(ready_file)) as file:
+            return file.read().splitlines()
 
     def port(self):
         return int(self.wait_for(r"listening on tcp://127\.0\.0\.1:(\d+)$").group(1))

@@ -1,6 +1,5 @@
-"""What those who run a server rely on: limits, the end, health, metrics, the ready file, systemd's sockets, the log."""
+"""What those who run a server rely on: limits, the end, the ready file, systemd's sockets."""
 
-import json
 import os
 import signal
 import socket
@@ -8,8 +7,6 @@ import subprocess
 import tempfile
 import time
 import unittest
-import urllib.error
-import urllib.request
 
 from harness import BINARY, GAME, PATIENCE, Server, Wire, connect_tcp, connect_unix, main, run
 
@@ -54,12 +51,13 @@ class Limits(unittest.TestCase):
                 wire.close()
 
     def test_each_limit_of_a_session_can_be_set_and_is_told(self):
-        limits = {"--max-line": 300, "--max-machines": 2, "--max-states": 1, "--max-request-frames": 50}
+        limits = {"--max-line": 300, "--max-machines": 2, "--max-states": 1, "--max-request-frames": 50,
+                  "--max-reply": 2000000}
         words = [word for name, value in limits.items() for word in (name, str(value))]
         requests = (b"hello\nload beamfall sticky=0\nopen 3\nsave a\nsave b\nact NOOP*51\nact NOOP*50\n" +
                     b"act " + b"x" * 300 + b"\n")
         lines = run("serve", "--stdio", *words, data=requests)[1].splitlines()
-        self.assertIn(b"max_line=300 max_machines=2 max_states=1 max_request_frames=50", lines[0])
+        self.assertIn(b"max_line=300 max_machines=2 max_states=1 max_request_frames=50 max_reply=2000000", lines[0])
         codes = [line.split()[1] if line.startswith(b"error") else b"ok" for line in lines]
         self.assertEqual(codes, [b"ok", b"ok", b"bad-value", b"ok", b"limit", b"limit", b"ok", b"line-too-long"])
 
@@ -244,108 +242,6 @@ class Systemd(unittest.TestCase):
         status, _, errors = run("serve", "--listen", "systemd")
         self.assertEqual((status, len(errors)), (1, 1), errors)
         self.assertIn("systemd has passed on no socket", errors[0])
-
-
-class Http(unittest.TestCase):
-    def address(self, server):
-        return server.wait_for(r"health and metrics on (http://127\.0\.0\.1:\d+)").group(1)
-
-    def get(self, url):
-        try:
-            with urllib.request.urlopen(url, timeout=PATIENCE) as response:
-                return response.status, response.read().decode()
-        except urllib.error.HTTPError as error:
-            with error:
-                return error.code, error.read().decode()
-
-    def metrics(self, server):
-        status, text = self.get(self.address(server) + "/metrics")
-        self.assertEqual(status, 200)
-        return {key: float(value) for key, value in
-                (line.rsplit(" ", 1) for line in text.splitlines() if not line.startswith("#"))}
-
-    def test_health_and_readiness(self):
-        with serve("--http", "127.0.0.1:0", "--grace", "60") as server:
-            wire = connect_tcp(server.port())
-            ask(wire, b"hello")
-            address = self.address(server)
-            self.assertEqual(self.get(address + "/healthz"), (200, "ok\n"))
-            self.assertEqual(self.get(address + "/readyz"), (200, "ready\n"))
-            self.assertEqual(self.get(address + "/nothing")[0], 404)
-            server.process.send_signal(signal.SIGTERM)
-            server.wait_for("told to stop")
-            self.assertEqual(self.get(address + "/healthz"), (200, "ok\n"))
-            self.assertEqual(self.get(address + "/readyz"), (503, "stopping\n"))
-            wire.close()
-            self.assertEqual(server.wait(), 0)
-
-    def test_metrics_count_what_was_done(self):
-        with serve("--http", "127.0.0.1:0", "--max-sessions", "1") as server:
-            wire = connect_tcp(server.port())
-            replies = len(wire.send(LOAD) or b"") + sum(len(wire.line()) for _ in range(3))
-            replies += len(ask(wire, b"act NOOP*7")) + len(ask(wire, b"act 99")) + len(ask(wire, b"nonsense"))
-            refused = connect_tcp(server.port())
-            refused.rest()
-            refused.close()
-            found = self.metrics(server)
-            sent = len(LOAD) + len(b"act NOOP*7\nact 99\nnonsense\n")
-            expected = {"sessions_open": 1, 'sessions_total{protocol="line"}': 1,
-                        'sessions_refused_total{reason="busy"}': 1, "frames_total": 7,
-                        'requests_total{command="act",outcome="ok"}': 1,
-                        'requests_total{command="act",outcome="error"}': 1,
-                        'requests_total{command="none",outcome="error"}': 1,
-                        "request_seconds_count": 6, 'request_seconds_bucket{le="+Inf"}': 6,
-                        "received_bytes_total": sent, "sent_bytes_total": replies}
-            self.assertEqual({key: found["racebeam_" + key] for key in expected}, expected)
-            buckets = [value for key, value in found.items() if "_bucket" in key]
-            self.assertEqual(buckets, sorted(buckets))
-            wire.close()
-
-    def test_what_is_no_HTTP_harms_nobody(self):
-        with serve("--http", "127.0.0.1:0") as server:
-            address = self.address(server)
-            for nonsense in (b"\0" * 1000, b"hello\n\n", b"POST / HTTP/1.1\r\nContent-Length: 99999999\r\n\r\n",
-                             b"GET / HTTP/1.1\r\nX: " + b"x" * 100000):
-                wire = connect_tcp(int(address.rsplit(":", 1)[1]))
-                try:
-                    wire.send(nonsense)
-                    wire.stop_sending()
-                    wire.rest()
-                except OSError:
-                    pass
-                wire.close()
-            self.assertEqual(self.get(address + "/healthz"), (200, "ok\n"))
-
-
-class Log(unittest.TestCase):
-    def test_json_is_an_object_a_line(self):
-        with serve("--log-format", "json") as server:
-            port = int(server.wait_for(r"listening on tcp://127\.0\.0\.1:(\d+)").group(1))
-            wire = connect_tcp(port)
-            ask(wire, b"quit")
-            wire.close()
-            server.wait_for("1 requests")
-            events = [json.loads(line) for line in server.log()]
-            self.assertEqual([event["event"] for event in events], ["listening", "came", "left"])
-            for event in events:
-                self.assertRegex(event["time"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$")
-                self.assertEqual(event["level"], "info")
-
-    def test_the_level_hides_what_is_below(self):
-        with tempfile.TemporaryDirectory() as folder:
-            ready = os.path.join(folder, "ready")
-            with serve("--log-level", "warning", "--ready-file", ready, "--max-sessions", "1") as server:
-                deadline = time.monotonic() + PATIENCE
-                while not os.path.exists(ready) and time.monotonic() < deadline:
-                    time.sleep(0.01)
-                with open(ready) as file:
-                    port = int(file.read().rsplit(":", 1)[1])
-                wires = [connect_tcp(port) for _ in range(2)]
-                wires[1].rest()
-                self.assertEqual(len(server.log()), 1)
-                self.assertRegex(server.log()[0], "^racebeam: warning: tcp://.* client 2: refused")
-                for wire in wires:
-                    wire.close()
 
 
 if __name__ == "__main__":
