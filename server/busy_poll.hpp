@@ -40,7 +40,7 @@ class BusyPoll {
   static constexpr int kMostSkipped = 1023;
 
   const std::chrono::microseconds longest_;
-  Clock::time_point until_{};     // none: asleep
+  Clock::time_point until_{};   // none: asleep
   int vain_ = 0, to_skip_ = 0;  // how often not to try after the last time, and from now on
 };
 

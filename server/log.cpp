@@ -1,13 +1,15 @@
 #include "server/log.hpp"
 
 #include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <nlohmann/json.hpp>
+
+#include "server/log_sink.hpp"
 
 namespace racebeam {
 namespace {
@@ -18,19 +20,10 @@ constexpr std::array kNames = {"debug", "info", "warning", "error", "off"};
 
 std::atomic<LogFormat> format = LogFormat::kText;
 
-spdlog::logger& logger() {
-  static const auto made = [] {
-    auto standard_error = spdlog::stderr_logger_mt("racebeam");
-    standard_error->set_pattern("racebeam: %v");
-    standard_error->flush_on(spdlog::level::trace);
-    return standard_error;
-  }();
-  return *made;
-}
-
-// What a client sent may be in it.
+// What a client sent may be in it. A line has to fit into a page, which a pipe takes whole or not at all.
 std::string printable(std::string_view text) {
-  std::string clean(text);
+  constexpr std::size_t kLongest = 1000;
+  std::string clean(text.substr(0, kLongest));
   std::ranges::replace_if(
       clean, [](char c) { return c < ' ' || c > '~'; }, '?');
   return clean;
@@ -42,6 +35,33 @@ std::string as_json(LogLevel level, const std::string& sentence, std::initialize
   line["message"] = printable(sentence);
   for (const LogField& field : fields) line[std::string(field.key)] = printable(field.value);
   return line.dump().substr(1);  // the time comes before it, from the pattern
+}
+
+// What stands behind the pattern.
+std::string payload(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields) {
+  if (format == LogFormat::kJson) return as_json(level, sentence, fields);
+  const char* mark = level == LogLevel::kWarning ? "warning: " : level == LogLevel::kError ? "error: " : "";
+  return mark + printable(sentence);
+}
+
+std::string tell_of_lost(std::int64_t lines) {
+  return payload(LogLevel::kWarning, std::to_string(lines) + " lines of the log are lost: nobody read it",
+                 {{"event", "lost"}});
+}
+
+const std::shared_ptr<LogSink>& sink() {
+  static const auto made = std::make_shared<LogSink>(STDERR_FILENO, tell_of_lost);
+  return made;
+}
+
+spdlog::logger& logger() {
+  static spdlog::logger made = [] {
+    spdlog::logger standard_error("racebeam", sink());
+    standard_error.set_pattern("racebeam: %v");
+    standard_error.flush_on(spdlog::level::trace);
+    return standard_error;
+  }();
+  return made;
 }
 
 }  // namespace
@@ -58,9 +78,11 @@ void set_up_log(LogLevel least, LogFormat wanted) {
 void log(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields) {
   const auto importance = kLevels[static_cast<std::size_t>(level)];
   if (!logger().should_log(importance)) return;
-  if (format == LogFormat::kJson) return logger().log(importance, "{}", as_json(level, sentence, fields));
-  const char* mark = level == LogLevel::kWarning ? "warning: " : level == LogLevel::kError ? "error: " : "";
-  logger().log(importance, "{}{}", mark, printable(sentence));
+  logger().log(importance, "{}", payload(level, sentence, fields));
 }
+
+void write_log() { sink()->flush(); }
+
+std::int64_t log_lines_lost() { return sink()->lost(); }
 
 }  // namespace racebeam

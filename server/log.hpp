@@ -1,6 +1,7 @@
 // What the server says to the person who started it: one line an event, on standard error.
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -21,8 +22,12 @@ struct LogField {
   std::string_view key, value;
 };
 
-// From any thread; lines never mix. Bytes that are no printable ASCII become '?'.
+// From any thread; lines never mix. Bytes that are no printable ASCII become '?', and what is very long is
+// cut. Never waits: see log_sink.hpp.
 void log(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields = {});
+
+void write_log();  // lines for which there was no room, if there is now
+std::int64_t log_lines_lost();
 
 inline void log(const std::string& sentence, std::initializer_list<LogField> fields = {}) {
   log(LogLevel::kInfo, sentence, fields);

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "protocol/command.hpp"
+#include "server/log.hpp"
 
 namespace racebeam {
 namespace {
@@ -84,6 +85,8 @@ std::string Metrics::text() const {
   append_value(out, "received_bytes_total", sum([](const Meter& meter) -> auto& { return meter.bytes_in; }));
   append_head(out, "sent_bytes_total", "counter", "Bytes to clients, without TLS.");
   append_value(out, "sent_bytes_total", sum([](const Meter& meter) -> auto& { return meter.bytes_out; }));
+  append_head(out, "log_lines_lost_total", "counter", "Lines of the log that nobody read in time.");
+  append_value(out, "log_lines_lost_total", log_lines_lost());
   append_requests(out);
   append_latencies(out);
   return out;

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <string>
 
+#include "server/log.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -35,6 +37,7 @@ net::awaitable<void> Watch::look_after(Loop& loop) {
     timer.expires_after(kBetweenLooks);
     co_await timer.async_wait(net::use_awaitable);
     for (Client* client : loop.clients) look_at(*client);
+    write_log();
   }
 }
 

@@ -1,0 +1,186 @@
+"""What a server tells those who run it: health, metrics, the log."""
+
+import fcntl
+import json
+import os
+import re
+import select
+import signal
+import tempfile
+import time
+import unittest
+import urllib.error
+import urllib.request
+
+from harness import PATIENCE, Server, connect_tcp, main
+
+LOAD = b"load beamfall seed=1 sticky=0 max_episode_frames=0\nsave root\nobserve frame\n"
+F_SETPIPE_SZ = 1031  # fcntl has the name from Python 3.10 on
+
+
+def serve(*options, errors=None):
+    return Server("serve", "--listen", "tcp://127.0.0.1:0", *options, errors=errors)
+
+
+def ask(wire, request):
+    wire.send(request + b"\n")
+    return wire.line()
+
+
+def get(url):
+    try:
+        with urllib.request.urlopen(url, timeout=PATIENCE) as response:
+            return response.status, response.read().decode()
+    except urllib.error.HTTPError as error:
+        with error:
+            return error.code, error.read().decode()
+
+
+class Http(unittest.TestCase):
+    def address(self, server):
+        return server.wait_for(r"health and metrics on (http://127\.0\.0\.1:\d+)").group(1)
+
+    def metrics(self, server):
+        status, text = get(self.address(server) + "/metrics")
+        self.assertEqual(status, 200)
+        return {key: float(value) for key, value in
+                (line.rsplit(" ", 1) for line in text.splitlines() if not line.startswith("#"))}
+
+    def test_health_and_readiness(self):
+        with serve("--http", "127.0.0.1:0", "--grace", "60") as server:
+            wire = connect_tcp(server.port())
+            ask(wire, b"hello")
+            address = self.address(server)
+            self.assertEqual(get(address + "/healthz"), (200, "ok\n"))
+            self.assertEqual(get(address + "/readyz"), (200, "ready\n"))
+            self.assertEqual(get(address + "/nothing")[0], 404)
+            server.process.send_signal(signal.SIGTERM)
+            server.wait_for("told to stop")
+            self.assertEqual(get(address + "/healthz"), (200, "ok\n"))
+            self.assertEqual(get(address + "/readyz"), (503, "stopping\n"))
+            wire.close()
+            self.assertEqual(server.wait(), 0)
+
+    def test_metrics_count_what_was_done(self):
+        with serve("--http", "127.0.0.1:0", "--max-sessions", "1") as server:
+            wire = connect_tcp(server.port())
+            replies = len(wire.send(LOAD) or b"") + sum(len(wire.line()) for _ in range(3))
+            replies += len(ask(wire, b"act NOOP*7")) + len(ask(wire, b"act 99")) + len(ask(wire, b"nonsense"))
+            refused = connect_tcp(server.port())
+            refused.rest()
+            refused.close()
+            found = self.metrics(server)
+            sent = len(LOAD) + len(b"act NOOP*7\nact 99\nnonsense\n")
+            expected = {"sessions_open": 1, 'sessions_total{protocol="line"}': 1,
+                        'sessions_refused_total{reason="busy"}': 1, "frames_total": 7,
+                        'requests_total{command="act",outcome="ok"}': 1,
+                        'requests_total{command="act",outcome="error"}': 1,
+                        'requests_total{command="none",outcome="error"}': 1,
+                        "request_seconds_count": 6, 'request_seconds_bucket{le="+Inf"}': 6,
+                        "received_bytes_total": sent, "sent_bytes_total": replies}
+            self.assertEqual({key: found["racebeam_" + key] for key in expected}, expected)
+            buckets = [value for key, value in found.items() if "_bucket" in key]
+            self.assertEqual(buckets, sorted(buckets))
+            wire.close()
+
+    def test_what_is_no_HTTP_harms_nobody(self):
+        with serve("--http", "127.0.0.1:0") as server:
+            address = self.address(server)
+            for nonsense in (b"\0" * 1000, b"hello\n\n", b"POST / HTTP/1.1\r\nContent-Length: 99999999\r\n\r\n",
+                             b"GET / HTTP/1.1\r\nX: " + b"x" * 100000):
+                wire = connect_tcp(int(address.rsplit(":", 1)[1]))
+                try:
+                    wire.send(nonsense)
+                    wire.stop_sending()
+                    wire.rest()
+                except OSError:
+                    pass
+                wire.close()
+            self.assertEqual(get(address + "/healthz"), (200, "ok\n"))
+
+
+class Log(unittest.TestCase):
+    def test_json_is_an_object_a_line(self):
+        with serve("--log-format", "json") as server:
+            port = int(server.wait_for(r"listening on tcp://127\.0\.0\.1:(\d+)").group(1))
+            wire = connect_tcp(port)
+            ask(wire, b"quit")
+            wire.close()
+            server.wait_for("1 requests")
+            events = [json.loads(line) for line in server.log()]
+            self.assertEqual([event["event"] for event in events], ["listening", "came", "left"])
+            for event in events:
+                self.assertRegex(event["time"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$")
+                self.assertEqual(event["level"], "info")
+
+    def test_a_standard_error_that_nobody_reads_holds_up_nobody(self):
+        for log_format in ("text", "json"):
+            reading, writing = os.pipe()
+            fcntl.fcntl(writing, F_SETPIPE_SZ, 4096)
+            with serve("--http", "127.0.0.1:0", "--ready-file", "ready", "--log-format", log_format, "--grace", "0",
+                       errors=writing) as server:
+                os.close(writing)
+                addresses = server.addresses("ready")
+                for _ in range(700):  # each comes and leaves: more than wait, and than fit into the pipe
+                    wire = connect_tcp(int(addresses[0].rsplit(":", 1)[1]))
+                    self.assertEqual(ask(wire, b"quit"), b"ok\n")
+                    wire.rest()
+                    wire.close()
+                status, text = get(addresses[1] + "/metrics")
+                lost = int(re.search(r"^racebeam_log_lines_lost_total (\d+)$", text, re.MULTILINE).group(1))
+                self.assertGreater(lost, 200)
+                fcntl.fcntl(reading, F_SETPIPE_SZ, 1 << 20)
+                lines = self.read(reading, b"client 700: 1 requests").splitlines()
+                self.check_order(lines, lost)
+                self.assertEqual(server.stop(), 0)
+            os.close(reading)
+
+    def test_a_server_ends_though_nobody_reads_its_log(self):
+        reading, writing = os.pipe()
+        os.set_blocking(writing, False)
+        with self.assertRaises(BlockingIOError):
+            while True:
+                os.write(writing, b"x" * 4096)
+        os.set_blocking(writing, True)
+        with serve("--ready-file", "ready", "--grace", "0", errors=writing) as server:
+            wire = connect_tcp(int(server.addresses("ready")[0].rsplit(":", 1)[1]))
+            self.assertEqual(ask(wire, b"quit"), b"ok\n")
+            self.assertEqual(server.stop(), 0)
+            wire.close()
+        os.close(writing)
+        os.close(reading)
+
+    def read(self, descriptor, last):
+        text = b""
+        while last not in text:
+            self.assertTrue(select.select([descriptor], [], [], PATIENCE)[0], "the log does not go on")
+            text += os.read(descriptor, 65536)
+        return text
+
+    def check_order(self, lines, lost):
+        """Two addresses, then clients who come and leave, in order; where some are missing the log says how many."""
+        notes = [match for match in (re.search(rb"(\d+) lines of the log are lost", line) for line in lines) if match]
+        self.assertEqual(sum(int(note.group(1)) for note in notes), lost)
+        self.assertEqual(len(lines) - len(notes), 2 + 2 * 700 - lost)
+        events = [int(match.group(1)) for match in (re.search(rb"client (\d+): ", line) for line in lines) if match]
+        self.assertEqual(events, sorted(events))
+
+    def test_the_level_hides_what_is_below(self):
+        with tempfile.TemporaryDirectory() as folder:
+            ready = os.path.join(folder, "ready")
+            with serve("--log-level", "warning", "--ready-file", ready, "--max-sessions", "1") as server:
+                deadline = time.monotonic() + PATIENCE
+                while not os.path.exists(ready) and time.monotonic() < deadline:
+                    time.sleep(0.01)
+                with open(ready) as file:
+                    port = int(file.read().rsplit(":", 1)[1])
+                wires = [connect_tcp(port) for _ in range(2)]
+                wires[1].rest()
+                self.assertEqual(len(server.log()), 1)
+                self.assertRegex(server.log()[0], "^racebeam: warning: tcp://.* client 2: refused")
+                for wire in wires:
+                    wire.close()
+
+
+if __name__ == "__main__":
+    main()
