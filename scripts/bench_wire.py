@@ -14,7 +14,6 @@ import os
 import pathlib
 import subprocess
 import sys
-import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build/release"
@@ -101,33 +100,17 @@ def print_bytes(games, frames=1000):
         session.close()
 
 
-def frames_so_far(session):
-    return int(session.ask("stats").partition(b" frames=")[2].split()[0])
-
-
-def frames_a_second(session, request, seconds=1.0):
-    begin, before = time.monotonic(), frames_so_far(session)
-    while time.monotonic() - begin < seconds:
-        reply = session.ask(request)
-        if b" | " not in reply and b"terminated=1" in reply:  # those of `open` reset themselves
-            session.ask("reset")
-    return (frames_so_far(session) - before) / (time.monotonic() - begin)
-
-
-def print_batch(game, machines=64, rounds=5):
-    rom, rates = image(game), {"one": [], "batch": []}
-    one, many = Session(rom), Session(rom)
-    for session in (one, many):
-        session.ask("observe reward ends")
-    many.ask(f"open {machines} autoreset=same-step")
-    for _ in range(rounds):
-        rates["one"].append(frames_a_second(one, f"act FIRE*{machines}"))
-        rates["batch"].append(frames_a_second(many, "step FIRE"))
-    single, batch = (sorted(rates[key])[rounds // 2] for key in ("one", "batch"))
-    print(f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} cores: {batch:.0f} frames/s; one machine, "
-          f"{machines} acts a request: {single:.0f}; ratio {batch / single:.2f}")
-    for session in (one, many):
-        session.close()
+def print_batch(game, machines=64):
+    """Many machines in one session beside one in process, both a frame a request, with the same fields."""
+    rom = image(game)
+    print(f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} processors, frames/s and times one in process")
+    for fields in ("reward ends", "reward ends lives ram screen:rle"):
+        done = subprocess.run([WIRE_BENCH, "--machines", str(machines), RACEBEAM, rom, "10000", *fields.split()],
+                              capture_output=True, check=True)
+        found = json.loads(done.stdout)
+        alone = found["in_process"]["rate"]
+        print(f"{fields:34}{alone:9.0f}" + "".join(
+            f"{transport:>8}{found[transport]['rate']:8.0f}{found[transport]['rate'] / alone:6.2f}" for transport in TRANSPORTS))
 
 
 def main():
@@ -136,7 +119,8 @@ def main():
     for game in arguments.speed_games:
         for ahead, placement in itertools.product(arguments.ahead, arguments.placement):
             print_speed(game, arguments.steps, ahead, placement)
-    print_batch(arguments.speed_games[0])
+    for game in arguments.speed_games:
+        print_batch(game)
     print_bytes(arguments.games)
 
 

@@ -5,6 +5,9 @@
 //
 //   wire_bench [--apart] RACEBEAM IMAGE STEPS AHEAD [KEY=VALUE...]
 //   prints one JSON object; settings are those of load. --apart: client and server on a processor each.
+//   wire_bench --machines N RACEBEAM IMAGE STEPS FIELD...
+//   the same for N machines in one session, beside one in process; STEPS of that one, a tenth as
+//   many of each of the others; rates are frames a second of all together.
 //   wire_bench --echo FILE                                 the echo server on standard streams: a line of
 //   FILE a line
 #include <sys/wait.h>
@@ -21,37 +24,17 @@
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <thread>
 
-#include "protocol/line_session.hpp"
+#include "tests/server/wire/bench_job.hpp"
 #include "tests/server/wire/line_channel.hpp"
 
 namespace {
 
-using namespace racebeam;
+using wire::Job;
 using wire::LineChannel;
-using Lines = std::vector<std::string>;
-
-struct Job {
-  std::string racebeam, image, load;
-  int steps, ahead;
-  Lines requests;  // each an act
-};
-
-// Every action is held for some acts, as a player does.
-Lines draw_requests(int count) {
-  std::mt19937 random(1);
-  Lines requests;
-  int action = 0;
-  for (int i = 0; i < count; ++i) {
-    if (random() % 4 == 0) action = static_cast<int>(random() % 6);
-    requests.push_back("act " + std::to_string(action) + "\n");
-  }
-  return requests;
-}
-
-Lines preparation(const Job& job) { return {job.load, "observe reward ends lives ram screen:rle\n"}; }
+using wire::Lines;
+using wire::LocalSession;
 
 struct Cost {
   double rate;          // steps a second
@@ -94,7 +77,7 @@ Cost drive(LineChannel& channel, const Job& job, pid_t server, Lines* replies = 
 }
 
 Cost drive_racebeam(LineChannel& channel, const Job& job, pid_t server, Lines* replies = nullptr) {
-  for (const std::string& request : preparation(job)) {
+  for (const std::string& request : job.preparation) {
     channel.send(request);
     if (const auto line = channel.line(); !line.starts_with("ok"))
       throw std::runtime_error("the server said: " + std::string(line));
@@ -194,24 +177,11 @@ Cost echo_over_socket(const Job& job, const Lines& replies, bool tcp) {
   return cost;
 }
 
-// The same session without a wire: requests in, replies into a string.
+// The same session without a wire.
 Cost in_process(const Job& job) {
-  auto images = std::make_shared<Images>();
-  images->add_file(job.image);
-  LineService service;
-  service.images = images;
-  LineSession session(service);
-  const auto ask = [&session](const std::string& request) {
-    const auto space = session.space();
-    std::copy_n(request.begin(), request.size(), space.begin());
-    session.received(request.size());
-    while (session.run()) continue;
-    if (!session.output().starts_with("ok")) throw std::runtime_error(std::string(session.output()));
-    session.sent(session.output().size());
-  };
-  for (const std::string& request : preparation(job)) ask(request);
+  LocalSession session(job);
   const Meter meter(::getpid());
-  for (const std::string& request : job.requests) ask(request);
+  for (const std::string& request : job.requests) session.ask(request);
   return meter.of(job.steps);
 }
 
@@ -236,13 +206,12 @@ nlohmann::ordered_json measure(const std::vector<Measurement>& all) {
 }
 
 int bench(const std::vector<std::string>& words) {
-  Job job{words.at(0), words.at(1), "", std::atoi(words.at(2).c_str()), std::atoi(words.at(3).c_str()), {}};
-  std::string game = std::filesystem::path(job.image).stem();
-  if (job.image.starts_with("builtin:")) game = job.image.substr(8);
-  job.load = "load " + game + " seed=1 sticky=0 max_episode_frames=0";
-  for (std::size_t i = 4; i < words.size(); ++i) job.load += " " + words[i];
-  job.load += "\n";
-  job.requests = draw_requests(job.steps);
+  Job job{words.at(0), words.at(1), {}, std::atoi(words.at(2).c_str()), std::atoi(words.at(3).c_str()), {}};
+  std::string load = wire::load_of(job.image);
+  for (std::size_t i = 4; i < words.size(); ++i) load += " " + words[i];
+  job.preparation = {load + "\n", "observe reward ends lives ram screen:rle\n"};
+  job.requests = wire::draw_requests(job.steps, "act");
+  wire::reset_where_it_ends(job);
   Lines replies;
   over_standard_streams(job, &replies);
   std::size_t bytes = 0;
@@ -263,6 +232,28 @@ int bench(const std::vector<std::string>& words) {
   return 0;
 }
 
+int bench_machines(const std::string& machines, const std::vector<std::string>& words) {
+  std::string observe = "observe";
+  for (std::size_t i = 3; i < words.size(); ++i) observe += " " + words[i];
+  const int steps = std::atoi(words.at(2).c_str());
+  Job one{words.at(0), words.at(1), {wire::load_of(words.at(1)) + "\n", observe + "\n"}, steps, 1, {}};
+  Job many = one;
+  one.requests = wire::draw_requests(steps, "act");
+  wire::reset_where_it_ends(one);
+  many.preparation.push_back("open " + machines + " autoreset=same-step\n");
+  many.requests = wire::draw_requests(steps / 10, "step");
+  many.steps = static_cast<int>(many.requests.size()) * std::atoi(machines.c_str());
+  std::cout << measure({
+                           {"in_process", [&] { return in_process(one); }},
+                           {"stdio", [&] { return over_standard_streams(many, nullptr); }},
+                           {"unix", [&] { return over_socket(many, false); }},
+                           {"tcp", [&] { return over_socket(many, true); }},
+                       })
+                   .dump()
+            << "\n";
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -278,6 +269,8 @@ int main(int argc, char** argv) {
       wire::put_apart();
       words.erase(words.begin());
     }
+    if (words.size() > 5 && words[0] == "--machines")
+      return bench_machines(words[1], {words.begin() + 2, words.end()});
     if (words.size() < 4) throw std::runtime_error("[--apart] RACEBEAM IMAGE STEPS AHEAD [KEY=VALUE...]");
     return bench(words);
   } catch (const std::exception& error) {
