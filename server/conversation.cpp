@@ -84,10 +84,12 @@ bool has_gone(Socket& socket) {
   return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLHUP | POLLERR)) != 0;
 }
 
-// Between two slices of a long request, the loop's other sessions have their turn.
+// Between two slices of a long request, or of many that were sent ahead, the loop's other sessions have their
+// turn. Of the latter a slice has many parts, each of which ends with replies that are sent.
 template <typename Stream>
 net::awaitable<void> converse(Stream& stream, Client& client, LineSession& session) {
-  for (;;) {
+  constexpr int kMostParts = 32;
+  for (int parts = 0;;) {
     const bool more = session.run();
     client.admitted = session.admitted();
     const std::string_view text = session.output();
@@ -101,6 +103,8 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
     if (more) {
       if (text.empty() && has_gone(client.socket))
         throw std::runtime_error("the client left in the middle of a request");
+      if (!text.empty() && ++parts < kMostParts) continue;
+      parts = 0;
       co_await net::post(client.socket.get_executor(), use_awaitable);
       continue;
     }
