@@ -1,6 +1,7 @@
 // Who sleeps is woken up late: on a virtual machine that takes several times as long as an act. A client that
 // asked again at once the last time is therefore waited for awake, for a while; who thinks for longer, or is
-// idle, costs nothing. Where it is in vain, because others need the processors, it is tried ever more seldom.
+// idle, costs nothing. Where that is often in vain, because others need the processors, it is tried ever more
+// seldom.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,7 @@ class BusyPoll {
 
   // Something came, so long after the last reply: whether the next is worth waiting for.
   bool came_after(Clock::duration pause) {
-    if (until_ != Clock::time_point{} && pause < longest_) vain_ = 0;
+    if (until_ != Clock::time_point{} && pause < longest_) vain_ /= 2;
     return pause < longest_;
   }
 
@@ -32,12 +33,12 @@ class BusyPoll {
   bool again() {
     if (until_ == Clock::time_point{} || Clock::now() < until_) return until_ != Clock::time_point{};
     until_ = {};
-    to_skip_ = vain_ = std::min(2 * vain_ + 1, kMostSkipped);
+    to_skip_ = vain_ = std::min(4 * vain_ + 4, kMostSkipped);
     return false;
   }
 
  private:
-  static constexpr int kMostSkipped = 1023;
+  static constexpr int kMostSkipped = 1024;
 
   const std::chrono::microseconds longest_;
   Clock::time_point until_{};   // none: asleep

@@ -20,6 +20,7 @@ import unittest
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BINARY = os.environ.get("RACEBEAM_BINARY", os.path.join(SOURCE, "build", "release", "racebeam"))
 GAME = "builtin:beamfall"
+LOAD = b"load beamfall seed=1 sticky=0 max_episode_frames=0\nsave root\nobserve frame\n"
 TRANSPORTS = ("stdio", "pipes", "tcp", "unix")
 PATIENCE = float(os.environ.get("RACEBEAM_PATIENCE", 20))  # seconds until something counts as hanging; more for slow builds
 SKIPPED = 77     # exit status that ctest reads as "skipped"
@@ -179,6 +180,16 @@ class Wire:
             self.connection = self.input_fd = self.output_fd = None
         self.stop_sending()
         self.stop_reading()
+
+
+def serve(*options, errors=None):
+    """One of the line protocol on a free port."""
+    return Server("serve", "--listen", "tcp://127.0.0.1:0", *options, errors=errors)
+
+
+def ask(wire, request):
+    wire.send(request + b"\n")
+    return wire.line()
 
 
 def connect_tcp(port):

@@ -9,7 +9,7 @@ import tempfile
 import time
 import unittest
 
-from harness import GAME, Server, connect_tcp, connect_unix, main, run
+from harness import GAME, Server, ask, connect_tcp, connect_unix, main, run
 
 TOKEN, OTHER = "0123456789abcdef", "fedcba9876543210"
 
@@ -27,11 +27,6 @@ class Folder(unittest.TestCase):
         with open(self.path(name), "w") as file:
             file.write(text)
         return self.path(name)
-
-
-def ask(wire, request):
-    wire.send(request + b"\n")
-    return wire.line()
 
 
 class Tokens(Folder):

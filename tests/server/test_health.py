@@ -12,19 +12,9 @@ import unittest
 import urllib.error
 import urllib.request
 
-from harness import PATIENCE, Server, connect_tcp, main
+from harness import LOAD, PATIENCE, ask, connect_tcp, main, serve
 
-LOAD = b"load beamfall seed=1 sticky=0 max_episode_frames=0\nsave root\nobserve frame\n"
 F_SETPIPE_SZ = 1031  # fcntl has the name from Python 3.10 on
-
-
-def serve(*options, errors=None):
-    return Server("serve", "--listen", "tcp://127.0.0.1:0", *options, errors=errors)
-
-
-def ask(wire, request):
-    wire.send(request + b"\n")
-    return wire.line()
 
 
 def get(url):

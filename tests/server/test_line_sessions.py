@@ -6,9 +6,8 @@ import threading
 import time
 import unittest
 
-from harness import GAME, Server, Session, connect_tcp, connect_unix, main
+from harness import GAME, LOAD, Server, Session, connect_tcp, connect_unix, main
 
-LOAD = b"load beamfall seed=1 sticky=0 max_episode_frames=0\nsave root\nobserve frame\n"
 LONG = b"branch root " + b"NOOP*400,FIRE*600 " * 800 + b"\n"  # about 800,000 frames: seconds
 
 

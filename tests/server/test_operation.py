@@ -8,19 +8,9 @@ import tempfile
 import time
 import unittest
 
-from harness import BINARY, GAME, PATIENCE, Server, Wire, connect_tcp, connect_unix, main, run
+from harness import BINARY, GAME, LOAD, PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, run, serve
 
-LOAD = b"load beamfall seed=1 sticky=0 max_episode_frames=0\nsave root\nobserve frame\n"
 LONG = b"branch root " + b"NOOP*400,FIRE*600 " * 100 + b"\n"  # 100,000 frames: seconds
-
-
-def serve(*options):
-    return Server("serve", "--listen", "tcp://127.0.0.1:0", *options)
-
-
-def ask(wire, request):
-    wire.send(request + b"\n")
-    return wire.line()
 
 
 class Limits(unittest.TestCase):
