@@ -34,22 +34,22 @@ constexpr std::array kFields = {
     FieldRow{"ram", "128 bytes", false, nullptr,
              [](const Environment& e, Scratch&) -> Bytes { return e.ram(); }, Encoding::kHex},
     FieldRow{"screen", "height x 160 palette indices, row by row", false, nullptr,
-             [](const Environment& e, Scratch&) { return e.screen(); }, Encoding::kRunLength},
+             [](const Environment& e, Scratch&) { return e.screen(); }, Encoding::kRunLength, Drawing::kLast},
     FieldRow{"rgb", "height x 160 x 3: red, green, blue", false, nullptr,
              [](const Environment& e, Scratch& scratch) -> Bytes {
                e.screen_rgb(scratch);
                return scratch;
              },
-             Encoding::kZlib},
+             Encoding::kZlib, Drawing::kLast},
     FieldRow{"grey", "height x 160", false, nullptr,
              [](const Environment& e, Scratch& scratch) -> Bytes {
                e.screen_grey(scratch);
                return scratch;
              },
-             Encoding::kZlib},
+             Encoding::kZlib, Drawing::kLast},
     FieldRow{kStack,
              "84 x 84 grey, the brighter of the last two frames; grey84x4: a stack of 4, oldest first", false,
-             nullptr, nullptr, Encoding::kZlib},
+             nullptr, nullptr, Encoding::kZlib, Drawing::kLastTwo},
     FieldRow{"audio", "512 samples of the last act; needs sound=1", false, nullptr,
              [](const Environment& e, Scratch&) -> Bytes { return e.audio(); }, Encoding::kHex},
 };
@@ -105,6 +105,12 @@ void check(const std::vector<Field>& fields) {
 }  // namespace
 
 std::span<const FieldRow> field_rows() { return kFields; }
+
+Drawing drawing_of(const std::vector<Field>& fields, bool averaging) {
+  Drawing most = Drawing::kNone;
+  for (const Field& field : fields) most = std::min(most, field.row->looks_at);
+  return averaging && most == Drawing::kLast ? Drawing::kLastTwo : most;
+}
 
 std::vector<Field> parse_fields(Words words) {
   std::vector<Field> fields;

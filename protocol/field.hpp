@@ -29,6 +29,7 @@ struct FieldRow {
   std::int64_t (*number)(const Environment&, const Outcome&);  // null for those that are bytes
   std::span<const std::uint8_t> (*bytes)(const Environment&, std::vector<std::uint8_t>& scratch);
   Encoding usual;  // encoding of bytes
+  Drawing looks_at = Drawing::kNone;
 };
 std::span<const FieldRow> field_rows();
 
@@ -41,6 +42,9 @@ struct Field {
 
 // Words such as lives, screen:rle, grey84x4; `ends` is two of them, `none` is none. Throws Refusal.
 std::vector<Field> parse_fields(Words words);
+
+// Which of an act's screens they look at, on a machine with colour averaging or without.
+Drawing drawing_of(const std::vector<Field>& fields, bool averaging);
 
 // How long they are in a reply about such a machine, about: text_size() of each that is bytes.
 std::size_t text_size(const std::vector<Field>& fields, const Environment& machine);

@@ -24,6 +24,7 @@ void LineSession::sent(std::size_t count) { session_->sent(count); }
 bool LineSession::admitted() const { return session_->admitted; }
 bool LineSession::finished() const { return session_->finished(); }
 void LineSession::cancel() { session_->cancel(); }
+void LineSession::rest() { session_->rest(); }
 
 std::string LineSession::summary() const {
   const Statistics& all = session_->statistics;

@@ -71,6 +71,7 @@ class LineSession {
   bool admitted() const;  // it has given its token, or needs none
   bool finished() const;  // nothing will come any more: send the output, then close
   void cancel();          // the client has gone: what is under way is given up
+  void rest();            // nothing has come for a while: memory is given back that only saves time
 
   std::string summary() const;  // for the log: what was played
  private:

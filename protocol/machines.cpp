@@ -25,6 +25,11 @@ void MachinesWork::observe(const std::vector<Field>& fields) {
   for (Seat& seat : seats_) seat.player->observe(fields);
 }
 
+void MachinesWork::rest() {
+  for (Seat& seat : seats_)
+    if (seat.player) seat.player->machine().rest();
+}
+
 void MachinesWork::check_replies(const Session& session, const std::vector<Field>& fields, std::size_t count,
                                  Autoreset autoreset) {
   const std::size_t once = text_size(fields, session.player->machine());

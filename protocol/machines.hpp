@@ -24,6 +24,7 @@ class MachinesWork final : public Work {
   Autoreset autoreset() const { return autoreset_; }
   void close() { seats_.clear(); }
   void observe(const std::vector<Field>& fields);
+  void rest();
   // Throws Refusal when replies about so many, of these fields, are longer than they may be.
   static void check_replies(const Session& session, const std::vector<Field>& fields, std::size_t count,
                             Autoreset autoreset);

@@ -67,6 +67,7 @@ void Player::go_to(const Place& place) {
 }
 
 void Player::observe(std::vector<Field> fields) {
+  machine_.set_drawing(drawing_of(fields, machine_.settings().color_averaging));
   view_ = View(std::move(fields), machine_.height());
   view_.began(machine_);
 }

@@ -191,4 +191,10 @@ void Session::cancel() {
   done_ = true;
 }
 
+void Session::rest() {
+  if (player) player->machine().rest();
+  machines.rest();
+  if (out.empty()) out.shrink_to_fit();
+}
+
 }  // namespace racebeam

@@ -64,6 +64,7 @@ class Session {
   void sent(std::size_t count);            // of them
   bool finished() const { return done_; }
   void cancel();
+  void rest();
 
  private:
   bool must_send(int frames) const;

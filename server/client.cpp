@@ -27,6 +27,10 @@ void Client::sent(std::size_t bytes) {
   if (quick_) loop.busy.begin();
 }
 
+void Client::rest() {
+  if (on_rest && !std::exchange(rests_, true)) on_rest();
+}
+
 void Client::end(Code code, const std::string& sentence) {
   boost::system::error_code ignored;
   if (ending()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <utility>  // Asio 1.74 forgets it
 
@@ -27,7 +28,10 @@ class Client {
   void came_in();  // to the loop's clients
   void left();
 
-  void is_active() { active_ = Clock::now(); }
+  void is_active() {
+    active_ = Clock::now();
+    rests_ = false;
+  }
   void received(std::size_t bytes);
   void sent(std::size_t bytes);
 
@@ -37,6 +41,10 @@ class Client {
   bool ending() const { return !farewell_.empty(); }
   const std::string& farewell() const { return farewell_; }  // a reply of the line protocol
   const std::string& reason() const { return reason_; }      // for the log
+
+  // Once in each pause: the session gives back what memory it can.
+  void rest();
+  std::function<void()> on_rest;  // empty: there is nothing to give back
 
   Clock::time_point came() const { return came_; }
   Clock::time_point active() const { return active_; }  // when something came or went
@@ -48,6 +56,7 @@ class Client {
 
  private:
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};
+  bool rests_ = false;
   bool quick_ = false;  // it asked again at once
   std::string farewell_, reason_;
 };

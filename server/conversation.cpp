@@ -141,12 +141,25 @@ net::awaitable<void> close_gently(std::shared_ptr<Client> client) {
   }
 }
 
+// What a client's session does in a pause, as long as there is the session.
+class Resting {
+ public:
+  Resting(Client& client, std::function<void()> rest) : client_(client) { client_.on_rest = std::move(rest); }
+  ~Resting() { client_.on_rest = nullptr; }
+  Resting(const Resting&) = delete;
+  Resting& operator=(const Resting&) = delete;
+
+ private:
+  Client& client_;
+};
+
 template <typename Stream>
 net::awaitable<void> play(Stream& stream, Client& client, const ClassicService& service) {
   client.admitted = true;
   Environment machine = service.power_on();
   log(client.name + ": " + describe(machine), {{"client", client.name}, {"event", "came"}});
   ClassicSession session(machine, service.options);
+  const Resting resting(client, [&machine] { machine.rest(); });
   co_await converse(stream, client, session);
 }
 
@@ -154,6 +167,7 @@ template <typename Stream>
 net::awaitable<void> play(Stream& stream, Client& client, const LineService& service) {
   LineSession session(service, &client.loop.meter);
   log(client.name + ": came", {{"client", client.name}, {"event", "came"}});
+  const Resting resting(client, [&session] { session.rest(); });
   co_await converse(stream, client, session);
   log(client.name + ": " + session.summary(), {{"client", client.name}, {"event", "left"}});
 }

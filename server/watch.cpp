@@ -13,6 +13,7 @@ using std::chrono::seconds;
 using namespace std::chrono_literals;
 
 constexpr auto kBetweenLooks = 250ms;
+constexpr auto kPause = 2s;  // of a client, after which its session is at rest
 
 }  // namespace
 
@@ -54,6 +55,8 @@ void Watch::look_at(Client& client) {
     ++metrics_.ended_idle;
     client.end(Code::kIdle,
                "nothing came or went for " + std::to_string(settings_.idle_seconds) + " seconds");
+  } else if (now - client.active() > kPause) {
+    client.rest();
   }
 }
 
