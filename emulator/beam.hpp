@@ -101,6 +101,8 @@ class Beam {
   }
   bool cleared() const { return cleared_; }  // the collisions, since the step began
 
+  std::uint32_t spans() const { return spans_; }  // that were looked at since the step began
+
   bool exact_spans() const { return pixels_ == Pixels::kExact; }
   bool draws_pixels() const { return pixels_ != Pixels::kNone; }
 
@@ -145,7 +147,7 @@ class Beam {
   const DrawPixels draw_pixels_;
   Picture* picture_ = nullptr;
   std::int32_t start_ = 0, end_ = 0;
-  Line line_;
+  alignas(64) Line line_;
   std::uint8_t stale_ = 0xFF;   // masks to make anew
   bool lost_track_ = false;
   std::uint16_t seen_ = 0;
@@ -153,6 +155,7 @@ class Beam {
   Collisions unsought_ = 0;     // nor these
   std::uint8_t sought_objects_ = 0;
   bool cleared_ = false;
+  std::uint32_t spans_ = 0;
   std::int32_t forgotten_ = 0;  // the rows before this pixel are known to have changed
   Pixels pixels_ = Pixels::kDrawn;
 };

@@ -90,7 +90,7 @@ Format Console::Impl::detect_format() {
   reset();
   int long_frames = 0;
   for (int i = 0; i < kDetectionSteps; ++i) {
-    step(false);
+    step(false, false);
     if (i >= 30 && (3 * state().cycle - state().tia.origin) / kLineClocks > 285) ++long_frames;
   }
   return long_frames >= 15 ? Format::kPal : Format::kNtsc;
@@ -112,7 +112,7 @@ Console::Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Pro
 Console::~Console() = default;
 
 void Console::reset() { impl_->reset(); }
-void Console::step(bool draw) { impl_->step(draw); }
+void Console::step(bool draw, bool follow) { impl_->step(draw, follow); }
 
 Inputs& Console::inputs() { return impl_->state().inputs; }
 Sound& Console::sound() { return impl_->board.sound; }

@@ -30,7 +30,8 @@ class Console {
 
   // Runs until a frame closes (tia.md section 2). draw: its picture will be looked at. Without, all is the same and
   // picture() too, but it must then run the frame again: what will mostly not be looked at costs less.
-  void step(bool draw = true);
+  // Where drawing costs less all the same, it is drawn, unless it is to be followed in any case.
+  void step(bool draw = true, bool follow = false);
 
   Inputs& inputs();               // what is pressed from now on
   Sound& sound();

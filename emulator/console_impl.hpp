@@ -8,6 +8,7 @@
 #include "emulator/board.hpp"
 #include "emulator/console.hpp"
 #include "emulator/translator/translator.hpp"
+#include "emulator/unseen_frames.hpp"
 
 namespace racebeam {
 
@@ -30,6 +31,8 @@ struct Console::Impl {
     FrameStart step;         // the step that would tell, if any are
   } latches;
 
+  UnseenFrames unseen;
+
   const std::unique_ptr<Translator> translator;  // null: the interpreter runs all
 
   State& state() { return board.state; }
@@ -45,8 +48,8 @@ struct Console::Impl {
   void check_ram_size(std::span<const std::uint8_t> cartridge_ram) const;
 
   // step.cpp
-  void step(bool draw);
-  bool step_over(FrameStart& start, bool draw);
+  void step(bool looked_at, bool follow);
+  bool step_over(FrameStart& start, bool draw, bool judged);
   bool run_step(Picture& picture, const FrameStart& start, Pixels pixels);
   FrameStart here() const { return {board.state, board.cartridge_ram}; }
   bool reads_unknown_latches(FrameStart& start, bool drew);

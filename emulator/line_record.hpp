@@ -41,7 +41,7 @@ class LineWrite {
   std::uint32_t packed_;
 };
 
-struct LineRecord {
+struct alignas(16) LineRecord {
   static constexpr std::size_t kMostEvents = 16;
 
   TiaRegisters start;   // at the line's first clock

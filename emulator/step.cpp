@@ -21,7 +21,9 @@ bool is_own(const std::shared_ptr<Picture>& picture) {
 
 }  // namespace
 
-void Console::Impl::step(bool draw) {
+void Console::Impl::step(bool looked_at, bool follow) {
+  const bool judged = !looked_at && !follow;  // how the next ones are to be run
+  const bool draw = looked_at || (judged && unseen.draws());
   FrameState& frame = state().frame;
   const bool opens = !frame.open;
   if (opens) {
@@ -32,11 +34,12 @@ void Console::Impl::step(bool draw) {
   }
   FrameStart start = here();
   const bool keeps_old_pixels = draw && !pictures.current->is_undrawn && is_own(pictures.current);
-  if (!opens || keeps_old_pixels || !step_over(start, draw)) {
+  if (!opens || keeps_old_pixels || !step_over(start, draw, judged)) {
     settle_latches();
     start = here();
     draw_now(pictures.current);
     run_step(canvas(), start, Pixels::kDrawn);
+    if (judged && draw) unseen.took(board.tia.work());
     latches.sought |= board.tia.asked();
     note_latches(start, kAllPairs);
   }
@@ -53,7 +56,7 @@ void Console::Impl::step(bool draw) {
 
 // Runs a frame without a look at what its picture shows so far. It must fill the whole window: false if it does not, or
 // does not close, and the machine stands at its start again.
-bool Console::Impl::step_over(FrameStart& start, bool draw) {
+bool Console::Impl::step_over(FrameStart& start, bool draw, bool judged) {
   std::shared_ptr<Picture>& current = pictures.current;
   if (!spare.current) std::swap(spare.current, spare.previous);
   std::shared_ptr<Picture>& place = is_own(current) ? current : spare.current;
@@ -65,6 +68,7 @@ bool Console::Impl::step_over(FrameStart& start, bool draw) {
     go_back(start);
     return false;
   }
+  if (judged) unseen.took(board.tia.work());
   note_latches(start, draw ? kAllPairs : latches.sought);
   place->is_undrawn = !draw;
   if (!draw) place->undrawn = start;

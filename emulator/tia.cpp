@@ -116,6 +116,9 @@ bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::
   return std::equal(entry, end, record.event.begin(), [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
 }
 
+// Instructions, as counted in some games.
+constexpr std::uint32_t kWorkOfWrite = 60, kWorkOfRecall = 110, kWorkOfLikeness = 300, kWorkOfMiss = 200;
+
 constexpr std::int32_t kLongestDelay = 11;  // colour clocks that a write may draw ahead
 
 }  // namespace
@@ -130,6 +133,7 @@ void Tia::begin_frame() {
 void Tia::begin_step(Picture& picture, WriteLog& log, Pixels pixels, Collisions sought) {
   beam_.aim(picture, pixels, sought);
   asked_ = 0;
+  work_ = 0;
   watches_ = beam_.may_meet() || tia_.cosmic;
   log_ = &log;
   played_ = log.next;
@@ -158,6 +162,7 @@ bool Tia::follow_log() {
   skip(end_of_unseen());
   const Following painter{beam_, tia_, reached_, watches_};
   painter.enabled();
+  work_ += kWorkOfWrite * static_cast<std::uint32_t>(log_->next - played_);
   RegisterEffects(tia_, frame_, video_, painter).play(played_, log_->next, log_->base);
   played_ = log_->next;
   return true;
@@ -199,6 +204,7 @@ bool Tia::stopped_inside(std::int32_t cycle) const {
 
 // Write by write, or up to `next`.
 void Tia::play(const std::uint32_t* next) {
+  work_ += kWorkOfWrite * static_cast<std::uint32_t>(next - played_);
   RegisterEffects(tia_, frame_, video_, Drawing{beam_, reached_}).play(played_, next, log_->base);
   played_ = next;
   if (beam_.exact_spans()) beam_.draw_to(reached_);
@@ -282,6 +288,7 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
     played_ = next;
     tia_.collisions |= record->meetings;
   }
+  work_ += kWorkOfRecall * static_cast<std::uint32_t>(record - first) + kWorkOfMiss;
   if (record == first) return enough;
   beam_.lose_track();
   registers.write(tia_);
@@ -295,6 +302,7 @@ void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
   tia_.enabled = enabled_objects(tia_);
   tia_.comb_armed = record.end.comb_armed;
   beam_.end_line();
+  work_ += kWorkOfLikeness;
   if (!record.summed_up) record.sum_up(video_.pal);
 }
 

@@ -28,6 +28,7 @@ class Tia {
   void find_collisions(std::int32_t cycle, Collisions asked);  // these latches stand as they do at `cycle`
   Collisions asked() const { return asked_; }      // latches that have been read in this step
   bool cleared() const { return beam_.cleared(); }  // all latches, in this step
+  std::uint32_t work() const { return work_ + 250 * beam_.spans(); }  // of this step: instructions, more or less
   bool drew_all() const { return tia_.cursor >= beam_.end(); }  // of the window
   // The same, where nothing follows. False if an access that is not in the log may have left something to be seen.
   bool end_picture(std::int32_t cycle);
@@ -60,6 +61,7 @@ class Tia {
   const std::uint32_t* played_ = nullptr;  // of its entries, up to here
   LineRecord* recorded_ = nullptr;  // the cursor's line, as far as it has been drawn
   Collisions asked_ = 0;
+  std::uint32_t work_ = 0;
   bool watches_ = false;      // something may meet, in a step without pixels
   std::int32_t reached_ = 0;  // the beam as the reference has it: ours may be behind, with the same registers
 };
