@@ -78,9 +78,10 @@ void Batch::Impl::make_room() {
 }
 
 void Batch::Impl::check(std::span<const int> actions) const {
-  refuse_unless(actions.size() == lanes.size(), "there are " + std::to_string(actions.size()) +
-                                                    " actions for " + std::to_string(lanes.size()) +
-                                                    " machines");
+  if (actions.size() != lanes.size()) {
+    throw std::invalid_argument("there are " + std::to_string(actions.size()) + " actions for " +
+                                std::to_string(lanes.size()) + " machines");
+  }
   for (std::size_t machine = 0; machine < lanes.size(); ++machine) {
     const std::size_t count = lanes[machine]->actions().size();
     if (actions[machine] >= 0 && static_cast<std::size_t>(actions[machine]) < count) continue;
