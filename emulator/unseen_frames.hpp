@@ -26,7 +26,8 @@ class UnseenFrames {
  private:
   static constexpr unsigned kProbe = 4, kPeriod = 512;
 
-  unsigned number_ = kPeriod - 1;
+  // At first they are followed: drawing takes memory, which a machine that has only been switched on need not have.
+  unsigned number_ = 2 * kProbe;
   bool draws_ = false;
   std::array<std::uint32_t, 2> work_{};  // followed, drawn
 };
