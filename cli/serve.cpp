@@ -1,5 +1,9 @@
 #include "cli/serve.hpp"
 
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -87,7 +91,16 @@ void tell_obstacle(CpuKind cpu) {
   if (cpu == CpuKind::kAuto && !obstacle.empty()) log("instructions are interpreted, not translated: " + obstacle);
 }
 
+// Blocks as large as a picture or the records of its lines go back to the system as soon as they are let go; else a server
+// would stay as large as its sessions ever were together.
+void return_large_blocks() {
+#if defined(M_MMAP_THRESHOLD)  // the C library is GNU's
+  mallopt(M_MMAP_THRESHOLD, 32 << 10);
+#endif
+}
+
 int serve(ServeOptions& options, CLI::App& command) {
+  return_large_blocks();
   finish(options, complete(command));
   set_up_log(options.log_level, options.log_format);
   tell_obstacle(options.machine.settings.cpu);
