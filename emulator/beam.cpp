@@ -115,9 +115,7 @@ void Beam::pass_to(std::int32_t clock) {
   if (clock < start() || tia_.cursor >= clock) return;
   const auto pass = [this](std::int32_t clocks) {
     const int first = kLineClocks - tia_.left, last = first + clocks;
-    const auto comb_end = static_cast<std::uint32_t>(tia_.cursor + kCombEnd - first);
-    const bool since_hmove = static_cast<std::int32_t>(comb_end - tia_.hmove_clock) > 0;
-    if (first < kCombEnd && last >= kCombEnd && since_hmove) tia_.comb_armed = 0;
+    if (first < kCombEnd && last >= kCombEnd && is_since_hmove(tia_.cursor + kCombEnd - first)) tia_.comb_armed = 0;
     tia_.pixel += std::max(last, kBlankClocks) - std::max(first, kBlankClocks);
     tia_.cursor += clocks;
     tia_.left -= clocks;
@@ -127,8 +125,7 @@ void Beam::pass_to(std::int32_t clock) {
     end_line();
     const int others = tia_.cosmic ? 0 : (clock - 1 - tia_.cursor) / kLineClocks;  // at whose end there is nothing to do
     pass_lines(others);
-    if (others > 0 && static_cast<std::int32_t>(static_cast<std::uint32_t>(tia_.cursor - kLineClocks + kCombEnd) - tia_.hmove_clock) > 0)
-      tia_.comb_armed = 0;
+    if (others > 0 && is_since_hmove(tia_.cursor - kLineClocks + kCombEnd)) tia_.comb_armed = 0;
     tia_.left = kLineClocks;
   }
   pass(clock - tia_.cursor);

@@ -128,6 +128,11 @@ class Beam {
     return true;
   }
 
+  // The clock is after the last HMOVE: what that armed is used up there.
+  bool is_since_hmove(std::int32_t clock) const {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(clock) - tia_.hmove_clock) > 0;
+  }
+
   void draw_beyond(std::int32_t clock);
   void draw_in_line(std::int32_t clock);
   void forget_row();

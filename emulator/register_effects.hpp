@@ -1,11 +1,5 @@
 // What a write to each register of the TIA does to the picture's state (spec: tia.md, sections 4 and 7 to 9).
-//
-// A Painter is told before these objects (bit n: Object n), or colours, change: draw_to(clock, objects) asks for what stands
-// so far to be drawn, come_to(clock) that the ends of lines have been acted on, too, and reach(clock) says that the beam is there and nothing
-// has changed. Afterwards, changed(objects) names what has, and enabled() says that
-// TiaRegisters::enabled or VBLANK may be others. minds(objects): does it matter whether one of them is enabled? While looks() is false,
-// it may hear all that for nothing, and brings TiaRegisters::enabled up to date
-// itself, afterwards.
+// A Painter is told, before and after (painters.hpp).
 #pragma once
 
 #include <cstdint>
