@@ -51,7 +51,7 @@ struct Console::Impl {
   void step(bool looked_at, bool follow);
   bool step_over(FrameStart& start, bool draw, bool judged);
   bool run_step(Picture& picture, const FrameStart& start, Pixels pixels);
-  FrameStart here() const { return {board.state, board.cartridge_ram}; }
+  FrameStart here() const { return {board.state, board.cartridge_ram, board.sound}; }
   bool reads_unknown_latches(FrameStart& start, bool drew);
   void note_latches(FrameStart& start, Collisions looked_for);
   void settle_latches();

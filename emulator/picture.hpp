@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "emulator/line_record.hpp"
+#include "emulator/sound.hpp"
 #include "emulator/state.hpp"
 
 namespace racebeam {
@@ -17,6 +18,7 @@ namespace racebeam {
 struct FrameStart {
   State state;
   std::vector<std::uint8_t> cartridge_ram;
+  Sound sound;
 };
 
 struct Picture {

@@ -102,6 +102,7 @@ bool Console::Impl::run_step(Picture& picture, const FrameStart& start, Pixels p
 void Console::Impl::go_back(const FrameStart& start) {
   state() = start.state;
   board.cartridge_ram = start.cartridge_ram;
+  board.sound = start.sound;
   board.map_memory();
 }
 
@@ -110,12 +111,10 @@ void Console::Impl::draw_now(std::shared_ptr<Picture>& picture) {
   if (!picture->is_undrawn) return;
   if (!is_own(picture)) picture = std::make_shared<Picture>(*picture);
   const FrameStart now = here();
-  const Sound sound = board.sound;
   go_back(picture->undrawn);
   run_step(*picture, picture->undrawn, Pixels::kDrawn);
   picture->is_undrawn = false;
   go_back(now);
-  board.sound = sound;
 }
 
 // Has the step read latches that nobody has looked for? Then it is to be run again, from `start`.
@@ -150,14 +149,12 @@ void Console::Impl::note_latches(FrameStart& start, Collisions looked_for) {
 void Console::Impl::settle_latches() {
   if (latches.unknown == 0) return;
   const FrameStart now = here();
-  const Sound sound = board.sound;
   const Collisions sought = std::exchange(latches.sought, kAllPairs);
   go_back(latches.step);
   run_step(*pictures.current, latches.step, Pixels::kNone);
   const Collisions found = state().tia.collisions;
   go_back(now);
   state().tia.collisions = found;
-  board.sound = sound;
   latches.sought = sought;
   latches.unknown = 0;
 }
