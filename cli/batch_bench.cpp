@@ -69,7 +69,6 @@ nlohmann::ordered_json time_batch(const Cartridge& cartridge, const MachineOptio
   const auto count = static_cast<std::size_t>(options.machines);
   const double memory_before = resident_bytes();
   Batch batch(std::vector<Cartridge>(count, cartridge), settings);
-  const double memory = resident_bytes() - memory_before;
 
   Dealer dealer(actions, batch.actions(0).size());
   std::vector<int> dealt(count);
@@ -82,6 +81,7 @@ nlohmann::ordered_json time_batch(const Cartridge& cartridge, const MachineOptio
     resets += static_cast<int>(std::ranges::count(batch.results().finished, 1));
   }
   const double wall_used = wall_seconds() - wall, cpu_used = cpu_seconds() - cpu;
+  const double memory = resident_bytes() - memory_before;
   const double run = static_cast<double>(steps) * options.machines * settings.frame_skip;
   return {
       {"game", cartridge.game->name},

@@ -43,15 +43,20 @@ void Beam::find_window() {
 
 void Beam::begin_frame() {
   find_window();
+  lines_.begin_frame();
   tia_.cursor = start();
   tia_.left = kLineClocks;
   tia_.pixel = 0;
 }
 
-void Beam::aim(Picture& picture, Pixels pixels, Collisions sought) {
+void Beam::aim(Picture& picture, const Picture* other, Pixels pixels, Collisions sought) {
   picture_ = &picture;
+  other_ = other;
   pixels_ = pixels;
-  if (draws_pixels() && picture.line.empty()) picture.line.resize(static_cast<std::size_t>(video_.height));
+  if (draws_pixels()) {
+    picture.make_room(rows_needed());
+    lines_.aim(static_cast<std::size_t>(video_.height));
+  }
   forgotten_ = draws_pixels() ? 0 : std::numeric_limits<std::int32_t>::max();
   unsought_ = draws_pixels() ? Collisions{0} : static_cast<Collisions>(~sought);
   sought_objects_ = objects_of(static_cast<Collisions>(~unsought_));
@@ -59,6 +64,12 @@ void Beam::aim(Picture& picture, Pixels pixels, Collisions sought) {
   spans_ = 0;
   look_afresh();
   if (!draws_pixels()) meetings_ = unsought_ | tia_.collisions;
+}
+
+// To the window's end.
+std::size_t Beam::rows_needed() const {
+  const int to_come = std::max(end_ - tia_.cursor, 0) + kLineClocks - 1;
+  return row() + static_cast<std::size_t>(to_come / kLineClocks);
 }
 
 void Beam::forget() {
@@ -91,7 +102,7 @@ void Beam::draw_in_line(std::int32_t clock) {
   tia_.left -= clock - tia_.cursor;
   tia_.cursor = clock;
   const int last = kLinePixels - tia_.left;
-  std::uint8_t* row = picture_->pixel.data() + tia_.pixel - first;
+  std::uint8_t* row = picture_->pixels().data() + tia_.pixel - first;
   if (tia_.pixel >= forgotten_) forget_row();
   draw_visible(row, first, last);
   if (tia_.comb_armed && first < kCombEnd - kBlankClocks) blank_comb(row, first, last);
@@ -106,7 +117,7 @@ void Beam::finish_line() {
 
 // The cursor's row will show something else.
 void Beam::forget_row() {
-  if (has_record()) record().known = false;
+  picture_->shows(row()) = kAnyLine;
   forgotten_ = (static_cast<std::int32_t>(row()) + 1) * kLinePixels;
 }
 
@@ -141,7 +152,7 @@ void Beam::draw_span(int begin, int clocks) {
   const int visible = std::min(std::max(begin, kBlankClocks), end_clock);
   const int first = std::max(visible - kBlankClocks, 0);
   const int last = std::max(end_clock - kBlankClocks, first);
-  std::uint8_t* row = picture_->pixel.data() + tia_.pixel - first;
+  std::uint8_t* row = picture_->pixels().data() + tia_.pixel - first;
   if (tia_.pixel >= forgotten_) forget_row();
   if (last > first) draw_visible(row, first, last);
   if (tia_.comb_armed && visible < kCombEnd) blank_comb(row, visible, end_clock, first, last);
@@ -187,7 +198,7 @@ bool Beam::end_picture(std::int32_t begin) {
   const int line_clock = kLineClocks - tia_.left, last = line_clock - kBlankClocks;
   const std::int32_t first_visible = tia_.cursor - line_clock + kBlankClocks;
   const int first = std::max(begin, first_visible) - first_visible;
-  if (last > first && !tia_.vblank && draws_pixels()) spill(picture_->pixel.data() + tia_.pixel - last, first, last);
+  if (last > first && !tia_.vblank && draws_pixels()) spill(picture_->pixels().data() + tia_.pixel - last, first, last);
   return true;
 }
 

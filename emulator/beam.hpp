@@ -6,6 +6,7 @@
 
 #include "emulator/inlining.hpp"
 #include "emulator/line.hpp"
+#include "emulator/line_memory.hpp"
 #include "emulator/picture.hpp"
 #include "emulator/pixels.hpp"
 #include "emulator/state.hpp"
@@ -36,8 +37,8 @@ class Beam {
 
   void begin_frame();  // cursor to the window's start
 
-  // Where pixels go; without them, which pairs are looked for if they meet.
-  void aim(Picture& picture, Pixels pixels, Collisions sought);
+  // Where pixels go, and where there may be rows to copy; without them, which pairs are looked for if they meet.
+  void aim(Picture& picture, const Picture* other, Pixels pixels, Collisions sought);
 
   // Everything derived from the registers is made anew: after a reset or a restored state.
   void forget();
@@ -80,9 +81,22 @@ class Beam {
   void finish_line();                                       // draws the rest of the line and acts on its end
   void pass_lines(int count);  // which are there already, and whose ends have been acted on
   int lines_to_end() const { return (end() - 1 - tia_.cursor) / kLineClocks; }  // without the last
-  bool has_record() const { return row() < picture_->line.size(); }
-  int rows_to_end_of_records() const { return static_cast<int>(picture_->line.size() - row()); }
-  LineRecord& record() { return picture_->line[row()]; }
+  std::size_t row() const { return static_cast<std::size_t>(tia_.pixel) / kLinePixels; }
+  bool has_record() const { return row() < lines_.rows(); }
+  int rows_to_end_of_records() const { return static_cast<int>(lines_.rows() - row()); }
+  LineRecord& record() { return lines_.row(row()); }
+  bool is_worthwhile() { return lines_.is_worthwhile(record()); }
+  void forget_lines() { lines_.drop(); }
+
+  const LineNumber* shown() const { return &picture_->shows(row()); }  // by the cursor's row and those after it
+  [[gnu::noinline]] bool can_copy(const LineNumber* shown, LineNumber line) {
+    return picture_->copy_row(other_, static_cast<std::size_t>(shown - &picture_->shows(0)), line);
+  }
+
+  // The line has been drawn on the row before the cursor's.
+  void show(LineRecord& line) {
+    picture_->shows(row() - 1) = lines_.add(line, row() - 1);
+  }
 
   RACEBEAM_INLINE void end_line() {
     const std::uint8_t reflect = tia_.ctrlpf & 1;
@@ -136,7 +150,7 @@ class Beam {
   void draw_beyond(std::int32_t clock);
   void draw_in_line(std::int32_t clock);
   void forget_row();
-  std::size_t row() const { return static_cast<std::size_t>(tia_.pixel) / kLinePixels; }
+  std::size_t rows_needed() const;
   void find_window();
   void draw_span(int begin, int clocks);
   void draw_visible(std::uint8_t* row, int first, int last);
@@ -151,6 +165,8 @@ class Beam {
   const Video& video_;
   const DrawPixels draw_pixels_;
   Picture* picture_ = nullptr;
+  const Picture* other_ = nullptr;
+  LineMemory lines_;
   std::int32_t start_ = 0, end_ = 0;
   alignas(64) Line line_;
   std::uint8_t stale_ = 0xFF;   // masks to make anew

@@ -91,14 +91,14 @@ void Board::turn_back_clocks(std::int32_t cycles) {
   state.cycle -= cycles;
 }
 
-void Board::begin_step(Picture& picture, WriteLog& scratch, Pixels pixels, Collisions sought) {
+void Board::begin_step(Picture& picture, const Picture* other, WriteLog& scratch, Pixels pixels, Collisions sought) {
   log = &scratch;
   log->begin(state.cycle);
   last_access_ = kNever;
   exact_ = pixels == Pixels::kExact;
   fetched_latches_ = false;
   plain_registers_ = exact_ ? 0 : plain_registers();
-  tia.begin_step(picture, scratch, pixels, sought);
+  tia.begin_step(picture, other, scratch, pixels, sought);
 }
 
 // Writes that repeat what a register holds leave no trace in the log, but they end a span of drawing, up to 5 clocks

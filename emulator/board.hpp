@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/memory_map.hpp"
+#include "emulator/motion.hpp"
 #include "emulator/ports.hpp"
 #include "emulator/scheme.hpp"
 #include "emulator/sound.hpp"
@@ -53,6 +54,16 @@ class Board {
     return (plain_registers_ >> (address & 0x3F) & 1) != 0;
   }
 
+  // WSYNC, when the access before was a read: the CPU stands still until the next line starts. False, and nothing is done,
+  // if that takes write_device().
+  RACEBEAM_INLINE bool wait_for_line(std::uint16_t address, std::int32_t& cycle) {
+    if ((address & 0x3F) != WSYNC || plain_registers_ == 0 || cycle >= overlong_cycle_) return false;
+    if (log->is_short_of_room(cycle)) [[unlikely]] return false;
+    last_access_ = cycle;
+    cycle += (overlong_cycle_ - cycle) % kLineCycles;
+    return true;
+  }
+
   // Moves the code window to `pc`. False where there is no plain memory, or less than an instruction needs.
   bool find_code(std::uint16_t pc);
 
@@ -66,7 +77,8 @@ class Board {
   // A step: begin_step(), then what the CPU does, then end_step(), which leaves the picture drawn as far as the
   // reference has drawn it. If needs_exact_step(), what the reference draws ahead of the beam can be seen: then the
   // same is to be done again, from the state before the step, with Pixels::kExact.
-  void begin_step(Picture& picture, WriteLog& scratch, Pixels pixels = Pixels::kDrawn, Collisions sought = kAllPairs);
+  void begin_step(Picture& picture, const Picture* other, WriteLog& scratch, Pixels pixels = Pixels::kDrawn,
+                  Collisions sought = kAllPairs);
   void end_step();
   bool needs_exact_step() const;
   void set_format_limits();  // after `video` or the frame's origin have changed
@@ -106,7 +118,7 @@ class Board {
   std::array<KnownWindow, 64> known_windows_{};
   Ports ports_;
   std::uint64_t plain_registers_ = 0;
-  std::int32_t overlong_cycle_ = 0;  // from this cycle on, a TIA write closes the frame
+  std::int32_t overlong_cycle_ = 0;  // from this cycle on, which starts a line, a TIA write closes the frame
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
   std::int32_t last_access_ = 0;     // cycle of the last TIA access but plain writes: how far the picture is drawn
   bool exact_ = false;               // each access is played on its own

@@ -70,9 +70,7 @@ void Console::Impl::blank(std::shared_ptr<Picture>& picture) {
     return;
   }
   std::atomic_thread_fence(std::memory_order_acquire);
-  picture->is_undrawn = false;
-  picture->pixel.fill(0);
-  picture->forget_lines();
+  picture->blank();
 }
 
 // The console's own buffers are kept for the frames to come, if nobody else holds them.
@@ -146,12 +144,12 @@ bool Console::has_paddles() const {
 
 std::span<const std::uint8_t> Console::picture() const {
   impl_->draw_now(impl_->pictures.current);
-  return std::span(impl_->pictures.current->pixel).first(impl_->picture_size());
+  return impl_->pictures.current->pixels().first(impl_->picture_size());
 }
 
 std::span<const std::uint8_t> Console::previous_picture() const {
   impl_->draw_now(impl_->pictures.previous);
-  return std::span(impl_->pictures.previous->pixel).first(impl_->picture_size());
+  return impl_->pictures.previous->pixels().first(impl_->picture_size());
 }
 
 const Pictures& Console::pictures() const { return impl_->pictures; }
@@ -164,11 +162,7 @@ std::shared_ptr<const Picture> Console::drawn(std::shared_ptr<Picture> picture) 
 
 void Console::rest() {
   impl_->spare = {};
-  for (const auto* const picture : {&impl_->pictures.current, &impl_->pictures.previous}) {
-    if (picture->use_count() > 1) continue;  // a snapshot holds it, too
-    std::atomic_thread_fence(std::memory_order_acquire);
-    (*picture)->line = {};
-  }
+  impl_->board.tia.forget_lines();
 }
 
 std::span<const std::uint8_t, 128> Console::ram() const { return impl_->board.state.riot.ram; }

@@ -36,7 +36,8 @@ struct Console::Impl {
   const std::unique_ptr<Translator> translator;  // null: the interpreter runs all
 
   State& state() { return board.state; }
-  std::size_t picture_size() const { return static_cast<std::size_t>(height()) * kLinePixels; }
+  std::size_t rows() const { return static_cast<std::size_t>(height()); }
+  std::size_t picture_size() const { return rows() * kLinePixels; }
   int height() const { return std::max(board.video.height, 200); }
 
   void power_up();
@@ -57,6 +58,7 @@ struct Console::Impl {
   void settle_latches();
   void go_back(const FrameStart& start);
   void draw_now(std::shared_ptr<Picture>& picture);
+  std::shared_ptr<Picture> own_copy(const Picture& picture);
   Picture& canvas();
 };
 

@@ -72,11 +72,16 @@ constexpr auto kWrittenBytes = [] {
 }();
 
 constexpr TiaRegisters kAlways = make_always();
+constexpr TiaRegisters kUsedUp = [] {  // by a line, if it finds it
+  TiaRegisters mask{};
+  mask.comb_armed = kAll;
+  return mask;
+}();
 constexpr TiaRegisters kMotions = make_written(HMCLR);
 
-void clear_but(TiaRegisters& registers, const TiaRegisters& mask) {
+void clear_but(TiaRegisters& registers, const RegisterVectors& mask) {
   RegisterVectors bytes(registers);
-  bytes.keep_bits(mask);
+  bytes &= mask;
   bytes.write(registers);
 }
 
@@ -104,41 +109,52 @@ void add_positions(TiaRegisters& mask, unsigned objects) {
 }  // namespace
 
 void LineRecord::open(const TiaRegisters& registers) {
-  known = false;  // until the line is whole
+  number = kNoLine;  // until the line is whole
   start = registers;
-  summed_up = false;
+  mask = nullptr;
   view = {};
   count = 0;
 }
 
 const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t origin) {
-  unsigned seen = 0, control = 0, number = count;
-  for (; number < kMostEvents; ++entry) {
+  unsigned seen = 0, control = 0, events = count;
+  for (; events < kMostEvents; ++entry) {
     const LineWrite write(*entry, origin);
     if (!write.acts_here()) break;
-    event[number++] = write.packed();
+    event[events++] = write.packed();
     const LineEffect& effect = kLineEffects[write.reg()];
     seen |= effect.seen;
     const bool waits_for_nobody = (write.reg() & ~1U) == RESP0 && entry[1] - *entry > kWaitOfRespx;
     if (!waits_for_nobody) control |= effect.control;
   }
-  count = static_cast<std::uint8_t>(number);
+  count = static_cast<std::uint8_t>(events);
   view.seen = static_cast<std::uint16_t>(view.seen | seen);
   view.control = static_cast<std::uint8_t>(view.control | control);
   return entry;
+}
+
+std::uint16_t LineRecord::look() const {
+  constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
+  RegisterVectors bytes(start);
+  bytes &= seen_bytes();
+  std::uint64_t hash = count;
+  for (const TwoWords part : bytes.part)
+    for (const std::uint64_t word : {part[0], part[1]}) hash = std::rotl((hash ^ word) * kOdd, 29);
+  for (unsigned i = 0; i < count; ++i) hash = std::rotl((hash ^ event[i]) * kOdd, 29);
+  return static_cast<std::uint16_t>(hash >> 48);
 }
 
 // Which bytes count, and which are known at the end. What a register's value at the end depends on is the writes, and
 // the bytes that count anyway as far as they have to do with what is shown (line_key.hpp), and these:
 void LineRecord::sum_up(bool pal) {
   TiaRegisters more = kAlways;
-  RegisterVectors set(more);
+  RegisterVectors sets(kUsedUp);
   std::array<std::uint8_t, 5> motion = motions_of(start);
   bool foreseen = (start.cosmic | end.cosmic) == 0;
   for (unsigned i = 0; i < count; ++i) {
     const LineWrite write(event[i]);
     const unsigned reg = write.reg();
-    set.add_bits(kWrittenBytes[reg]);
+    sets |= RegisterVectors(kWrittenBytes[reg]);
     switch (reg) {
       // May start the Cosmic Ark mode, by an HMOVE on the line before.
       case HMM0: foreseen &= write.value() >> 4 != 6; [[fallthrough]];
@@ -156,18 +172,16 @@ void LineRecord::sum_up(bool pal) {
       default: break;
     }
   }
-  RegisterVectors counting(more);
-  counting.add_bits(kSeenBytes[view.seen & 0x1FF]);
-  counting.add_bits(kControlBytes[view.control]);
-  if (view.seen & kMoves) counting.add_bits(kMotions);
-  counting.write(counts);
-  set.add_bits(counts);
-  set.write(sets);
-  sets.comb_armed = kAll;  // a line uses up what it finds
-  if (!foreseen) counts.spare[0] = kAll, start.spare[0] = 1;  // which it never is: the writes must be played
+  more.spare[0] = foreseen ? 0 : kAll;
+  RegisterVectors counts(more);
+  counts |= seen_bytes();
+  if (view.seen & kMoves) counts |= RegisterVectors(kMotions);
+  sets |= counts;
+  mask = LineMask::find(counts, sets);
+  if (mask == nullptr) return;
   clear_but(start, counts);
   clear_but(end, sets);
-  summed_up = true;
+  start.spare[0] = foreseen ? 0 : 1;  // which it never is: the writes must be played
 }
 
 }  // namespace racebeam

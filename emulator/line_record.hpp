@@ -3,14 +3,14 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 
 #include "emulator/inlining.hpp"
 #include "emulator/line.hpp"
 #include "emulator/line_key.hpp"
+#include "emulator/line_mask.hpp"
+#include "emulator/register_vectors.hpp"
 #include "emulator/state.hpp"
-#include "emulator/vectors.hpp"
 #include "emulator/write_log.hpp"
 
 namespace racebeam {
@@ -41,26 +41,28 @@ class LineWrite {
   std::uint32_t packed_;
 };
 
+// No two lines have the same.
+using LineNumber = std::uint64_t;
+constexpr LineNumber kNoLine = 0, kAnyLine = 1;  // of a record without a line; of a row whose line nobody knows
+
 struct alignas(16) LineRecord {
-  static constexpr std::size_t kMostEvents = 16;
+  static constexpr std::size_t kMostEvents = 12;
 
   TiaRegisters start;   // at the line's first clock
   TiaRegisters end;     // when the line is over
-  TiaRegisters counts;  // once it is summed up, $FF for each byte that pixels, meetings or `end` depend on,
-  TiaRegisters sets;    // and for each that is known at the end: those that count, and those that are written
+  const LineMask* mask = nullptr;  // once it is summed up: then `start` and `end` are 0 but for the bytes that count, and are set
   Collisions meetings;  // pairs that met on the line, after the last CXCLR
   LineView view;        // why bytes count
-  bool known = false;   // the buffer's row shows this line
+  LineNumber number = kNoLine;
   std::uint8_t fruitless = 0;  // so many lines that were drawn here were not met again
-  bool summed_up;            // then `start` and `end` are 0 but for these bytes
   std::uint8_t count;        // of events
   std::int8_t hmove_cycle;   // of the last HMOVE, if the line kMoves
-  std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
+  alignas(16) std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
 
   // Another line is drawn here: is it to be remembered? Where nothing was of use for some frames, only now and then.
   bool is_worthwhile() {
     constexpr std::uint8_t kPatience = 16, kRest = 40;
-    if (known && summed_up) fruitless = 0;
+    if (number != kNoLine && mask != nullptr) fruitless = 0;
     else fruitless = fruitless < kRest ? static_cast<std::uint8_t>(fruitless + 1) : kPatience;
     return fruitless <= kPatience;
   }
@@ -70,51 +72,39 @@ struct alignas(16) LineRecord {
   // Takes the writes from `entry` on that act on this line alone, or as many as there is room for; returns the next one.
   const std::uint32_t* add(const std::uint32_t* entry, std::uint32_t origin);
 
+  // A hash of what the line's pixels come from; before it is summed up.
+  std::uint16_t look() const;
+
   // So that next time the writes need not be played. That pays if there is a next time.
   void sum_up(bool pal);
-};
 
-// TiaRegisters in the processor's registers.
-struct RegisterVectors {
-  std::array<TwoWords, 3> part;
-
-  RACEBEAM_INLINE explicit RegisterVectors(const TiaRegisters& registers) { read(registers); }
-  RACEBEAM_INLINE void read(const TiaRegisters& registers) {
-    for (std::size_t i = 0; i < 3; ++i) part[i] = of(registers, i);
-  }
-  RACEBEAM_INLINE void write(TiaRegisters& registers) const { registers = std::bit_cast<TiaRegisters>(part); }
-
-  // Do they differ in nothing that decides about the line?
-  RACEBEAM_INLINE bool start(const LineRecord& record) const {
+  // Do they differ from the start in nothing that decides about the line? Once it is summed up.
+  RACEBEAM_INLINE bool starts_with(const RegisterVectors& registers) const {
     TwoWords difference{};
-    for (std::size_t i = 0; i < 3; ++i) difference |= (part[i] & of(record.counts, i)) ^ of(record.start, i);
+    for (std::size_t i = 0; i < 3; ++i)
+      difference |= (registers.part[i] & RegisterVectors::of(mask->counts, i)) ^ RegisterVectors::of(start, i);
     return is_zero(difference);
   }
 
-  // In nothing that can be seen? The registers may come out differently.
-  RACEBEAM_INLINE bool look_like(const LineRecord& record) const {
-    const TiaRegisters &seen = kSeenBytes[record.view.seen & 0x1FF], &control = kControlBytes[record.view.control];
-    TwoWords difference{};
-    for (std::size_t i = 0; i < 3; ++i) difference |= (part[i] ^ of(record.start, i)) & (of(seen, i) | of(control, i));
-    return is_zero(difference);
+  // In nothing that can be seen? They may come out differently.
+  RACEBEAM_INLINE bool looks_like(const RegisterVectors& registers) const {
+    RegisterVectors difference(start);
+    for (std::size_t i = 0; i < 3; ++i) difference.part[i] ^= registers.part[i];
+    difference &= seen_bytes();
+    return is_zero(difference.part[0] | difference.part[1] | difference.part[2]);
   }
 
-  RACEBEAM_INLINE void add_bits(const TiaRegisters& more) {
-    for (std::size_t i = 0; i < 3; ++i) part[i] |= of(more, i);
-  }
-  RACEBEAM_INLINE void keep_bits(const TiaRegisters& mask) {
-    for (std::size_t i = 0; i < 3; ++i) part[i] &= of(mask, i);
-  }
-
-  RACEBEAM_INLINE void pass(const LineRecord& record) {
-    for (std::size_t i = 0; i < 3; ++i) part[i] = (part[i] & ~of(record.sets, i)) | of(record.end, i);
+  // Those at the line's start become those at its end.
+  RACEBEAM_INLINE void pass(RegisterVectors& registers) const {
+    for (std::size_t i = 0; i < 3; ++i)
+      registers.part[i] = (registers.part[i] & ~RegisterVectors::of(mask->sets, i)) | RegisterVectors::of(end, i);
   }
 
  private:
-  RACEBEAM_INLINE static TwoWords of(const TiaRegisters& registers, std::size_t i) {
-    return load<TwoWords>(reinterpret_cast<const std::uint8_t*>(&registers) + i * sizeof(TwoWords));
+  RACEBEAM_INLINE RegisterVectors seen_bytes() const {
+    RegisterVectors bytes(kSeenBytes[view.seen & 0x1FF]);
+    return bytes |= RegisterVectors(kControlBytes[view.control]);
   }
 };
-static_assert(sizeof(RegisterVectors) == sizeof(TiaRegisters));
 
 }  // namespace racebeam

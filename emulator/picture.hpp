@@ -1,11 +1,12 @@
-// One of the two picture buffers, and for each of its rows what produced it: a row whose line starts with the same
-// registers and meets the same writes need not be drawn, for its pixels are there already. The records are derived
-// and belong to the buffer, not to the machine's state.
+// One of the two picture buffers, and which line each of its rows shows (line_memory.hpp).
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "emulator/line_record.hpp"
@@ -21,20 +22,52 @@ struct FrameStart {
   Sound sound;
 };
 
-struct Picture {
-  static constexpr int kRows = 320;  // the window, and what a reset may shift it down by (tia.md, section 2)
+// Rows that have never been drawn are black, and take no memory.
+class Picture {
+ public:
+  // All of its rows, one after the other: those of the window, and those that a reset has shifted it down by, if ever
+  // (tia.md, section 2).
+  std::span<std::uint8_t> pixels() { return {reinterpret_cast<std::uint8_t*>(rows_.data()), sizeof(Row) * rows()}; }
+  std::span<const std::uint8_t> pixels() const {
+    return {reinterpret_cast<const std::uint8_t*>(rows_.data()), sizeof(Row) * rows()};
+  }
 
-  alignas(64) std::array<std::uint8_t, static_cast<std::size_t>(kRows) * kLinePixels> pixel{};
-  std::vector<LineRecord> line;  // for each row of the window, once something has been drawn; or none
+  std::size_t rows() const { return rows_.size(); }
+  void make_room(std::size_t rows) {
+    if (rows <= rows_.size()) return;
+    rows_.resize(rows);
+    shows_.resize(rows, kAnyLine);
+  }
+
+  void blank() {
+    rows_.clear();
+    shows_.clear();
+    is_undrawn = false;
+  }
+
+  LineNumber& shows(std::size_t row) { return shows_[row]; }
+
+  // A row shows that line now, if the other picture does.
+  bool copy_row(const Picture* other, std::size_t row, LineNumber line) {
+    if (other == nullptr || row >= other->rows() || other->shows_[row] != line) return false;
+    rows_[row] = other->rows_[row];
+    shows_[row] = line;
+    return true;
+  }
+
+  // The pixels were written by somebody else.
+  void forget_lines() { std::ranges::fill(shows_, kAnyLine); }
 
   // The last frame on this buffer was run without its pixels. From here it can be run again, and then fills them all.
   FrameStart undrawn;
   bool is_undrawn = false;
 
-  // The pixels were written by somebody else.
-  void forget_lines() {
-    for (LineRecord& record : line) record.known = false;
-  }
+ private:
+  struct alignas(32) Row : std::array<std::uint8_t, kLinePixels> {};
+  static_assert(sizeof(Row) == kLinePixels);
+
+  std::vector<Row> rows_;
+  std::vector<LineNumber> shows_;
 };
 
 // The one drawn last, and the one before it.

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
 #include <span>
+
+#include "emulator/mersenne_twister.hpp"
 
 namespace racebeam {
 
@@ -38,7 +39,7 @@ class SystemGenerator : public PowerOn {
 
  private:
   std::uint32_t seed_;
-  std::mt19937 engine_;
+  MersenneTwister engine_;
   std::uint32_t position_ = 0;
 };
 

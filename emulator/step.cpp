@@ -80,12 +80,13 @@ bool Console::Impl::step_over(FrameStart& start, bool draw, bool judged) {
 // by access; but false, and all is left as it is, if its pixels are not wanted.
 bool Console::Impl::run_step(Picture& picture, const FrameStart& start, Pixels pixels) {
   thread_local WriteLog log;
+  const Picture* const other = (&picture == pictures.previous.get() ? pictures.current : pictures.previous).get();
   const auto repeat = [&](Pixels how) {
     go_back(start);
-    board.begin_step(picture, log, how, latches.sought);
+    board.begin_step(picture, other, log, how, latches.sought);
     interpret(board, kInstructionsPerStep);
   };
-  board.begin_step(picture, log, pixels, latches.sought);
+  board.begin_step(picture, other, log, pixels, latches.sought);
   if (translator == nullptr) {
     interpret(board, kInstructionsPerStep);
   } else if (!translator->run(board, kInstructionsPerStep)) {
@@ -108,8 +109,10 @@ void Console::Impl::go_back(const FrameStart& start) {
 
 // Gives a picture its pixels. The machine is the same afterwards.
 void Console::Impl::draw_now(std::shared_ptr<Picture>& picture) {
+  if (!picture->is_undrawn && picture->rows() >= rows()) return;
+  if (!is_own(picture)) picture = own_copy(*picture);
+  picture->make_room(rows());
   if (!picture->is_undrawn) return;
-  if (!is_own(picture)) picture = std::make_shared<Picture>(*picture);
   const FrameStart now = here();
   go_back(picture->undrawn);
   run_step(*picture, picture->undrawn, Pixels::kDrawn);
@@ -159,9 +162,18 @@ void Console::Impl::settle_latches() {
   latches.unknown = 0;
 }
 
+std::shared_ptr<Picture> Console::Impl::own_copy(const Picture& picture) {
+  for (std::shared_ptr<Picture>* const kept : {&spare.current, &spare.previous}) {
+    if (!is_own(*kept)) continue;
+    **kept = picture;
+    return std::move(*kept);
+  }
+  return std::make_shared<Picture>(picture);
+}
+
 // The picture that is drawn on: the console's own, not one that a snapshot holds too.
 Picture& Console::Impl::canvas() {
-  if (!is_own(pictures.current)) pictures.current = std::make_shared<Picture>(*pictures.current);
+  if (!is_own(pictures.current)) pictures.current = own_copy(*pictures.current);
   return *pictures.current;
 }
 

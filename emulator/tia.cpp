@@ -31,9 +31,8 @@ enum class Likeness { kOther, kBegins, kLooks, kIsSame };  // kLooks: but the re
 // How much a line that starts with `registers` and meets the writes from `entry` on is like a remembered one.
 RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::uint32_t* entry, std::uint32_t origin,
                                  const LineRecord& record) {
-  if (!record.known) return Likeness::kOther;
-  const bool same = record.summed_up && registers.start(record);
-  if (!same && !registers.look_like(record)) return Likeness::kOther;
+  const bool same = record.mask != nullptr && record.starts_with(registers);
+  if (!same && !record.looks_like(registers)) return Likeness::kOther;
   const LineWrite next(entry[record.count], origin);
   if (next.is_of_line() && !(same && next.is_late())) return Likeness::kBegins;
   if (!meets_the_same(entry, origin, record)) return Likeness::kBegins;
@@ -61,8 +60,8 @@ void Tia::begin_frame() {
   for (std::uint8_t& color : tia_.color) color = static_cast<std::uint8_t>((color & 0xFE) | loss);
 }
 
-void Tia::begin_step(Picture& picture, WriteLog& log, Pixels pixels, Collisions sought) {
-  beam_.aim(picture, pixels, sought);
+void Tia::begin_step(Picture& picture, const Picture* other, WriteLog& log, Pixels pixels, Collisions sought) {
+  beam_.aim(picture, other, pixels, sought);
   asked_ = 0;
   work_ = 0;
   watches_ = beam_.may_meet() || tia_.cosmic;
@@ -193,21 +192,22 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   if (recorded_ != nullptr || !beam_.has_record()) return false;
   RegisterVectors registers(tia_);
   std::int32_t cursor = tia_.cursor;
+  const LineNumber* shown = beam_.shown();
   LineRecord* const first = &beam_.record();
   LineRecord* const last = first + std::min(beam_.lines_to_end(), beam_.rows_to_end_of_records());
   LineRecord* record = first;
   bool enough = false;
-  for (; record != last; ++record, origin += kLineOfWrites, cursor += kLineClocks) {
+  for (; record != last; ++record, ++shown, origin += kLineOfWrites, cursor += kLineClocks) {
     const Likeness likeness = compare(registers, played_, origin, *record);
-    if (likeness < Likeness::kLooks) {
+    if (likeness < Likeness::kLooks || (*shown != record->number && !beam_.can_copy(shown, record->number))) {
       const bool can_meet = (record->meetings & asked) != 0 || (record->view.seen & kClears) != 0;
-      enough = likeness == Likeness::kBegins && asked != kWholePicture && !can_meet &&
+      enough = record->number != kNoLine && likeness == Likeness::kBegins && asked != kWholePicture && !can_meet &&
                begins_the_same(played_, log_->next, origin, *record);
       break;
     }
     const std::uint32_t* next = played_ + record->count;
     if (likeness == Likeness::kIsSame) {
-      registers.pass(*record);
+      record->pass(registers);
       if (record->view.seen & kMoves) tia_.hmove_clock = static_cast<std::uint32_t>(cursor + 3 * record->hmove_cycle);
       if (record->view.seen & kClears) beam_.clear_collisions();
     } else {
@@ -234,12 +234,12 @@ void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
   tia_.comb_armed = record.end.comb_armed;
   beam_.end_line();
   work_ += kWorkOfLikeness;
-  if (!record.summed_up) record.sum_up(video_.pal);
+  if (record.mask == nullptr) record.sum_up(video_.pal);
 }
 
 // Draws the cursor's line up to the last write, or to its end if the next one lies beyond: then it returns true.
 bool Tia::draw_line(std::uint32_t origin) {
-  if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr && beam_.record().is_worthwhile()) {
+  if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr && beam_.is_worthwhile()) {
     recorded_ = &beam_.record();
     recorded_->open(tia_.registers());
     beam_.look_afresh();
@@ -269,7 +269,7 @@ void Tia::close_record() {
   if (recorded_ == nullptr) return;
   recorded_->view.seen |= beam_.seen();
   recorded_->meetings = beam_.meetings();
-  recorded_->known = true;
+  beam_.show(*recorded_);
   recorded_->end = tia_.registers();
   recorded_ = nullptr;
 }
@@ -277,9 +277,9 @@ void Tia::close_record() {
 // tia.md, section 2, "Greying": what is seen when the processor stands still in the middle of a picture.
 void Tia::grey(Picture& picture, std::int32_t cycle) const {
   const int line = (3 * cycle - tia_.origin) / kLineClocks;
-  const int first = std::max(line, video_.ystart) - video_.ystart;
-  for (int i = first * kLinePixels; i < video_.height * kLinePixels; ++i)
-    picture.pixel[static_cast<std::size_t>(i)] = (picture.pixel[static_cast<std::size_t>(i)] & 15) >> 1;
+  const int first = std::clamp(line - video_.ystart, 0, video_.height);
+  const auto window = picture.pixels().first(static_cast<std::size_t>(video_.height * kLinePixels));
+  for (std::uint8_t& pixel : window.subspan(static_cast<std::size_t>(first * kLinePixels))) pixel = (pixel & 15) >> 1;
   picture.forget_lines();
 }
 

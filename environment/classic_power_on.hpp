@@ -2,8 +2,8 @@
 // (spec: classic-protocol.md, section 6, rules 1 and 2).
 #pragma once
 
-#include <random>
 
+#include "emulator/mersenne_twister.hpp"
 #include "emulator/power_on.hpp"
 
 namespace racebeam {
@@ -12,7 +12,7 @@ namespace racebeam {
 // stands.
 class ClassicPowerOn : public PowerOn {
  public:
-  explicit ClassicPowerOn(std::mt19937& shared) : shared_(shared) {}
+  explicit ClassicPowerOn(MersenneTwister& shared) : shared_(shared) {}
 
   std::uint32_t draw(std::uint32_t& drawn) override {
     ++drawn;
@@ -23,12 +23,12 @@ class ClassicPowerOn : public PowerOn {
   void fill_cartridge(std::span<std::uint8_t> ram, std::uint32_t&) override {
     if (filled_) return;
     filled_ = true;
-    std::mt19937 own;  // with the default seed
+    MersenneTwister own;  // with the default seed
     for (std::uint8_t& byte : ram) byte = static_cast<std::uint8_t>(own());
   }
 
  private:
-  std::mt19937& shared_;
+  MersenneTwister& shared_;
   bool filled_ = false;
 };
 

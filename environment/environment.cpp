@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "emulator/mersenne_twister.hpp"
 #include "emulator/palette.hpp"
 #include "environment/classic_power_on.hpp"
 #include "environment/impl.hpp"
@@ -41,7 +42,7 @@ const Settings& checked(const Settings& settings, const Game& game) {
   return settings;
 }
 
-std::unique_ptr<PowerOn> make_power_on(const Settings& settings, std::mt19937& random) {
+std::unique_ptr<PowerOn> make_power_on(const Settings& settings, MersenneTwister& random) {
   if (settings.classic) return std::make_unique<ClassicPowerOn>(random);
   return std::make_unique<SystemGenerator>(settings.system_seed);
 }

@@ -3,10 +3,10 @@
 
 #include <array>
 #include <memory>
-#include <random>
 #include <vector>
 
 #include "emulator/console.hpp"
+#include "emulator/mersenne_twister.hpp"
 #include "environment/boot_study.hpp"
 #include "environment/environment.hpp"
 #include "environment/hands.hpp"
@@ -30,7 +30,7 @@ struct Environment::Impl {
   const Identity identity;
   const Properties properties;
 
-  std::mt19937 random;  // of sticky actions; of the machine too, in classic mode
+  MersenneTwister random;  // of sticky actions; of the machine too, in classic mode
   const std::unique_ptr<PowerOn> power_on;
   Console console;
   Rule rule;

@@ -30,7 +30,7 @@ Lane::Lane(const Cartridge& cartridge, const BatchSettings& settings, std::size_
       actions_(settings.all_legal_actions ? &environment_.game().legal_actions
                                           : &environment_.game().minimal_actions),
       noops_(environment_.settings().random_seed, settings.noop_max),
-      resize_(kScreenWidth, environment_.height(), kSmallSide, kSmallSide),
+      resize_(small_screen_maker(environment_.height())),
       grey_(grey_table(environment_.format())),
       pooled_(settings.stack > 0 ? environment_.screen().size() : 0) {
   if (settings.mode) environment_.set_mode(*settings.mode);

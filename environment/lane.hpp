@@ -34,7 +34,7 @@ class Lane {
   Environment environment_;
   const std::vector<int>* actions_;
   Noops noops_;
-  AreaResize resize_;
+  const AreaResize& resize_;
   const GreyTable& grey_;
   std::vector<std::uint8_t> pooled_;  // grey: what the newest small screen was made from
   int elapsed_ = 0;                   // frames of play in this episode

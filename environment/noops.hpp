@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <random>
+
+#include "emulator/mersenne_twister.hpp"
 
 namespace racebeam {
 
@@ -23,7 +24,7 @@ class Noops {
   }
 
  private:
-  std::mt19937 random_;
+  MersenneTwister random_;
   std::uint32_t choices_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <mutex>
 
 namespace racebeam {
 namespace {
@@ -44,8 +46,15 @@ void make_brighter_grey(std::span<const std::uint8_t> screen, std::span<const st
       });
 }
 
+const AreaResize& small_screen_maker(int height) {
+  static std::mutex mutex;
+  static std::map<int, AreaResize> all;
+  const std::lock_guard lock(mutex);
+  return all.try_emplace(height, kScreenWidth, height, kSmallSide, kSmallSide).first->second;
+}
+
 SmallScreens::SmallScreens(int depth, int height)
-    : resize_(kScreenWidth, height, kSmallSide, kSmallSide),
+    : resize_(&small_screen_maker(height)),
       bytes_(static_cast<std::size_t>(depth) * kSmallSize) {}
 
 void SmallScreens::clear() { std::ranges::fill(bytes_, std::uint8_t{0}); }
@@ -57,7 +66,7 @@ void SmallScreens::push(const Environment& environment, bool pooled) {
   pooled ? make_brighter_grey(screen, environment.previous_screen(), table, grey_)
          : make_grey(screen, table, grey_);
   std::shift_left(bytes_.begin(), bytes_.end(), kSmallSize);
-  resize_(grey_, std::span(bytes_).last(kSmallSize));
+  (*resize_)(grey_, std::span(bytes_).last(kSmallSize));
 }
 
 void SmallScreens::set_bytes(std::span<const std::uint8_t> bytes) {

@@ -22,6 +22,9 @@ void make_grey(std::span<const std::uint8_t> screen, const GreyTable& table, std
 void make_brighter_grey(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
                         const GreyTable& table, std::span<std::uint8_t> grey);
 
+// Makes a screen of so many rows 84 x 84. One for all: it lives on.
+const AreaResize& small_screen_maker(int height);
+
 // The last `depth` screens of an environment, made small, oldest first; those that are not there yet are
 // zero.
 class SmallScreens {
@@ -38,7 +41,7 @@ class SmallScreens {
   void set_bytes(std::span<const std::uint8_t> bytes);            // as bytes() gave them
 
  private:
-  AreaResize resize_;
+  const AreaResize* resize_;
   std::vector<std::uint8_t> grey_, bytes_;
 };
 

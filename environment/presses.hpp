@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
+
+#include "emulator/mersenne_twister.hpp"
 
 namespace racebeam {
 
@@ -26,7 +27,7 @@ class Sticky {
   explicit Sticky(float p) : threshold_(sticky_threshold(p)) {}
 
   // Two draws, A's first, whatever p is.
-  void draw(std::mt19937& random, const Presses& asked, Presses& held) const {
+  void draw(MersenneTwister& random, const Presses& asked, Presses& held) const {
     if (random() >= threshold_) held.a = asked.a;
     if (random() >= threshold_) held.b = asked.b;
   }

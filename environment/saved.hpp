@@ -3,11 +3,11 @@
 
 #include <array>
 #include <optional>
-#include <random>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "emulator/mersenne_twister.hpp"
 #include "emulator/picture.hpp"
 #include "emulator/properties.hpp"
 #include "emulator/sound.hpp"
@@ -48,7 +48,7 @@ class Environment::Saved {
   Properties properties;  // of the console
   Pictures pictures;      // shared with it until it draws again
   int height = 0;         // rows of them that are shown
-  std::optional<std::mt19937> random;
+  std::optional<MersenneTwister> random;
 
   // As Environment::state_hash() and same_state(). A state of another image is never the same.
   std::uint64_t state_hash() const { return racebeam::state_hash(parts()); }

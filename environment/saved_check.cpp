@@ -54,8 +54,8 @@ void check_sound(const Sound& sound) {
 }
 
 // Words that are all zero would give zeros for ever.
-void check_generator(std::span<const std::uint32_t, std::mt19937::state_size> words, std::uint32_t position) {
-  check_range("the position of the generator", position, 0, std::mt19937::state_size);
+void check_generator(std::span<const std::uint32_t, MersenneTwister::state_size> words, std::uint32_t position) {
+  check_range("the position of the generator", position, 0, MersenneTwister::state_size);
   if (std::ranges::all_of(words, [](std::uint32_t word) { return word == 0; }))
     throw std::invalid_argument(
         "the state is none that this machine can be in: the words of its generator are all 0");

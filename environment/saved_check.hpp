@@ -2,6 +2,7 @@
 // nobody altered them by accident, not that the sender meant well.
 #pragma once
 
+#include "emulator/mersenne_twister.hpp"
 #include "environment/saved.hpp"
 
 namespace racebeam {
@@ -15,6 +16,6 @@ void check_tally(const Tally& tally, const Game& game);
 void check_sound(const Sound& sound);
 
 // The generator's words, and the position in them that follows.
-void check_generator(std::span<const std::uint32_t, std::mt19937::state_size> words, std::uint32_t position);
+void check_generator(std::span<const std::uint32_t, MersenneTwister::state_size> words, std::uint32_t position);
 
 }  // namespace racebeam

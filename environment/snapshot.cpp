@@ -17,7 +17,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "a state's bytes are the memory of its values");
 
 using Values = Environment::Saved::Values;
-using GeneratorWords = std::array<std::uint32_t, std::mt19937::state_size + 1>;  // and the position in them
+using GeneratorWords = std::array<std::uint32_t, MersenneTwister::state_size + 1>;  // and the position in them
 
 struct Header {
   char magic[8];
@@ -63,7 +63,7 @@ T take(std::span<const std::uint8_t>& bytes) {
 }
 
 // The standard's only way to look into a generator is text.
-GeneratorWords words_of(const std::mt19937& generator) {
+GeneratorWords words_of(const MersenneTwister& generator) {
   std::stringstream text;
   text << generator;
   GeneratorWords words{};
@@ -71,11 +71,11 @@ GeneratorWords words_of(const std::mt19937& generator) {
   return words;
 }
 
-std::mt19937 generator_of(const GeneratorWords& words) {
-  check_generator(std::span(words).first<std::mt19937::state_size>(), words.back());
+MersenneTwister generator_of(const GeneratorWords& words) {
+  check_generator(std::span(words).first<MersenneTwister::state_size>(), words.back());
   std::stringstream text;
   for (const std::uint32_t word : words) text << word << ' ';
-  std::mt19937 generator;
+  MersenneTwister generator;
   text >> generator;
   return generator;
 }
@@ -104,13 +104,14 @@ void check(const Prefix& prefix, std::size_t size, const Environment& environmen
 }
 
 void append_pixels(std::vector<std::uint8_t>& bytes, const Picture& picture, std::size_t size) {
-  const auto pixels = std::span(picture.pixel).first(size);
+  const auto pixels = picture.pixels().first(size);
   bytes.insert(bytes.end(), pixels.begin(), pixels.end());
 }
 
 std::shared_ptr<Picture> take_picture(std::span<const std::uint8_t>& bytes, std::size_t size) {
   auto picture = std::make_shared<Picture>();
-  std::ranges::copy(bytes.first(size), picture->pixel.begin());
+  picture->make_room(size / kLinePixels);
+  std::ranges::copy(bytes.first(size), picture->pixels().begin());
   bytes = bytes.subspan(size);
   return picture;
 }

@@ -26,8 +26,11 @@ inline Properties ntsc() {
 }
 
 struct Bench {
+  static constexpr std::size_t kMostRows = 320;  // of a picture that a reset has shifted down
+
   explicit Bench(Rom rom = Rom(4096, 0xEA), const Properties& properties = ntsc())
       : whole_(std::make_unique<Whole>(std::make_shared<const Rom>(std::move(rom)), properties)) {
+    for (Picture& buffer : pictures()) buffer.make_room(kMostRows);
     board.slot.scheme.reset(board.slot);
     board.map_memory();
     reset_cpu(board);
@@ -40,7 +43,7 @@ struct Bench {
   std::uint8_t act(std::function<std::uint8_t(Bench&)> action) {
     if (step_.empty()) {
       at_begin_ = state;
-      board.begin_step(picture(), whole_->log);
+      board.begin_step(picture(), &pictures()[current_ ^ 1], whole_->log);
     }
     step_.push_back(std::move(action));
     return step_.back()(*this);
@@ -73,7 +76,7 @@ struct Bench {
   Picture& picture() { return whole_->pictures[current_]; }
   std::array<Picture, 2>& pictures() { return whole_->pictures; }
   std::span<const std::uint8_t> row(int number) {
-    return std::span(picture().pixel).subspan(static_cast<std::size_t>(number * kLinePixels), kLinePixels);
+    return picture().pixels().subspan(static_cast<std::size_t>(number * kLinePixels), kLinePixels);
   }
 
   void write(int line, int x, unsigned reg, unsigned value) { write_at(line * kLineCycles + x, reg, value); }
@@ -120,7 +123,7 @@ struct Bench {
     if (board.needs_exact_step()) {
       state = at_begin_;
       board.map_memory();
-      board.begin_step(picture(), whole_->log, Pixels::kExact);
+      board.begin_step(picture(), &pictures()[current_ ^ 1], whole_->log, Pixels::kExact);
       for (const auto& action : step_) action(*this);
       board.end_step();
     }
@@ -145,8 +148,8 @@ struct Bench {
     state.frame = FrameState{};
     state.frame.open = 1;
     for (Picture& buffer : pictures()) {
-      buffer.pixel.fill(0);
-      buffer.forget_lines();
+      buffer.blank();
+      buffer.make_room(kMostRows);
     }
     board.map_memory();
   }

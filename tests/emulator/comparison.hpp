@@ -79,7 +79,7 @@ class Comparison {
   }
 
   void compare() {
-    const auto& ours = bench_.picture().pixel;
+    const auto ours = bench_.picture().pixels();
     const auto& theirs = reference_.buffers()[static_cast<std::size_t>(reference_.current())];
     const auto [at, expected] = std::mismatch(ours.begin(), ours.end(), theirs.begin());
     if (at != ours.end())

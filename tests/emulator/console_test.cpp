@@ -90,7 +90,7 @@ TEST_CASE("A restored machine goes on as the saved one did") {
     first.push_back(machine.digest());
   }
   CHECK(first[0] != first[1]);
-  CHECK(std::equal(current.begin(), current.end(), pictures.current->pixel.begin()));  // not drawn over
+  CHECK(std::equal(current.begin(), current.end(), pictures.current->pixels().begin()));  // not drawn over
 
   machine.console.restore(saved);
   CHECK(std::memcmp(&saved, &machine.console.state(), sizeof saved) == 0);

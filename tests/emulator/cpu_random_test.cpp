@@ -93,7 +93,7 @@ struct Both {
 
   void close_frame() {
     const auto& theirs = model.tia.buffers()[static_cast<std::size_t>(model.tia.current())];
-    const auto [at, expected] = std::mismatch(theirs.begin(), theirs.end(), bench.picture().pixel.begin());
+    const auto [at, expected] = std::mismatch(theirs.begin(), theirs.end(), bench.picture().pixels().begin());
     if (at != theirs.end())
       FAIL("row " << (at - theirs.begin()) / 160 << ", pixel " << (at - theirs.begin()) % 160);
     bench.next_frame(bench.state.cycle);

@@ -124,7 +124,8 @@ void play(unsigned seed, int frames) {
       of_other.restore_to(other.console);
       compare(drawn.console, other.console, random, looks);
       if (random.percent(30)) {
-        REQUIRE(same(drawn.console.pictures().current->pixel, other.console.drawn(of_other.pictures.current)->pixel));
+        const Picture& theirs = *drawn.console.pictures().current;
+        REQUIRE(same(theirs.pixels(), other.console.drawn(of_other.pictures.current)->pixels()));
       }
     }
     if (saved.size() > 4) saved.erase(saved.begin());

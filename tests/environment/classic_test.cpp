@@ -19,14 +19,14 @@ Settings classic(std::uint32_t seed = 123) {
 Environment counter(const Settings& settings) { return {test::counter_image(), test::game(), settings}; }
 
 bool has_drawn(const Environment& environment, unsigned draws) {
-  std::mt19937 expected(environment.settings().random_seed);
+  MersenneTwister expected(environment.settings().random_seed);
   expected.discard(draws);
   return *environment.save(true)->random == expected;
 }
 
 TEST_CASE("Power-on RAM comes from the environment's own seed") {
   const Environment environment = counter(classic());
-  std::mt19937 random(123);
+  MersenneTwister random(123);
   bool same = true;
   for (std::size_t i = 0; i < 128; ++i) {
     const auto byte = static_cast<std::uint8_t>(random());
@@ -59,8 +59,8 @@ TEST_CASE("A reset keeps the stored action, unlike that of ALE 0.12") {
 }
 
 TEST_CASE("Cartridge RAM is filled once, by a generator with the default seed") {
-  std::mt19937 shared(1), expected;
-  const std::mt19937 untouched = shared;
+  MersenneTwister shared(1), expected;
+  const MersenneTwister untouched = shared;
   ClassicPowerOn power_on(shared);
   std::array<std::uint8_t, 128> ram{};
   std::uint32_t drawn = 0;

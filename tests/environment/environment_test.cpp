@@ -219,7 +219,7 @@ TEST_CASE("Frames repeat the action before, as a model of sticky actions says") 
     settings.sticky = 0.25F;
     settings.frame_skip = skip;
     Environment sticky = steered(settings), exact = steered();
-    std::mt19937 random(123);
+    MersenneTwister random(123);
     Presses held;
     for (int i = 0; i < 60; ++i) {
       if (i == 30) {

@@ -13,7 +13,7 @@ namespace racebeam {
 namespace {
 
 std::vector<std::uint32_t> first_draws(std::uint32_t seed, std::size_t count) {
-  std::mt19937 generator(seed);
+  MersenneTwister generator(seed);
   std::vector<std::uint32_t> draws(count);
   std::ranges::generate(draws, [&] { return static_cast<std::uint32_t>(generator()); });
   return draws;
@@ -22,7 +22,7 @@ std::vector<std::uint32_t> first_draws(std::uint32_t seed, std::size_t count) {
 // The actions that become current when 1, 2, 3 ... are asked for.
 std::vector<int> performed(float p, std::uint32_t seed, int acts) {
   const Sticky sticky(p);
-  std::mt19937 random(seed);
+  MersenneTwister random(seed);
   Presses held;
   std::vector<int> actions;
   for (int i = 0; i < acts; ++i) {
@@ -87,7 +87,7 @@ TEST_CASE("A probability is rounded to six digits and compared in single precisi
 
 TEST_CASE("Each frame takes two draws, and B's is the second") {
   const Sticky sticky(0.25F);
-  std::mt19937 random(123), reference(123);
+  MersenneTwister random(123), reference(123);
   Presses held;
   for (int i = 0; i < 100; ++i) {
     const Presses before = held, asked{{i % 18, 0.5F}, {18 + i % 18, 0.25F}};

@@ -140,7 +140,7 @@ TEST_CASE("Counters stop at the frame limit and go on after a reset") {
   settings.frame_skip = 4;
   settings.max_episode_frames = 6;
   Environment environment = load(image, "tetris", settings);
-  std::mt19937 random(123);
+  MersenneTwister random(123);
   for (const int frames : {4, 6, 6, 6}) {
     environment.act(0);
     random.discard(8);

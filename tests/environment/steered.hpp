@@ -29,7 +29,7 @@ inline int at(const Environment& environment, int address) {
 // Taken from the environment's generator so far.
 inline std::uint64_t draws(const Environment& environment) {
   const auto random = environment.save(true)->random;
-  std::mt19937 counter(environment.settings().random_seed);
+  MersenneTwister counter(environment.settings().random_seed);
   for (std::uint64_t count = 0; count < 10000; ++count, counter()) {
     if (counter == *random) return count;
   }
