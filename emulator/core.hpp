@@ -208,10 +208,11 @@ struct Core {
   }
 
   RACEBEAM_INLINE void write_device(std::uint16_t address, std::uint8_t value) {
-    const std::int32_t now = cycle();
+    std::int32_t now = cycle();
     if ((address & 0x1080) != 0) [[unlikely]] return write_slowly(address, value, true);
-    if (!board.is_plain_write(address, now)) [[unlikely]] return write_slowly(address, value, true);
-    board.log->append_change(now, address & 0x3F, value);
+    if (board.is_plain_write(address, now)) return board.log->append_change(now, address & 0x3F, value);
+    if (board.wait_for_line(address, now)) return set_cycle(now);
+    write_slowly(address, value, true);
   }
 
   RACEBEAM_INLINE void write_slowly(std::uint16_t address, std::uint8_t value, bool after_read) {
@@ -219,9 +220,12 @@ struct Core {
     look_at_window();
   }
 
-  // after_read: the CPU access before this one was a read, which WSYNC asks for.
-  // Two pushes can reach the TIA in one cycle, where the first one's delay holds up the second: both are kept.
-  RACEBEAM_INLINE void push(std::uint8_t value, bool after_read = true) {
+  // Where the stack shows the TIA, games write its registers so.
+  RACEBEAM_INLINE void push(std::uint8_t value) { write(static_cast<std::uint16_t>(0x0100 | SP--), value); }
+
+  // One of several that an instruction pushes. Two of them can reach the TIA in one cycle, where the first one's delay holds
+  // up the second: both are kept. after_read: the access before this one was a read, which WSYNC asks for.
+  RACEBEAM_INLINE void push_one(std::uint8_t value, bool after_read) {
     const std::uint16_t address = 0x0100 | SP--;
     latch = value;
     if (address & 0x80) {

@@ -213,8 +213,8 @@ RACEBEAM_INLINE void jmp(Core& cpu, Address target) { cpu.jump(target); }
 RACEBEAM_INLINE void jsr(Core& cpu, Address) {
   const Byte low = cpu.fetch();
   cpu.read_stack();
-  cpu.push(byte(cpu.PC() >> 8));
-  cpu.push(byte(cpu.PC() & 0xFF), false);
+  cpu.push_one(byte(cpu.PC() >> 8), true);
+  cpu.push_one(byte(cpu.PC() & 0xFF), false);
   cpu.jump(static_cast<Address>(low | cpu.read_at_PC() << 8));
 }
 RACEBEAM_INLINE void rts(Core& cpu, Address) {
@@ -233,9 +233,9 @@ RACEBEAM_INLINE void rti(Core& cpu, Address) {
 RACEBEAM_INLINE void brk(Core& cpu, Address) {
   cpu.read_at_PC();
   ++cpu.at;
-  cpu.push(byte(cpu.PC() >> 8));
-  cpu.push(byte(cpu.PC() & 0xFF), false);
-  cpu.push(cpu.status(), false);
+  cpu.push_one(byte(cpu.PC() >> 8), true);
+  cpu.push_one(byte(cpu.PC() & 0xFF), false);
+  cpu.push_one(cpu.status(), false);
   cpu.I = 1;
   const Byte low = cpu.read(0xFFFE);
   cpu.jump(static_cast<Address>(low | cpu.read(0xFFFF) << 8));
