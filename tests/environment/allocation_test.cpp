@@ -1,4 +1,7 @@
-// What a batch allocates while it runs: nothing. All of this program's allocations are counted, so it has no other test.
+// What a batch allocates while it runs: nothing; and what it takes. All of this program's allocations are counted, so it has no
+// other tests.
+#include <malloc.h>
+
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -10,31 +13,37 @@
 
 namespace {
 
-std::atomic<long> allocations = 0;
+std::atomic<long> allocations = 0, bytes_in_use = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
   ++allocations;
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;
   void* const memory = alignment <= alignof(std::max_align_t) ? std::malloc(size) : std::aligned_alloc(alignment, whole);
   if (memory == nullptr) throw std::bad_alloc();
+  bytes_in_use += static_cast<long>(malloc_usable_size(memory));
   return memory;
+}
+
+void release(void* memory) {
+  bytes_in_use -= static_cast<long>(malloc_usable_size(memory));
+  std::free(memory);
 }
 
 }  // namespace
 
 void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
 void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, static_cast<std::size_t>(alignment)); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
 
 namespace racebeam {
 namespace {
 
 struct Play {
-  explicit Play(const BatchSettings& settings)
-      : batch(std::vector<Cartridge>(8, {load_image("builtin:beamfall"), find_game("beamfall")}), settings),
+  explicit Play(const BatchSettings& settings, std::size_t machines = 8)
+      : batch(std::vector<Cartridge>(machines, {load_image("builtin:beamfall"), find_game("beamfall")}), settings),
         actions(batch.size()) {}
 
   void step(int times) {
@@ -71,6 +80,24 @@ TEST_CASE("A batch soon allocates nothing while it runs, episodes that end and b
       CHECK(quiet == 5);
     }
   }
+}
+
+// Memory of so many machines that have played for a while.
+long taken(std::size_t machines) {
+  const long before = bytes_in_use;
+  Play play({}, machines);
+  play.step(200);
+  return bytes_in_use - before;
+}
+
+// A machine has two pictures, the grey one of which it makes the small screen, and a stack of four of these.
+TEST_CASE("A machine of a batch takes less than 64 KiB beside its pictures") {
+  constexpr long kPictures = 3 * 210 * 160 + 4 * 84 * 84;
+  taken(48);  // resets that all machines share are met for the first time
+  const long of_one = (taken(48) - taken(16)) / 32;
+  INFO(of_one << " bytes");
+  CHECK(of_one > kPictures);
+  CHECK(of_one - kPictures < 64 * 1024);
 }
 
 TEST_CASE("The count is one of allocations") {
