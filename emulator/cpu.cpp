@@ -5,7 +5,8 @@
 #include "emulator/operations.hpp"
 
 // Threaded dispatch: every handler ends with its own indirect jump, which a processor predicts far better than the one
-// of a switch, after it has looked for the opcodes that often follow its own (followers.hpp). Labels as values are an extension of g++ and clang.
+// of a switch, after it has looked for the opcodes that often follow its own (followers.hpp). Labels as values are an
+// extension of g++ and clang.
 #pragma GCC diagnostic ignored "-Wpedantic"
 
 namespace racebeam {

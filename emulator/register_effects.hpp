@@ -227,7 +227,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_vdel(unsigned which, std::u
 }
 
 template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, std::uint8_t old_enabled, std::uint8_t vdel, std::int32_t clock) {
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, std::uint8_t old_enabled,
+                                                          std::uint8_t vdel, std::int32_t clock) {
   BallState& ball = tia_.ball;
   const bool shown = vdel ? old_enabled != 0 : enabled != 0;
   if (!painter_.looks() || shown != ball_enabled(ball)) {
@@ -294,7 +295,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std
   for (unsigned i = 0; i < copies.count; ++i) {
     const int into = distance - copies.offset[i];
     if (into >= 0 && into <= 3) skip = false;
-    if (into >= 4 && into <= 3 + width) painter_.draw_to(clock + 11, object(kP0, which));  // the old copy is being drawn: it is finished first
+    // The old copy is being drawn: it is finished first.
+    if (into >= 4 && into <= 3 + width) painter_.draw_to(clock + 11, object(kP0, which));
   }
   if (skip) painter_.come_to(clock);
   player.position = position;

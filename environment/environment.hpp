@@ -56,7 +56,8 @@ class Environment {
   void set_drawing(Drawing drawing);
   Drawing drawing() const;
 
-  // Gives back the memory that only makes drawing faster, some 40 KiB, or 80 where objects flicker: for one that will not act for a while.
+  // Gives back the memory that only makes drawing faster, some 40 KiB, or 80 where objects flicker: for one that will not
+  // act for a while.
   void rest();
 
   // Called after each frame of an act, not for those of a reset; nothing: no longer. For recordings.
