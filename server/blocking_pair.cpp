@@ -64,13 +64,18 @@ std::size_t BlockingPair::read(std::span<char> space) {
   return count;
 }
 
+std::optional<std::size_t> BlockingPair::read_at_once(std::span<char> space) {
+  if (halt_.reading) return std::nullopt;
+  iovec part{space.data(), space.size()};
+  const ssize_t count = ::preadv2(in_, &part, 1, -1, RWF_NOWAIT);
+  return count < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(count));
+}
+
 // Where the system can't look without waiting, it is left to read_asleep().
 std::optional<std::size_t> BlockingPair::read_awake(std::span<char> space) {
-  iovec part{space.data(), space.size()};
-  for (busy_.begin(); busy_.again() && !halt_.reading;) {
-    const ssize_t count = ::preadv2(in_, &part, 1, -1, RWF_NOWAIT);
-    if (count >= 0) return static_cast<std::size_t>(count);
-    if (errno != EAGAIN) break;
+  for (busy_.begin(); busy_.again();) {
+    if (const auto count = read_at_once(space)) return count;
+    if (halt_.reading || errno != EAGAIN) break;
   }
   return std::nullopt;
 }

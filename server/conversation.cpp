@@ -10,6 +10,7 @@
 #include <boost/asio/ssl.hpp>
 
 #include "server/log.hpp"
+#include "server/look_ahead.hpp"
 
 namespace racebeam {
 namespace {
@@ -84,13 +85,26 @@ bool has_gone(Socket& socket) {
   return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLHUP | POLLERR)) != 0;
 }
 
+LookAhead look_ahead(Socket& socket) { return LookAhead(&socket); }
+LookAhead look_ahead(TlsStream&) { return LookAhead(nullptr); }
+
+bool found_more(LookAhead& ahead, Client& client, LineSession& session) {
+  const std::size_t count = client.ending() ? 0 : ahead.look(session.space());
+  if (count == 0) return false;  // the end and errors are left to receive()
+  client.received(count);
+  session.received(count);
+  return true;
+}
+
 // Between two slices of a long request, or of many that were sent ahead, the loop's other sessions have their
-// turn. Of the latter a slice has many parts, each of which ends with replies that are sent.
+// turn. Of the latter a slice has some parts, each of which ends with replies that are sent.
 template <typename Stream>
 net::awaitable<void> converse(Stream& stream, Client& client, LineSession& session) {
-  constexpr int kMostParts = 32;
+  constexpr int kMostParts = 4;
+  LookAhead ahead = look_ahead(stream);
   for (int parts = 0;;) {
     const bool more = session.run();
+    if (session.wants_more() && found_more(ahead, client, session)) continue;
     client.admitted = session.admitted();
     const std::string_view text = session.output();
     if (!text.empty()) {
@@ -98,6 +112,7 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
       client.sent(count);
       if (count < text.size()) co_await send_rest(stream, client, text.substr(count));
       session.sent(text.size());
+      ahead.take();
     }
     if (session.finished()) break;
     if (more) {
