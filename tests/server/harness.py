@@ -40,9 +40,18 @@ def transcripts_folder():
     return folder if os.path.isdir(folder) else None
 
 
-def sanitized():
+def built_with(symbol):
     with open(BINARY, "rb") as binary:
-        return b"__ubsan" in binary.read()
+        return symbol in binary.read()
+
+
+def sanitized():
+    return built_with(b"__ubsan")
+
+
+def times_slower():
+    """About how many times, beside a release build, whose lengths the tests have."""
+    return 10 if built_with(b"__tsan") else 1
 
 
 def run(*words, data=b"", cwd=None):
