@@ -15,6 +15,13 @@ namespace {
 
 constexpr int kWakingSignal = SIGUSR1;
 
+// A pipe holds 64 KiB unless it is told otherwise: a longer reply, of many machines, would wait for its
+// reader in between. Where it is no pipe, or may not be larger, it stays as it is.
+void make_room(int pipe) {
+  constexpr int kRoom = 1 << 18;
+  if (::fcntl(pipe, F_GETPIPE_SZ) < kRoom) ::fcntl(pipe, F_SETPIPE_SZ, kRoom);
+}
+
 void wait_until(int descriptor, short ready) {
   pollfd state{descriptor, ready, 0};
   ::poll(&state, 1, -1);
@@ -40,6 +47,7 @@ BlockingPair::~BlockingPair() {
 void BlockingPair::use(int in, int out) {
   in_ = in;
   out_ = out;
+  make_room(out_);
 }
 
 bool BlockingPair::open(int& descriptor, const std::string& path, int flags) {
@@ -52,7 +60,11 @@ bool BlockingPair::open(int& descriptor, const std::string& path, int flags) {
   return false;
 }
 
-bool BlockingPair::open_out(const std::string& path, int flags) { return open(out_, path, O_WRONLY | flags); }
+bool BlockingPair::open_out(const std::string& path, int flags) {
+  if (!open(out_, path, O_WRONLY | flags)) return false;
+  make_room(out_);
+  return true;
+}
 
 bool BlockingPair::open_in(const std::string& path) { return open(in_, path, O_RDONLY); }
 

@@ -49,9 +49,8 @@ def sanitized():
     return built_with(b"__ubsan")
 
 
-def times_slower():
-    """About how many times, beside a release build, whose lengths the tests have."""
-    return 10 if built_with(b"__tsan") else 1
+def thread_sanitized():
+    return built_with(b"__tsan")
 
 
 def run(*words, data=b"", cwd=None):
