@@ -43,12 +43,22 @@ net::awaitable<void> send_rest(Stream& stream, Client& client, std::string_view 
   }
 }
 
+template <typename Token>
+auto read_some(Socket& socket, net::mutable_buffer space, Socket::message_flags flags, Token token) {
+  return socket.async_receive(space, flags, std::move(token));
+}
+template <typename Token>
+auto read_some(TlsStream& stream, net::mutable_buffer space, Socket::message_flags, Token token) {
+  return stream.async_read_some(space, std::move(token));
+}
+
 // Bytes that came; 0: no more will.
 template <typename Stream>
-net::awaitable<std::size_t> receive(Stream& stream, Client& client, std::span<char> space) {
+net::awaitable<std::size_t> receive(Stream& stream, Client& client, std::span<char> space,
+                                    Socket::message_flags flags = 0) {
   error_code error;
-  const std::size_t count = co_await stream.async_read_some(net::buffer(space.data(), space.size()),
-                                                            net::redirect_error(use_awaitable, error));
+  const std::size_t count = co_await read_some(stream, net::buffer(space.data(), space.size()), flags,
+                                               net::redirect_error(use_awaitable, error));
   client.received(count);
   co_return count;
 }
@@ -124,7 +134,10 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
       continue;
     }
     if (!client.ending()) {
-      const std::size_t count = co_await receive(stream, client, session.space());
+      ahead.take();
+      const auto flags = ahead.flags(client.sleeps());
+      const std::size_t count = co_await receive(stream, client, session.space(), flags);
+      ahead.was_read(flags, count);
       if (count > 0 || !client.ending()) session.received(count);
     }
     if (client.ending()) co_await take_leave(stream, client);

@@ -8,6 +8,15 @@ namespace racebeam {
 namespace net = boost::asio;
 using boost::system::error_code;
 
+LookAhead::LookAhead(Socket* socket) : socket_(socket) {
+  error_code ignored;
+  wakes_ = socket != nullptr && socket->local_endpoint(ignored).protocol().family() == AF_UNIX;
+}
+
+Socket::message_flags LookAhead::flags(bool client_sleeps) const {
+  return wakes_ && client_sleeps ? Socket::message_peek : 0;
+}
+
 std::size_t LookAhead::look(std::span<char> space) {
   if (socket_ == nullptr || space.empty()) return 0;
   take();
