@@ -18,7 +18,7 @@ constexpr int kFramesOfARequest = 1;  // what any request costs at least, so tha
 constexpr std::size_t kLastRequests = 3;
 constexpr int kFewReplies = 4;
 constexpr int kFramesOfReplies = 64;              // some hundred microseconds
-constexpr std::size_t kBytesOfReplies = 1 << 15;  // half of what a pipe holds
+constexpr std::size_t kBytesOfReplies = 1 << 16;  // some twenty with a screen
 
 const LineLimits& limits(const LineService& service) { return service.limits; }
 
