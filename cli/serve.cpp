@@ -104,7 +104,8 @@ int serve(ServeOptions& options, CLI::App& command) {
   finish(options, complete(command));
   set_up_log(options.log_level, options.log_format);
   tell_obstacle(options.machine.settings.cpu);
-  Workers workers(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1);
+  Workers workers(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1,
+                  options.server.busy_poll);
   Services services;
   if (serves(options, true)) services.classic = classic_service(options);
   if (serves(options, false)) services.line = line_service(options, workers);

@@ -29,6 +29,7 @@ class LineReader {
   };
   std::optional<Line> next();
   bool empty() const { return unread() == 0; }  // next() has given all that came
+  std::size_t lines(std::size_t most) const;    // whole ones that wait; counted up to `most`
 
  private:
   std::size_t unread() const { return end_ - begin_; }

@@ -17,6 +17,8 @@ void LineSession::received(std::size_t count) {
 
 bool LineSession::run(int frames) { return session_->run(frames); }
 
+bool LineSession::wants_more() const { return session_->wants_more(); }
+
 std::string_view LineSession::output() const { return session_->whole_replies(); }
 
 void LineSession::sent(std::size_t count) { session_->sent(count); }

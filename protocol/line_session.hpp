@@ -60,10 +60,14 @@ class LineSession {
   std::span<char> space();           // where input goes; do not read while it is empty
   void received(std::size_t count);  // so much was put there; 0: the client has closed its end
 
-  // Carries out requests until about `frames` frames have run, or a few with whole replies. True: there is
+  // Carries out requests until about `frames` frames have run, or replies are worth sending. True: there is
   // more to do, call it again; when output is waiting, send it first.
   bool run(int frames = kSlice);
   static constexpr int kSlice = 256;  // some milliseconds, which is what others have to wait
+
+  // Replies to requests that were sent ahead are there, and few such requests are left: if more have come by
+  // now, hand them in and run() again; else send the output.
+  bool wants_more() const;
 
   std::string_view output() const;  // to be sent; good until run() or sent()
   void sent(std::size_t count);     // so much of it is on its way

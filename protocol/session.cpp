@@ -10,8 +10,15 @@
 namespace racebeam {
 namespace {
 
-constexpr int kFramesOfReplies = 8;   // some tens of microseconds
 constexpr int kFramesOfARequest = 1;  // what any request costs at least, so that a slice ends
+
+// Waking a client that sleeps takes the time of a step, sending that of some more: the replies of requests
+// that were sent ahead go out together, when kLastRequests are left, which are answered while the client
+// reads and sends the next. No more of them wait than this.
+constexpr std::size_t kLastRequests = 3;
+constexpr int kFewReplies = 4;
+constexpr int kFramesOfReplies = 64;              // some hundred microseconds
+constexpr std::size_t kBytesOfReplies = 1 << 16;  // some twenty with a screen
 
 const LineLimits& limits(const LineService& service) { return service.limits; }
 
@@ -79,21 +86,32 @@ void Session::watch() {
 
 bool Session::run(int frames) {
   frames_left_ = frames;
-  while (!done_ && frames_left_ > 0 && !must_send(frames - frames_left_)) {
+  if (meter_ && work_ == nullptr) began_ = std::chrono::steady_clock::now();
+  while (!done_ && frames_left_ > 0 && !pauses()) {
     if (!go_on()) return false;
   }
   return !done_;
 }
 
-// A reader that is slow holds up its own requests only. Who sent requests ahead reads the first replies, and
-// sends more, while the next are being made: neither waits for the other.
-bool Session::must_send(int frames) const {
+// A reader that is slow holds up its own requests only.
+bool Session::has_enough() const {
+  return unsent_frames_ >= kFramesOfReplies ||
+         out.size() >= std::min(kBytesOfReplies, limits(service).output);
+}
+
+bool Session::pauses() const {
   if (work_ != nullptr || out.empty() || input.empty()) return false;
-  return frames >= kFramesOfReplies || out.size() >= limits(service).output;
+  return has_enough() || (unsent_ >= kFewReplies && input.lines(kLastRequests + 1) == kLastRequests);
+}
+
+bool Session::wants_more() const {
+  return work_ == nullptr && !done_ && unsent_ > 1 && !has_enough() &&
+         input.lines(kLastRequests + 1) <= kLastRequests;
 }
 
 // One step; false when there is nothing to do before something comes in.
 bool Session::go_on() {
+  const int before = frames_left_;
   if (work_ == nullptr) {
     const auto line = input.next();
     if (!line) {
@@ -107,6 +125,7 @@ bool Session::go_on() {
       if (work_->go_on(*this, frames_left_)) work_ = nullptr;
     });
   }
+  unsent_frames_ += before - frames_left_;
   if (work_ == nullptr) finish_reply();
   return true;
 }
@@ -137,7 +156,6 @@ void Session::begin_request() {
   frames_left_ -= kFramesOfARequest;
   command_ = commands().size();
   refused_ = false;
-  if (meter_) began_ = std::chrono::steady_clock::now();
 }
 
 void Session::take(const LineReader::Line& line) {
@@ -165,13 +183,16 @@ void Session::execute(std::string_view line) {
 
 void Session::finish_reply() {
   out += '\n';
+  ++unsent_;
   statistics.bytes_out += static_cast<std::int64_t>(out.size() - reply_);
   done_ = quitting;
   if (meter_) measure();
 }
 
 void Session::measure() {
-  meter_->request(command_, refused_, std::chrono::steady_clock::now() - began_);
+  const auto now = std::chrono::steady_clock::now();
+  meter_->request(command_, refused_, now - began_);
+  began_ = now;  // of the next, if it is there
   meter_->frames.add(statistics.frames - metered_frames_);
   metered_frames_ = statistics.frames;
 }
@@ -182,6 +203,7 @@ std::string_view Session::whole_replies() const {
 
 void Session::sent(std::size_t count) {
   out.erase(0, count);
+  unsent_ = unsent_frames_ = 0;
   reply_ -= std::min(reply_, count);
 }
 

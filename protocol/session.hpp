@@ -62,12 +62,14 @@ class Session {
   bool run(int frames);
   std::string_view whole_replies() const;  // not the one that is being worked on: it may yet be refused
   void sent(std::size_t count);            // of them
+  bool wants_more() const;                 // see LineSession
   bool finished() const { return done_; }
   void cancel();
   void rest();
 
  private:
-  bool must_send(int frames) const;
+  bool has_enough() const;
+  bool pauses() const;
   bool go_on();
   void take(const LineReader::Line& line);
   void begin_request();
@@ -79,6 +81,8 @@ class Session {
 
   std::vector<std::string_view> words_;
   std::size_t reply_ = 0;  // where in `out` the current reply begins
+  int unsent_ = 0;         // whole replies in `out`
+  int unsent_frames_ = 0;  // that they took
   Work* work_ = nullptr;   // what is left of the current request
   int frames_left_ = 0;    // of this slice
   bool done_ = false;

@@ -69,13 +69,15 @@ class Session:
         self.process.wait()
 
 
-def print_speed(game, steps, ahead, placement):
+def print_speed(game, steps, ahead, placement, one_write=False):
     rom = image(game)
     apart = ["--apart"] if placement == "apart" else []
-    done = subprocess.run([WIRE_BENCH, *apart, RACEBEAM, rom, str(steps), str(ahead)], capture_output=True, check=True)
+    options = apart + (["--one-write"] if one_write else [])
+    done = subprocess.run([WIRE_BENCH, *options, RACEBEAM, rom, str(steps), str(ahead)], capture_output=True, check=True)
     found = json.loads(done.stdout)
     alone = found["in_process"]
-    print(f"\n{name_of(rom)}, {placement}, {ahead} under way, {found['bytes']:.0f} bytes a reply; in process "
+    how = f"{placement}, {ahead} under way" + (", sent in one write" if one_write else "")
+    print(f"\n{name_of(rom)}, {how}, {found['bytes']:.0f} bytes a reply; in process "
           f"{alone['rate']:.0f} steps/s, {alone['microseconds']:.1f} us")
     print(f"{'':8}{'steps/s':>10}{'echo':>10}{'of less':>9}{'us':>8}{'echo us':>9}{'extra us':>10}")
     for transport in TRANSPORTS:
@@ -101,15 +103,17 @@ def print_bytes(games, frames=1000):
 
 
 def print_batch(game, machines=64):
-    """Many machines in one session beside one in process, both a frame a request, with the same fields."""
+    """Many machines in one session beside one in process, with the same fields and settings. Who has two requests under way
+    sends the actions of a step before the reply to the step before is read; who has one waits for each reply."""
     rom = image(game)
-    print(f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} processors, frames/s and times one in process")
-    for fields in ("reward ends", "reward ends lives ram screen:rle"):
-        done = subprocess.run([WIRE_BENCH, "--machines", str(machines), RACEBEAM, rom, "10000", *fields.split()],
+    print(f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} processors, steps/s and times one in process")
+    for ahead, words in itertools.product((1, 2), ("reward ends", "reward ends lives ram screen:rle",
+                                                   "reward ends frame_skip=4", "reward ends lives ram screen:rle frame_skip=4")):
+        done = subprocess.run([WIRE_BENCH, "--machines", str(machines), RACEBEAM, rom, "10000", str(ahead), *words.split()],
                               capture_output=True, check=True)
         found = json.loads(done.stdout)
         alone = found["in_process"]["rate"]
-        print(f"{fields:34}{alone:9.0f}" + "".join(
+        print(f"{ahead} under way, {words:46}{alone:9.0f}" + "".join(
             f"{transport:>8}{found[transport]['rate']:8.0f}{found[transport]['rate'] / alone:6.2f}" for transport in TRANSPORTS))
 
 
@@ -119,6 +123,8 @@ def main():
     for game in arguments.speed_games:
         for ahead, placement in itertools.product(arguments.ahead, arguments.placement):
             print_speed(game, arguments.steps, ahead, placement)
+            if ahead > 1:
+                print_speed(game, arguments.steps, ahead, placement, one_write=True)
     for game in arguments.speed_games:
         print_batch(game)
     print_bytes(arguments.games)

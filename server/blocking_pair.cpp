@@ -15,6 +15,13 @@ namespace {
 
 constexpr int kWakingSignal = SIGUSR1;
 
+// A pipe holds 64 KiB unless it is told otherwise: a longer reply, of many machines, would wait for its
+// reader in between. Where it is no pipe, or may not be larger, it stays as it is.
+void make_room(int pipe) {
+  constexpr int kRoom = 1 << 18;
+  if (::fcntl(pipe, F_GETPIPE_SZ) < kRoom) ::fcntl(pipe, F_SETPIPE_SZ, kRoom);
+}
+
 void wait_until(int descriptor, short ready) {
   pollfd state{descriptor, ready, 0};
   ::poll(&state, 1, -1);
@@ -40,6 +47,7 @@ BlockingPair::~BlockingPair() {
 void BlockingPair::use(int in, int out) {
   in_ = in;
   out_ = out;
+  make_room(out_);
 }
 
 bool BlockingPair::open(int& descriptor, const std::string& path, int flags) {
@@ -52,7 +60,11 @@ bool BlockingPair::open(int& descriptor, const std::string& path, int flags) {
   return false;
 }
 
-bool BlockingPair::open_out(const std::string& path, int flags) { return open(out_, path, O_WRONLY | flags); }
+bool BlockingPair::open_out(const std::string& path, int flags) {
+  if (!open(out_, path, O_WRONLY | flags)) return false;
+  make_room(out_);
+  return true;
+}
 
 bool BlockingPair::open_in(const std::string& path) { return open(in_, path, O_RDONLY); }
 
@@ -64,13 +76,18 @@ std::size_t BlockingPair::read(std::span<char> space) {
   return count;
 }
 
+std::optional<std::size_t> BlockingPair::read_at_once(std::span<char> space) {
+  if (halt_.reading) return std::nullopt;
+  iovec part{space.data(), space.size()};
+  const ssize_t count = ::preadv2(in_, &part, 1, -1, RWF_NOWAIT);
+  return count < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(count));
+}
+
 // Where the system can't look without waiting, it is left to read_asleep().
 std::optional<std::size_t> BlockingPair::read_awake(std::span<char> space) {
-  iovec part{space.data(), space.size()};
-  for (busy_.begin(); busy_.again() && !halt_.reading;) {
-    const ssize_t count = ::preadv2(in_, &part, 1, -1, RWF_NOWAIT);
-    if (count >= 0) return static_cast<std::size_t>(count);
-    if (errno != EAGAIN) break;
+  for (busy_.begin(); busy_.again();) {
+    if (const auto count = read_at_once(space)) return count;
+    if (halt_.reading || errno != EAGAIN) break;
   }
   return std::nullopt;
 }

@@ -39,8 +39,10 @@ class BlockingPair {
   bool open_in(const std::string& path);
 
   std::size_t read(std::span<char> space);  // 0: the end, or told to halt
-  bool write(std::string_view text);        // false: the client does not read any more, or told to halt
-  bool reader_left() const;                 // without waiting
+  // Without waiting; nothing: nothing has come, or the system can't tell.
+  std::optional<std::size_t> read_at_once(std::span<char> space);
+  bool write(std::string_view text);  // false: the client does not read any more, or told to halt
+  bool reader_left() const;           // without waiting
 
  private:
   bool open(int& descriptor, const std::string& path, int flags);

@@ -4,6 +4,8 @@ namespace racebeam {
 
 using namespace std::chrono_literals;
 
+constexpr auto kLong = 50us;  // of a request
+
 Client::Client(Socket connection, Loop& home, std::string who)
     : socket(std::move(connection)), loop(home), name(std::move(who)) {
   ++loop.sessions;
@@ -22,7 +24,9 @@ void Client::received(std::size_t bytes) {
 }
 
 void Client::sent(std::size_t bytes) {
+  const auto asked = active_;
   is_active();
+  sleeps_ = active_ - asked > kLong;
   loop.meter.bytes_out.add(static_cast<std::int64_t>(bytes));
   if (quick_) loop.busy.begin();
 }

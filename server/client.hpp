@@ -34,6 +34,7 @@ class Client {
   }
   void received(std::size_t bytes);
   void sent(std::size_t bytes);
+  bool sleeps() const { return sleeps_; }  // before its reply is there: the last took long
 
   // Ends the session: what it waits for is cancelled, and it is told why. One that does not take the news
   // within two seconds is cut off by the next end().
@@ -58,6 +59,7 @@ class Client {
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};
   bool rests_ = false;
   bool quick_ = false;  // it asked again at once
+  bool sleeps_ = false;
   std::string farewell_, reason_;
 };
 

@@ -10,6 +10,7 @@
 #include <boost/asio/ssl.hpp>
 
 #include "server/log.hpp"
+#include "server/look_ahead.hpp"
 
 namespace racebeam {
 namespace {
@@ -42,12 +43,22 @@ net::awaitable<void> send_rest(Stream& stream, Client& client, std::string_view 
   }
 }
 
+template <typename Token>
+auto read_some(Socket& socket, net::mutable_buffer space, Socket::message_flags flags, Token token) {
+  return socket.async_receive(space, flags, std::move(token));
+}
+template <typename Token>
+auto read_some(TlsStream& stream, net::mutable_buffer space, Socket::message_flags, Token token) {
+  return stream.async_read_some(space, std::move(token));
+}
+
 // Bytes that came; 0: no more will.
 template <typename Stream>
-net::awaitable<std::size_t> receive(Stream& stream, Client& client, std::span<char> space) {
+net::awaitable<std::size_t> receive(Stream& stream, Client& client, std::span<char> space,
+                                    Socket::message_flags flags = 0) {
   error_code error;
-  const std::size_t count = co_await stream.async_read_some(net::buffer(space.data(), space.size()),
-                                                            net::redirect_error(use_awaitable, error));
+  const std::size_t count = co_await read_some(stream, net::buffer(space.data(), space.size()), flags,
+                                               net::redirect_error(use_awaitable, error));
   client.received(count);
   co_return count;
 }
@@ -84,13 +95,26 @@ bool has_gone(Socket& socket) {
   return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLHUP | POLLERR)) != 0;
 }
 
+LookAhead look_ahead(Socket& socket) { return LookAhead(&socket); }
+LookAhead look_ahead(TlsStream&) { return LookAhead(nullptr); }
+
+bool found_more(LookAhead& ahead, Client& client, LineSession& session) {
+  const std::size_t count = client.ending() ? 0 : ahead.look(session.space());
+  if (count == 0) return false;  // the end and errors are left to receive()
+  client.received(count);
+  session.received(count);
+  return true;
+}
+
 // Between two slices of a long request, or of many that were sent ahead, the loop's other sessions have their
-// turn. Of the latter a slice has many parts, each of which ends with replies that are sent.
+// turn. Of the latter a slice has some parts, each of which ends with replies that are sent.
 template <typename Stream>
 net::awaitable<void> converse(Stream& stream, Client& client, LineSession& session) {
-  constexpr int kMostParts = 32;
+  constexpr int kMostParts = 4;
+  LookAhead ahead = look_ahead(stream);
   for (int parts = 0;;) {
     const bool more = session.run();
+    if (session.wants_more() && found_more(ahead, client, session)) continue;
     client.admitted = session.admitted();
     const std::string_view text = session.output();
     if (!text.empty()) {
@@ -98,6 +122,7 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
       client.sent(count);
       if (count < text.size()) co_await send_rest(stream, client, text.substr(count));
       session.sent(text.size());
+      ahead.take();
     }
     if (session.finished()) break;
     if (more) {
@@ -109,7 +134,10 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
       continue;
     }
     if (!client.ending()) {
-      const std::size_t count = co_await receive(stream, client, session.space());
+      ahead.take();
+      const auto flags = ahead.flags(client.sleeps());
+      const std::size_t count = co_await receive(stream, client, session.space(), flags);
+      ahead.was_read(flags, count);
       if (count > 0 || !client.ending()) session.received(count);
     }
     if (client.ending()) co_await take_leave(stream, client);

@@ -50,8 +50,12 @@ std::string tell_of_lost(std::int64_t lines) {
 }
 
 const std::shared_ptr<LogSink>& sink() {
-  static const auto made = std::make_shared<LogSink>(STDERR_FILENO, tell_of_lost);
-  return made;
+  struct Closing {
+    const std::shared_ptr<LogSink> sink;
+    ~Closing() { sink->close(); }
+  };
+  static const Closing made{LogSink::start(STDERR_FILENO, LogSink::kind_of(STDERR_FILENO), tell_of_lost)};
+  return made.sink;
 }
 
 spdlog::logger& logger() {

@@ -19,15 +19,38 @@ using namespace std::chrono_literals;
 
 constexpr auto kLastMoment = 200ms;
 
+// May wait for ever. What can't be written, on a full disk, is as good as written.
+void write_whole(int descriptor, std::string_view line) {
+  while (!line.empty()) {
+    const ssize_t count = ::write(descriptor, line.data(), line.size());
+    if (count < 0 && errno != EINTR) return;
+    if (count > 0) line.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
 }  // namespace
 
-LogSink::LogSink(int descriptor, std::function<std::string(std::int64_t)> tell)
-    : descriptor_(descriptor), kind_(kind_of(descriptor)), tell_(std::move(tell)) {}
+// The thread shares it, and is left alone with it in the end: it may hang in a write for ever.
+std::shared_ptr<LogSink> LogSink::start(int descriptor, Kind kind,
+                                        std::function<std::string(std::int64_t)> tell) {
+  std::shared_ptr<LogSink> sink(new LogSink(descriptor, kind, std::move(tell)));
+  if (kind == Kind::kFile) std::thread([sink] { sink->write_file(); }).detach();
+  return sink;
+}
 
-LogSink::~LogSink() {
+LogSink::LogSink(int descriptor, Kind kind, std::function<std::string(std::int64_t)> tell)
+    : descriptor_(descriptor), kind_(kind), tell_(std::move(tell)) {}
+
+void LogSink::close() {
   const auto end = std::chrono::steady_clock::now() + kLastMoment;
-  for (flush_(); !waiting_.empty() && std::chrono::steady_clock::now() < end; flush_())
-    std::this_thread::sleep_for(5ms);
+  std::unique_lock lock(mutex_);
+  const auto all_written = [this] {
+    flush_();
+    return waiting_.empty() && !writing_;
+  };
+  while (!all_written() && std::chrono::steady_clock::now() < end) changed_.wait_for(lock, 5ms);
+  closed_ = true;
+  changed_.notify_all();
 }
 
 LogSink::Kind LogSink::kind_of(int descriptor) {
@@ -61,6 +84,7 @@ void LogSink::tell_of_lost() {
 }
 
 void LogSink::flush_() {
+  if (kind_ == Kind::kFile) return changed_.notify_all();
   while (!waiting_.empty() && has_room()) {
     if (untold_ > 0) tell_of_lost();
     if (!write(waiting_.front())) return;
@@ -68,9 +92,25 @@ void LogSink::flush_() {
   }
 }
 
+void LogSink::write_file() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return closed_ || !waiting_.empty(); });
+    if (closed_) return;
+    if (untold_ > 0) tell_of_lost();
+    const std::string line = std::move(waiting_.front());
+    waiting_.pop_front();
+    writing_ = true;
+    lock.unlock();
+    write_whole(descriptor_, line);
+    lock.lock();
+    writing_ = false;
+    changed_.notify_all();
+  }
+}
+
 // A pipe or a terminal with any room has it for a line of a page, unless somebody else writes there, too.
 bool LogSink::has_room() const {
-  if (kind_ == Kind::kFile) return true;
   pollfd state{descriptor_, POLLOUT, 0};
   return ::poll(&state, 1, 0) > 0;
 }

@@ -50,6 +50,7 @@ class StreamSession::LineConversation final : public Conversation {
   int hold(BlockingPair& streams, const Halt& halt) override {
     while (!session_.finished()) {
       const bool more = session_.run();
+      if (session_.wants_more() && read_at_once(streams)) continue;
       const std::string_view text = session_.output();
       if (!streams.write(text)) return client_gone(halt);
       meter_.bytes_out.add(static_cast<std::int64_t>(text.size()));
@@ -67,6 +68,14 @@ class StreamSession::LineConversation final : public Conversation {
   std::string description() const override { return "the line protocol"; }
 
  private:
+  bool read_at_once(BlockingPair& streams) {  // what has come by now; not the end
+    const auto count = streams.read_at_once(session_.space());
+    if (!count || *count == 0) return false;
+    meter_.bytes_in.add(static_cast<std::int64_t>(*count));
+    session_.received(*count);
+    return true;
+  }
+
   Meter& meter_;
   LineSession session_;
 };

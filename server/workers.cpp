@@ -4,7 +4,8 @@
 
 namespace racebeam {
 
-Workers::Workers(unsigned threads) {
+Workers::Workers(unsigned threads, std::chrono::microseconds busy_poll)
+    : busy_poll_(busy_poll), jobs_so_far_(0) {
   for (unsigned thread = 1; thread < threads; ++thread)
     threads_.emplace_back([this, thread] { help(thread); });
 }
@@ -28,11 +29,17 @@ void Workers::run(std::size_t count, const std::function<void(std::size_t)>& tas
   {
     const std::lock_guard lock(mutex_);
     jobs_.push_back(&job);
+    ++jobs_so_far_;
   }
   job_is_here_.notify_all();
   job.work(0);
   std::unique_lock lock(mutex_);
   std::erase(jobs_, &job);
+  if (job.helpers != 0) {
+    lock.unlock();
+    await_helpers(job);
+    lock.lock();
+  }
   helper_left_.wait(lock, [&job] { return job.helpers == 0; });
 }
 
@@ -56,14 +63,35 @@ Workers::Job* Workers::pick() {
   return found == jobs_.end() ? nullptr : *found;
 }
 
+// Whoever else wants the processor has it: the client is one of them.
+void Workers::await_job(BusyPoll& busy, std::size_t jobs) const {
+  for (busy.begin(); busy.again() && jobs_so_far_ == jobs;) std::this_thread::yield();
+}
+
+// They are at their last task.
+void Workers::await_helpers(const Job& job) const {
+  const auto end = BusyPoll::Clock::now() + busy_poll_;
+  while (job.helpers != 0 && BusyPoll::Clock::now() < end) std::this_thread::yield();
+}
+
 void Workers::help(std::size_t own) {
+  BusyPoll busy(busy_poll_);
+  bool quick = false;  // the last job came soon after the one before
   std::unique_lock lock(mutex_);
   for (;;) {
+    const auto idle = BusyPoll::Clock::now();
+    if (quick && pick() == nullptr) {
+      const std::size_t jobs = jobs_so_far_;
+      lock.unlock();
+      await_job(busy, jobs);
+      lock.lock();
+    }
     Job* job = nullptr;
     job_is_here_.wait(lock, [&] { return stopping_ || (job = pick()) != nullptr; });
     if (stopping_) return;
     ++job->helpers;
     lock.unlock();
+    quick = busy.came_after(BusyPoll::Clock::now() - idle);
     job->work(own);
     lock.lock();
     if (--job->helpers == 0) helper_left_.notify_all();

@@ -1,4 +1,5 @@
-// Threads for what one session wants done in parallel: its many machines.
+// Threads for what one session wants done in parallel: its many machines. Between jobs that follow each other
+// closely they wait awake, as long as BusyPoll says.
 #pragma once
 
 #include <atomic>
@@ -10,11 +11,14 @@
 #include <thread>
 #include <vector>
 
+#include "server/busy_poll.hpp"
+
 namespace racebeam {
 
 class Workers {
  public:
-  explicit Workers(unsigned threads);  // the caller of run() is one of them
+  // The caller of run() is one of the threads. `busy_poll`: how long to wait awake at most; 0: never.
+  Workers(unsigned threads, std::chrono::microseconds busy_poll);
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
@@ -31,19 +35,23 @@ class Workers {
   };
   struct Job {
     const std::function<void(std::size_t)>* task;
-    std::span<Share> shares;  // one a thread; the caller's is the first
-    std::size_t helpers = 0;  // threads that work on it beside the caller; under mutex_
+    std::span<Share> shares;               // one a thread; the caller's is the first
+    std::atomic<std::size_t> helpers = 0;  // that work on it beside the caller; they come and go under mutex_
 
     void work(std::size_t own);  // from that share on
     bool can_use_help() const;
   };
 
   void help(std::size_t own);
-  Job* pick();  // under mutex_
+  Job* pick();                                             // under mutex_
+  void await_job(BusyPoll& busy, std::size_t jobs) const;  // beyond those so far
+  void await_helpers(const Job& job) const;
 
+  const std::chrono::microseconds busy_poll_;
   std::mutex mutex_;
   std::condition_variable job_is_here_, helper_left_;
-  std::vector<Job*> jobs_;  // that can use help
+  std::vector<Job*> jobs_;                // that can use help
+  std::atomic<std::size_t> jobs_so_far_;  // counted under mutex_
   bool stopping_ = false;
   std::vector<std::jthread> threads_;
 };

@@ -36,6 +36,12 @@ class LineClient {
     return answers;
   }
 
+  // Bytes that fit into the space there is; nothing is carried out.
+  void hand_in(std::string_view text) {
+    std::ranges::copy(text, session.space().begin());
+    session.received(text.size());
+  }
+
   // One request, its reply without LF.
   std::string ask(const std::string& request) {
     std::string answer = say(request + "\n");

@@ -29,7 +29,7 @@ TEST_CASE("A session counts its requests and frames into its meter") {
   const std::string requests = "load beamfall sticky=0\nact NOOP*300\nact 99\nnonsense\n\n";
   std::ranges::copy(requests, session.space().begin());
   session.received(requests.size());
-  while (session.run()) continue;
+  while (session.run()) session.sent(session.output().size());
   const auto row = static_cast<std::size_t>(&find_command("act") - commands().data());
   CHECK(meter.frames.value() == 300);
   CHECK(meter.requests[row].done.value() == 1);

@@ -40,9 +40,17 @@ def transcripts_folder():
     return folder if os.path.isdir(folder) else None
 
 
-def sanitized():
+def built_with(symbol):
     with open(BINARY, "rb") as binary:
-        return b"__ubsan" in binary.read()
+        return symbol in binary.read()
+
+
+def sanitized():
+    return built_with(b"__ubsan")
+
+
+def thread_sanitized():
+    return built_with(b"__tsan")
 
 
 def run(*words, data=b"", cwd=None):

@@ -166,6 +166,7 @@ class Log(unittest.TestCase):
                     port = int(file.read().rsplit(":", 1)[1])
                 wires = [connect_tcp(port) for _ in range(2)]
                 wires[1].rest()
+                server.wait_for("client 2: refused")
                 self.assertEqual(len(server.log()), 1)
                 self.assertRegex(server.log()[0], "^racebeam: warning: tcp://.* client 2: refused")
                 for wire in wires:

@@ -122,6 +122,7 @@ class Clients(unittest.TestCase):
                 self.assertTrue(bad.rest().startswith(b"160-210\n"))
                 bad.close()
             self.assertTrue(play(good).endswith(b"DIE\n"))
+            server.wait_for(r"(?s)(the client .*){5}")
             self.assertEqual(sum("the client " in line for line in server.log()), 5)
 
     def test_an_answer_is_not_lost_when_more_was_sent_than_is_read(self):

@@ -8,9 +8,11 @@ import tempfile
 import time
 import unittest
 
-from harness import BINARY, GAME, LOAD, PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, run, serve
+from harness import BINARY, GAME, LOAD, PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, run, \
+    serve, thread_sanitized
 
-LONG = b"branch root " + b"NOOP*400,FIRE*600 " * 100 + b"\n"  # 100,000 frames: seconds
+FRAMES = 100 if thread_sanitized() else 1000
+LONG = b"branch root " + b"NOOP*%d " % FRAMES * 100 + b"\n"  # 100,000 frames, or fewer where they take longer: a second
 
 
 class Limits(unittest.TestCase):

@@ -5,10 +5,12 @@
 #include <thread>
 
 using namespace racebeam;
+using namespace std::chrono_literals;
 
 TEST_CASE("Every task runs once, and all are done when run returns") {
+  const auto busy_poll = GENERATE(0us, 100us);
   for (const unsigned threads : {1U, 2U, 5U}) {
-    Workers workers(threads);
+    Workers workers(threads, busy_poll);
     for (const std::size_t count : {0UL, 1UL, 3UL, 1000UL}) {
       std::vector<std::atomic<int>> runs(count);
       workers.run(count, [&runs](std::size_t number) { ++runs[number]; });
@@ -18,7 +20,7 @@ TEST_CASE("Every task runs once, and all are done when run returns") {
 }
 
 TEST_CASE("Several threads can have tasks at the same time") {
-  Workers workers(3);
+  Workers workers(3, GENERATE(0us, 100us));
   std::atomic<int> done = 0;
   std::vector<std::jthread> sessions;
   for (int session = 0; session < 4; ++session) {

@@ -15,7 +15,8 @@ struct Job {
   std::string racebeam, image;
   Lines preparation;
   int steps, ahead;
-  Lines requests;  // each an act, or a reset
+  Lines requests;          // each an act, or a reset
+  bool one_write = false;  // the client sends all that it may send in one write; else in one each
 };
 
 // Of an act or a step each. Every action is held for some, as a player does.

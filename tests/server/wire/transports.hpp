@@ -1,0 +1,40 @@
+// A job's requests over each transport, to racebeam and to an echo server with plain sockets that sends the
+// same bytes. The serving process is one of its own, and is timed.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+
+#include "tests/server/wire/bench_job.hpp"
+#include "tests/server/wire/line_channel.hpp"
+
+namespace wire {
+
+struct Cost {
+  double rate;          // steps a second
+  double microseconds;  // of the processor, for a step, in the process that serves
+};
+
+// Of a piece of work, by the process that serves.
+class Meter {
+ public:
+  explicit Meter(pid_t server);
+  Cost of(int steps) const;
+
+ private:
+  pid_t server_;
+  double busy_, begin_;
+};
+
+// racebeam. Keeps what came back when `replies` is there. All throw std::runtime_error.
+Cost over_standard_streams(const Job& job, Lines* replies = nullptr);
+Cost over_socket(const Job& job, bool tcp);
+
+// The echo server: a line of `replies` for each line that comes.
+Cost echo_over_standard_streams(const Job& job, const Lines& replies);
+Cost echo_over_socket(const Job& job, const Lines& replies, bool tcp);
+void echo(LineChannel channel, const Lines& replies);
+Lines read_lines(const std::string& path);
+
+}  // namespace wire
