@@ -45,8 +45,8 @@ class LineWrite {
 using LineNumber = std::uint64_t;
 constexpr LineNumber kNoLine = 0, kAnyLine = 1;  // of a record without a line; of a row whose line nobody knows
 
-struct alignas(16) LineRecord {
-  static constexpr std::size_t kMostEvents = 12;
+struct alignas(64) LineRecord {
+  static constexpr std::size_t kMostEvents = 16;
 
   TiaRegisters start;   // at the line's first clock
   TiaRegisters end;     // when the line is over
