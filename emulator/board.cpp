@@ -125,14 +125,15 @@ bool Board::needs_exact_step() const {
 bool Board::find_code(std::uint16_t pc) {
   const std::uint64_t banks = selected_banks();
   const unsigned slice = pc >> 10;
-  const auto distance = [pc](const CodeWindow& window) { return static_cast<std::uint16_t>(pc - window.first); };
+  const auto distance = [pc](const KnownWindow& window) { return static_cast<std::uint16_t>(pc - window.first); };
   KnownWindow& known = known_windows_[((banks * kHash + slice) * kHash >> 56) % known_windows_.size()];
-  if (known.slice != slice || known.banks != banks || distance(known.window) >= known.window.span + 2) {
+  if (known.slice != slice || known.banks != banks || distance(known) >= known.span + 2) {
     if (!map.may_hold_code(pc)) return false;
-    known = {banks, slice, map.window_around(pc)};
+    const CodeWindow window = map.window_around(pc);
+    known = {banks, window.memory, window.first, window.span, slice};
   }
-  if (distance(known.window) >= known.window.span) return false;
-  code = known.window;
+  if (distance(known) >= known.span) return false;
+  code = {known.memory, known.first, known.span};
   return true;
 }
 

@@ -108,10 +108,11 @@ class Board {
   std::uint64_t selected_banks() const { return std::bit_cast<std::uint64_t>(state.cartridge.bank); }
   const std::uint8_t* fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
 
-  struct KnownWindow {
+  struct KnownWindow {  // in three words
     std::uint64_t banks = 0;
+    const std::uint8_t* memory = nullptr;
+    std::uint16_t first = 0, span = 0;
     unsigned slice = ~0U;
-    CodeWindow window;
   };
 
   std::shared_ptr<const Rom> rom_;

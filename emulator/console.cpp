@@ -1,7 +1,6 @@
 #include "emulator/console.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -65,12 +64,8 @@ void Console::Impl::reset() {
 
 // A black picture; one that a snapshot holds too is left as it is.
 void Console::Impl::blank(std::shared_ptr<Picture>& picture) {
-  if (!picture || picture.use_count() > 1) {
-    picture = std::make_shared<Picture>();
-    return;
-  }
-  std::atomic_thread_fence(std::memory_order_acquire);
-  picture->blank();
+  if (is_own(picture)) picture->blank();
+  else picture = std::make_shared<Picture>();
 }
 
 // The console's own buffers are kept for the frames to come, if nobody else holds them.

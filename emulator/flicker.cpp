@@ -1,16 +1,14 @@
 #include "emulator/flicker.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace racebeam {
 
-void Flicker::begin_frame(std::size_t rows) {
+void Flicker::begin_frame() {
   odd_ = !odd_;
   if (++frame_ == period_) frame_ = 0;
-  if (frame_ == kFirst) {
-    for (auto& looks : looks_) looks.assign(rows, 0);
-    alike_ = drawn_with_one_ = 0;
-  }
+  if (frame_ == kFirst) alike_ = drawn_with_one_ = 0;
   if (frame_ == kLast + 1) judge();
   if (frame_ == period_ - 2) drawn_with_two_ = 0;
   counts_ = (frame_ >= kFirst && frame_ <= kLast) || frame_ >= period_ - 2;
@@ -22,13 +20,13 @@ void Flicker::judge() {
   found_ = found;
 }
 
-void Flicker::count(const LineRecord& drawn, std::size_t row) {
+void Flicker::count(LineRecord& drawn) {
   if (frame_ > kLast) {
     ++drawn_with_two_;
     return;
   }
-  std::uint16_t& before = looks_[odd_ ? 1 : 0][row];
-  const std::uint16_t look = drawn.look();
+  std::uint8_t& before = drawn.looks[odd_ ? 1 : 0];
+  const std::uint8_t look = drawn.look();
   if (frame_ >= kAgain) {
     ++drawn_with_one_;
     if (look == before) ++alike_;

@@ -5,11 +5,17 @@
 namespace racebeam {
 
 void LineMemory::aim(std::size_t rows) {
-  if (is_new_) flicker_.begin_frame(rows);
-  is_new_ = false;
+  if (is_new_) begin();
   if (!flicker_.found()) sets_[1] = {};
   set_ = &sets_[flicker_.is_turn_of_second() ? 1 : 0];
   set_->resize(rows);
+}
+
+void LineMemory::begin() {
+  is_new_ = false;
+  flicker_.begin_frame();
+  if (!flicker_.starts_to_count()) return;
+  for (LineRecord& record : sets_[0]) record.looks = {};
 }
 
 void LineMemory::drop() { sets_ = {}; }

@@ -25,11 +25,11 @@ class LineMemory {
   // Another line is drawn on its row: is it to be remembered?
   bool is_worthwhile(LineRecord& record) const { return flicker_.counts() || record.is_worthwhile(); }
 
-  // The line of the record has been drawn on this row. Returns its number.
-  LineNumber add(LineRecord& record, std::size_t row) {
+  // The line of the record has been drawn. Returns its number.
+  LineNumber add(LineRecord& record) {
     if ((next_number_ & (kNumbers - 1)) == 0) [[unlikely]] next_number_ = new_numbers();
     record.number = next_number_++;
-    if (flicker_.counts()) [[unlikely]] flicker_.count(record, row);
+    if (flicker_.counts()) [[unlikely]] flicker_.count(record);
     return record.number;
   }
 
@@ -37,6 +37,8 @@ class LineMemory {
   // So many at a time. Their first is a multiple of that, and not 0.
   static constexpr LineNumber kNumbers = LineNumber{1} << 32;
   static LineNumber new_numbers();
+
+  void begin();
 
   std::array<std::vector<LineRecord>, 2> sets_;
   std::vector<LineRecord>* set_ = sets_.data();

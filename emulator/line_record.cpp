@@ -133,7 +133,7 @@ const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t o
   return entry;
 }
 
-std::uint16_t LineRecord::look() const {
+std::uint8_t LineRecord::look() const {
   constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
   RegisterVectors bytes(start);
   bytes &= seen_bytes();
@@ -141,7 +141,7 @@ std::uint16_t LineRecord::look() const {
   for (const TwoWords part : bytes.part)
     for (const std::uint64_t word : {part[0], part[1]}) hash = std::rotl((hash ^ word) * kOdd, 29);
   for (unsigned i = 0; i < count; ++i) hash = std::rotl((hash ^ event[i]) * kOdd, 29);
-  return static_cast<std::uint16_t>(hash >> 48);
+  return static_cast<std::uint8_t>(hash >> 56);
 }
 
 // Which bytes count, and which are known at the end. What a register's value at the end depends on is the writes, and

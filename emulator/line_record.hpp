@@ -57,6 +57,7 @@ struct alignas(64) LineRecord {
   std::uint8_t fruitless = 0;  // so many lines that were drawn here were not met again
   std::uint8_t count;        // of events
   std::int8_t hmove_cycle;   // of the last HMOVE, if the line kMoves
+  std::array<std::uint8_t, 2> looks{};  // look() of lines drawn here, in even and in odd frames (flicker.hpp)
   alignas(16) std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
 
   // Another line is drawn here: is it to be remembered? Where nothing was of use for some frames, only now and then.
@@ -73,7 +74,7 @@ struct alignas(64) LineRecord {
   const std::uint32_t* add(const std::uint32_t* entry, std::uint32_t origin);
 
   // A hash of what the line's pixels come from; before it is summed up.
-  std::uint16_t look() const;
+  std::uint8_t look() const;
 
   // So that next time the writes need not be played. That pays if there is a next time.
   void sum_up(bool pal);

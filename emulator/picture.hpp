@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -69,6 +70,16 @@ class Picture {
   std::vector<Row> rows_;
   std::vector<LineNumber> shows_;
 };
+
+// Nobody else holds it. A snapshot may have been let go in another thread, after it had looked at the picture.
+inline bool is_own(const std::shared_ptr<Picture>& picture) {
+  if (!picture || picture.use_count() > 1) return false;
+#if defined(__SANITIZE_THREAD__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wtsan"  // fences are all the same to it
+#endif
+  std::atomic_thread_fence(std::memory_order_acquire);
+  return true;
+}
 
 // The one drawn last, and the one before it.
 struct Pictures {

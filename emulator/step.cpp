@@ -1,7 +1,5 @@
 // Running a frame, with its pixels or without (spec: tia.md, section 2). A frame whose pixels nobody has asked for
 // leaves its start in the picture, and is run again when somebody asks.
-#include <atomic>
-
 #include "emulator/console_impl.hpp"
 #include "emulator/cpu.hpp"
 #include "emulator/motion.hpp"
@@ -11,13 +9,6 @@ namespace {
 
 constexpr int kInstructionsPerStep = 25000;
 constexpr std::int32_t kEndlessTurn = kEndlessCycle / 2 / (2 * kLineCycles) * (2 * kLineCycles);  // an even number of lines
-
-// Nobody else holds it. A snapshot may have been let go in another thread.
-bool is_own(const std::shared_ptr<Picture>& picture) {
-  if (!picture || picture.use_count() > 1) return false;
-  std::atomic_thread_fence(std::memory_order_acquire);
-  return true;
-}
 
 }  // namespace
 

@@ -18,7 +18,7 @@ LineNumber draw(LineMemory& memory, std::size_t row, unsigned colour) {
   LineRecord& record = memory.row(row);
   record.open(registers);
   record.view.seen = kLit;
-  return memory.add(record, row);
+  return memory.add(record);
 }
 
 // Frames of which each row is drawn in the colour that `colour(frame, row)` says. Answers whether each row had a record of

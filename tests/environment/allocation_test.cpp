@@ -85,7 +85,9 @@ TEST_CASE("A batch soon allocates nothing while it runs, episodes that end and b
 // Memory of so many machines that have played for a while.
 long taken(std::size_t machines) {
   const long before = bytes_in_use;
-  Play play({}, machines);
+  BatchSettings settings;
+  settings.threads = 1;
+  Play play(settings, machines);
   play.step(200);
   return bytes_in_use - before;
 }
