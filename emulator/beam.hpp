@@ -94,9 +94,7 @@ class Beam {
   }
 
   // The line has been drawn on the row before the cursor's.
-  void show(LineRecord& line) {
-    picture_->shows(row() - 1) = lines_.add(line);
-  }
+  void show(LineRecord& line) { picture_->shows(row() - 1) = lines_.add(line); }
 
   RACEBEAM_INLINE void end_line() {
     const std::uint8_t reflect = tia_.ctrlpf & 1;
