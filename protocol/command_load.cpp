@@ -123,6 +123,20 @@ void append_loaded(Session& session) {
   append_settings(out, session.settings, machine);
 }
 
+std::unique_ptr<Player> power_on(const Session& session, const Cartridge& cartridge, const PlaySettings& settings,
+                                 bool sent) {
+  try {
+    return std::make_unique<Player>(cartridge, settings, session.fields);
+  } catch (const Refusal&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    const bool asked = settings.mode || settings.difficulty;
+    throw Refusal(sent && !asked ? Code::kBadImage : Code::kBadValue, error.what());
+  } catch (const std::runtime_error& error) {  // the rules of as= do not fit the image
+    throw Refusal(Code::kBadValue, error.what());
+  }
+}
+
 }  // namespace
 
 void run_games(Session& session, Words arguments) {
@@ -142,13 +156,7 @@ void run_load(Session& session, Words arguments) {
   read_settings(words.settings, settings);
   if (settings.machine.random_seed == 0) settings.machine.random_seed = std::random_device{}() | 1U;
   Cartridge cartridge = find_cartridge(session, arguments[0], words);
-  std::unique_ptr<Player> player;
-  try {
-    player = std::make_unique<Player>(cartridge, settings, session.fields);
-  } catch (const std::invalid_argument& error) {
-    const bool sent = arguments[0] == kInline && !settings.mode && !settings.difficulty;
-    throw Refusal(sent ? Code::kBadImage : Code::kBadValue, error.what());
-  }
+  std::unique_ptr<Player> player = power_on(session, cartridge, settings, arguments[0] == kInline);
   session.recording.reset();
   session.machines.close();
   session.states.clear();

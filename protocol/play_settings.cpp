@@ -16,6 +16,7 @@ constexpr int kLeastReward = std::numeric_limits<int>::min(), kMostReward = std:
 constexpr int kMostFrameSkip = 1000;  // an act is never interrupted
 constexpr int kMostNoops = 1000;
 constexpr std::array<std::string_view, 3> kActionSets = {"full", "legal", "minimal"};
+constexpr std::array<std::string_view, 2> kRules = {"ale-0.12", "fixed"};  // as Rules counts
 
 int whole(std::string_view value, std::string_view what, std::int64_t least, std::int64_t most) {
   return static_cast<int>(number_within(value, what, least, most));
@@ -64,9 +65,10 @@ int reward_limit(std::string_view value, std::string_view what, int none) {
   return value == "none" ? none : whole(value, what, kLeastReward, kMostReward);
 }
 
-// The corrected rules are not built yet.
-void set_rules(PlaySettings&, std::string_view value) {
-  if (value != "ale-0.12") refuse("rules", value, "ale-0.12");
+void set_rules(PlaySettings& settings, std::string_view value) {
+  const auto found = std::ranges::find(kRules, value);
+  if (found == kRules.end()) refuse("rules", value, "ale-0.12 or fixed");
+  settings.machine.rules = static_cast<Rules>(found - kRules.begin());
 }
 
 void set_preset(PlaySettings& settings, std::string_view value) {
@@ -147,8 +149,11 @@ constexpr std::array kSettings = {
                [](std::string& out, const PlaySettings& s, const Environment&) {
                  append_reward_limit(out, s.machine.reward_max, kMostReward);
                }},
-    SettingRow{"rules", "ale-0.12", "how score and end are found", set_rules,
-               [](std::string& out, const PlaySettings&, const Environment&) { out += "ale-0.12"; }},
+    SettingRow{"rules", "ale-0.12 or fixed",
+               "whose rewards, lives and end: the reference's, or corrected ones where it errs", set_rules,
+               [](std::string& out, const PlaySettings& s, const Environment&) {
+                 out += kRules[static_cast<std::size_t>(s.machine.rules)];
+               }},
     SettingRow{"color_averaging", "0 or 1", "blend each screen with the one before it",
                READ(s.machine.color_averaging = flag(value, "color_averaging")),
                ECHO(std::int64_t{s.machine.color_averaging})},

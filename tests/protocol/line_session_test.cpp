@@ -108,7 +108,7 @@ TEST_CASE("A load that is refused leaves the game before it running") {
                                   "beamfall sticky",
                                   "beamfall preset=dqn",
                                   "beamfall reward_min=1 reward_max=0",
-                                  "beamfall rules=fixed",
+                                  "beamfall rules=other",
                                   "inline",
                                   "inline image=!!!!",
                                   "inline image=",
@@ -123,6 +123,37 @@ TEST_CASE("A load that is refused leaves the game before it running") {
     CHECK(client.ask("act NOOP").starts_with("ok frame="));
   }
   CHECK(client.ask("restore here") == "ok frame=1");
+}
+
+// The score of tetris is in two bytes that beamfall leaves alone; the corrected rule knows that it wraps.
+TEST_CASE("Corrected rules are a setting, and no state goes from one to the other") {
+  LineClient client;
+  std::string exported;
+  for (const auto& [rules, gain] : {std::pair("ale-0.12", "0"), {"fixed", "1"}}) {
+    const std::string reply = client.ask("load beamfall as=tetris sticky=0 rules=" + std::string(rules));
+    CHECK(value(reply, "rules") == rules);
+    client.say("observe reward\npoke 113 9999\nact NOOP\npoke 113 0000\n");
+    CHECK(client.ask("act NOOP") == "ok reward=" + std::string(gain));
+    if (!exported.empty()) CHECK(code(client.ask("import a " + exported)) == "bad-state");
+    client.ask("save a");
+    exported = value(client.ask("export a"), "data");
+  }
+}
+
+TEST_CASE("The minimal actions are those of the rules in force") {
+  LineClient client;
+  client.ask("load beamfall as=blackjack action_set=minimal");
+  CHECK(code(client.ask("act RIGHT")) == "bad-action");
+  client.ask("load beamfall as=blackjack action_set=minimal rules=fixed");
+  CHECK(client.ask("act RIGHT").starts_with("ok "));
+  CHECK(value(client.ask("actions"), "actions") == "0:NOOP,1:FIRE,3:RIGHT,4:LEFT");
+}
+
+TEST_CASE("Rules that do not fit the image are the client's mistake") {
+  LineClient client;
+  const std::string refusal = client.ask("load beamfall as=backgammon");
+  CHECK(code(refusal) == "bad-value");
+  CHECK_THAT(refusal, Contains("mode 0 of backgammon could not be set up on this image"));
 }
 
 TEST_CASE("A preset comes before the settings that change it, wherever it stands") {
