@@ -53,6 +53,12 @@ TEST_CASE("Base64 is that of RFC 4648") {
   CHECK(base64("foobar") == "Zm9vYmFy");
   for (const std::string text : {"", "f", "fo", "foo", "foob", "fooba", "foobar"})
     CHECK(bytes_of_base64(base64(text)) == text_bytes(text));
+  std::string all;  // of every length, with every byte at every place of a group
+  for (int i = 0; i < 800; ++i) {
+    const auto [read, written] = std::pair(bytes_of_base64(base64(all)), text_bytes(all));
+    REQUIRE(read == written);
+    all += static_cast<char>(i * 5);
+  }
 }
 
 TEST_CASE("What is no base64 is not read") {
