@@ -55,8 +55,7 @@ TEST_CASE("Base64 is that of RFC 4648") {
     CHECK(bytes_of_base64(base64(text)) == text_bytes(text));
   std::string all;  // of every length, with every byte at every place of a group
   for (int i = 0; i < 800; ++i) {
-    const auto [read, written] = std::pair(bytes_of_base64(base64(all)), text_bytes(all));
-    REQUIRE(read == written);
+    REQUIRE(bytes_of_base64(base64(all)) == text_bytes(all));
     all += static_cast<char>(i * 5);
   }
 }
