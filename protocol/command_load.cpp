@@ -54,6 +54,7 @@ void describe_game(Session& session, std::string_view name) {
   if (cartridge) append_pair(out, "md5", cartridge->image->md5);
   append_pair(out, "rule", game->has_rule());
   append_numbered(out, "modes", game->modes);
+  append_numbered(out, "two_player_modes", game->two_player_modes);
   append_numbered(out, "difficulties", game->difficulties);
   append_numbered(out, "minimal", game->minimal_actions);
   append_numbered(out, "legal", game->legal_actions);
@@ -200,6 +201,7 @@ void run_modes(Session& session, Words) {
   append_pair(session.out, "mode", machine.mode());
   append_pair(session.out, "default", machine.game().default_mode);
   append_numbered(session.out, "modes", machine.game().modes);
+  append_numbered(session.out, "two_player_modes", machine.game().two_player_modes);
 }
 
 void run_difficulties(Session& session, Words) {
