@@ -18,6 +18,7 @@ struct Command {
   std::string_view name;
   std::string_view arguments;  // as `help` and PROTOCOL.md show them
   std::string_view summary;
+  std::string_view example;  // for `help`; empty: it is clear without
   std::size_t least, most;  // arguments
   Needs needs;
 

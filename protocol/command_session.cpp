@@ -93,6 +93,7 @@ void run_help(Session& session, Words arguments) {
   (out += "ok ") += command.name;
   if (!command.arguments.empty()) (out += ' ') += command.arguments;
   (out += ": ") += command.summary;
+  if (!command.example.empty()) (out += "; example: ") += command.example;
 }
 
 void run_stats(Session& session, Words) {

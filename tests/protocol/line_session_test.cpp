@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "protocol/base64.hpp"
+#include "protocol/command.hpp"
+#include "tests/games/scratch.hpp"
 #include "tests/protocol/line_client.hpp"
 
 using namespace racebeam;
@@ -89,6 +91,21 @@ TEST_CASE("Commands say what they need") {
   CHECK_THAT(client.ask("act"), Contains("takes at least 1 arguments, not 0: act A["));
   CHECK_THAT(client.ask("peek 1 2 3"), Contains("takes 1 to 2 arguments, not 3"));
   CHECK_THAT(client.ask("reset now"), Contains("takes 0 arguments, not 1"));
+}
+
+TEST_CASE("The examples of help are carried out") {
+  LineService service = line_service();
+  const Scratch folder;
+  service.record_folder = folder.path("");
+  LineClient client(service);
+  for (const Command& command : commands()) {
+    if (command.example.empty()) continue;
+    INFO(command.example);
+    CHECK(command.example.starts_with(command.name));
+    if (command.name == "export") client.ask("save start");  // drop comes before
+    CHECK(client.ask(std::string(command.example)).starts_with("ok"));
+    CHECK(client.ask("help " + std::string(command.name)).ends_with("; example: " + std::string(command.example)));
+  }
 }
 
 TEST_CASE("A load that is refused leaves the game before it running") {
