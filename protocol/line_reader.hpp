@@ -17,7 +17,7 @@ class LineReader {
   void set_longest(std::size_t longest) { longest_ = longest; }
   std::size_t longest() const { return longest_; }
 
-  std::span<char> space();        // where the next input goes; empty while next() still has lines
+  std::span<char> space();        // where the next input goes; empty while a longest line waits unread
   void added(std::size_t count);  // so much was put there
   void end() { ended_ = true; }   // no more will come
   bool ended() const { return ended_; }
