@@ -65,7 +65,7 @@ void run_look(Session& session, Words arguments) {
   check_sound(session, fields);
   check_look(fields);
   View view(std::move(fields), player.machine().height());
-  view.acted(player.machine(), player.outcome().frames > 1 ? 2 : 1);
+  view.began(player.machine(), player.blends());
   session.out += "ok";
   view.append(session.out, player.machine(), player.outcome());
 }

@@ -1,6 +1,7 @@
 // save, restore, drop, states, export, import, branch
 #include <utility>
 
+#include "environment/saved.hpp"
 #include "environment/snapshot.hpp"
 #include "protocol/base64.hpp"
 #include "protocol/command.hpp"
@@ -111,6 +112,7 @@ void run_import(Session& session, Words arguments) {
   Place place;
   try {
     place.machine = from_bytes(*bytes, session.player->machine());
+    place.with_random = place.machine->random.has_value();
   } catch (const std::invalid_argument& error) {
     throw Refusal(Code::kBadState, error.what());
   }

@@ -150,10 +150,10 @@ void View::acted(const Environment& machine, int frames) {
   if (stack_ && frames > 0) stack_->push(machine, frames > 1);
 }
 
-void View::began(const Environment& machine) {
+void View::began(const Environment& machine, bool blends) {
   if (!stack_) return;
   stack_->clear();
-  stack_->push(machine, false);
+  stack_->push(machine, blends);
 }
 
 void View::append(std::string& out, const Environment& machine, const Outcome& outcome) {

@@ -1,7 +1,11 @@
 // States, branches and many machines over the line protocol.
+#include <zlib.h>
+
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <thread>
 
+#include "protocol/base64.hpp"
 #include "protocol/words.hpp"
 #include "tests/protocol/line_client.hpp"
 
@@ -52,6 +56,35 @@ TEST_CASE("A state can be taken to another process") {
   CHECK(other.ask("act UP*9 FIRE*30") == one.ask("act UP*9 FIRE*30"));
 }
 
+TEST_CASE("A state of a variation for two can be taken in") {
+  LineClient client;
+  client.say("load beamfall as=pong\nset mode=2\nsave here\n");  // pong lists 0 and 1; the others are for two
+  CHECK(value(client.ask("import there " + value(client.ask("export here"), "data")), "state") == "there");
+}
+
+TEST_CASE("A state that came with its generator passes it on to the ends of branches") {
+  Playing client("sticky=0.5 frame_skip=2-4");
+  client.say("act FIRE*30\nsave here random=1\n");
+  client.ask("import there " + value(client.ask("export here"), "data"));
+  client.ask("branch there keep=leaf FIRE*20");
+  client.ask("restore leaf0");
+  const std::string after = client.ask("act FIRE*50");
+  client.say("act UP*7\nrestore leaf0\n");
+  CHECK(client.ask("act FIRE*50") == after);
+}
+
+TEST_CASE("look shows the small screen that replies show") {
+  for (const std::string frames : {"1", "4"}) {
+    LineClient client;
+    client.ask("load beamfall seed=7 sticky=0 frame_skip=" + frames);
+    client.say("observe grey84:hex\nact FIRE*9\nsave here\n");
+    for (const std::string request : {"act FIRE*9", "act UP", "restore here", "act DOWN", "reset", "act FIRE*2"}) {
+      const std::string shown = client.ask(request);
+      CHECK(client.ask("look grey84:hex") == shown);
+    }
+  }
+}
+
 TEST_CASE("A state that was cut, altered or belongs to another game is refused") {
   Playing client("sticky=0");
   client.ask("save here");
@@ -65,6 +98,23 @@ TEST_CASE("A state that was cut, altered or belongs to another game is refused")
   text[400] = text[400] == 'A' ? 'B' : 'A';
   CHECK(code(client.ask("import x " + text)) == "bad-state");
   CHECK(code(client.ask("restore x")) == "no-state");
+}
+
+TEST_CASE("A state that names another image with bytes that are no text is refused in one line") {
+  Playing client("sticky=0");
+  client.ask("save here");
+  auto bytes = bytes_of_base64(value(client.ask("export here"), "data")).value();
+  constexpr std::size_t kChecksum = 20, kHeader = 24;
+  bytes[kHeader] = '\n';
+  bytes[kHeader + 1] = 0xFF;
+  const auto checksum = static_cast<std::uint32_t>(
+      crc32(0, bytes.data() + kHeader, static_cast<uInt>(bytes.size() - kHeader)));
+  std::memcpy(bytes.data() + kChecksum, &checksum, sizeof checksum);
+  std::string text;
+  append_base64(text, bytes);
+  const std::string reply = client.ask("import x " + text);
+  CHECK_THAT(reply, Contains("error bad-state the state is of the image with MD5 ??"));
+  CHECK(std::ranges::all_of(reply, [](char c) { return c >= ' ' && c <= '~'; }));
 }
 
 TEST_CASE("A branch answers what playing would have, and leaves the session where it is") {
