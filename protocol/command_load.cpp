@@ -70,8 +70,10 @@ LoadWords sorted(Words words) {
   for (const std::string_view word : words) {
     const auto [key, value] = key_value(word);
     if (key == "image") {
+      if (load.image) refuse_twice(key);
       load.image = value;
     } else if (key == "as") {
+      if (load.as) refuse_twice(key);
       load.as = value;
     } else {
       load.settings.push_back(word);
@@ -103,7 +105,8 @@ Cartridge find_cartridge(const Session& session, std::string_view name, const Lo
   }
   if (words.as) {
     cartridge.game = find_game(*words.as);
-    if (!cartridge.game) throw Refusal(Code::kUnknownGame, "there are no rules for " + quote(*words.as));
+    if (!cartridge.game) throw Refusal(Code::kUnknownGame,
+                    "there are no rules for " + quote(*words.as) + "; games all lists those that there are");
   } else if (name == kInline) {
     cartridge.game = recognise(*cartridge.image).game;
   }
@@ -192,6 +195,7 @@ void run_modes(Session& session, Words) {
   append_pair(session.out, "mode", machine.mode());
   append_pair(session.out, "default", machine.game().default_mode);
   append_numbered(session.out, "modes", machine.game().modes);
+  append_numbered(session.out, "two_player", machine.game().two_player_modes);
 }
 
 void run_difficulties(Session& session, Words) {

@@ -82,9 +82,19 @@ void run_act(Session& session, Words arguments) {
   session.start(session.act);
 }
 
+// An image that was loaded with the rules of another game may not come to its mode.
 void run_reset(Session& session, Words) {
-  session.player->begin_request();
-  session.player->reset();
+  Player& player = *session.player;
+  const Place before = player.place(true);
+  const Outcome outcome = player.outcome();
+  try {
+    player.begin_request();
+    player.reset();
+  } catch (...) {
+    player.go_to(before);
+    player.set_outcome(outcome);
+    throw;
+  }
   session.out += "ok";
   session.player->append_view(session.out);
 }

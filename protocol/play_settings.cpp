@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -15,6 +17,7 @@ constexpr std::int64_t kMostFrames = std::numeric_limits<int>::max();
 constexpr int kLeastReward = std::numeric_limits<int>::min(), kMostReward = std::numeric_limits<int>::max();
 constexpr int kMostFrameSkip = 1000;  // an act is never interrupted
 constexpr int kMostNoops = 1000;
+constexpr std::array<std::string_view, 2> kRules = {"ale-0.12", "fixed"};
 constexpr std::array<std::string_view, 3> kActionSets = {"full", "legal", "minimal"};
 
 int whole(std::string_view value, std::string_view what, std::int64_t least, std::int64_t most) {
@@ -51,7 +54,7 @@ void set_sticky(PlaySettings& settings, std::string_view value) {
   const auto probability = parse_number<float>(value);
   if (!probability || *probability < 0 || *probability > 1)
     refuse("sticky", value, "a probability from 0 to 1");
-  settings.machine.sticky = *probability;
+  settings.machine.sticky = std::abs(*probability);  // no -0
 }
 
 void set_action_set(PlaySettings& settings, std::string_view value) {
@@ -64,9 +67,10 @@ int reward_limit(std::string_view value, std::string_view what, int none) {
   return value == "none" ? none : whole(value, what, kLeastReward, kMostReward);
 }
 
-// The corrected rules are not built yet.
-void set_rules(PlaySettings&, std::string_view value) {
-  if (value != "ale-0.12") refuse("rules", value, "ale-0.12");
+void set_rules(PlaySettings& settings, std::string_view value) {
+  const auto found = std::ranges::find(kRules, value);
+  if (found == kRules.end()) refuse("rules", value, "ale-0.12 or fixed");
+  settings.machine.rules = static_cast<Rules>(found - kRules.begin());
 }
 
 void set_preset(PlaySettings& settings, std::string_view value) {
@@ -147,8 +151,11 @@ constexpr std::array kSettings = {
                [](std::string& out, const PlaySettings& s, const Environment&) {
                  append_reward_limit(out, s.machine.reward_max, kMostReward);
                }},
-    SettingRow{"rules", "ale-0.12", "how score and end are found", set_rules,
-               [](std::string& out, const PlaySettings&, const Environment&) { out += "ale-0.12"; }},
+    SettingRow{"rules", "ale-0.12 or fixed",
+               "how score and end are found: as the reference does, or corrected where it errs", set_rules,
+               [](std::string& out, const PlaySettings& s, const Environment&) {
+                 out += kRules[static_cast<std::size_t>(s.machine.rules)];
+               }},
     SettingRow{"color_averaging", "0 or 1", "blend each screen with the one before it",
                READ(s.machine.color_averaging = flag(value, "color_averaging")),
                ECHO(std::int64_t{s.machine.color_averaging})},
@@ -189,10 +196,16 @@ std::span<const SettingRow> setting_rows() { return kSettings; }
 std::span<const PresetRow> preset_rows() { return kPresets; }
 
 void read_settings(Words words, PlaySettings& settings) {
+  std::bitset<kSettings.size()> given;
   for (const bool presets : {true, false}) {
     for (const std::string_view word : words) {
       const auto [key, value] = key_value(word);
-      if ((key == "preset") == presets) setting_row(key).set(settings, value);
+      if ((key == "preset") != presets) continue;
+      const SettingRow& row = setting_row(key);
+      const auto place = static_cast<std::size_t>(&row - kSettings.data());
+      if (given[place]) refuse_twice(key);
+      given.set(place);
+      row.set(settings, value);
     }
   }
 }

@@ -8,7 +8,7 @@ Player::Player(const Cartridge& cartridge, const PlaySettings& settings, std::ve
     : machine_(cartridge.image, cartridge.game, settings.machine),
       noops_(settings.machine.random_seed, settings.noop_max),
       view_({}, machine_.height()) {
-  for (const int action : actions_of(settings.action_set, *cartridge.game)) allowed_ |= 1U << action;
+  for (const int action : actions_of(settings.action_set, machine_.game())) allowed_ |= 1U << action;
   if (settings.mode) machine_.set_mode(*settings.mode);
   if (settings.difficulty) machine_.set_difficulty(*settings.difficulty);
   if (settings.mode || settings.difficulty || settings.noop_max > 0) reset();

@@ -155,6 +155,13 @@ TEST_CASE("The rewards of a branch are those of its acts") {
   CHECK(written == expected);
 }
 
+TEST_CASE("A list of a branch that ends in a comma lacks an action") {
+  Playing client("sticky=0");
+  client.ask("save root");
+  for (const std::string list : {"UP,", ",UP", "UP,,UP", ","})
+    CHECK(code(client.ask("branch root " + list)) == "bad-action");
+}
+
 TEST_CASE("The ends of branches can be kept and gone on from") {
   Playing client("sticky=0");
   client.say("act FIRE*30\nsave root\n");
