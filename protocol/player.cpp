@@ -29,7 +29,7 @@ void Player::look_at_ends() {
 void Player::act(const Action& action) {
   const int before = machine_.frame_number();
   outcome_.reward += machine_.act(action.a, action.b, action.strength_a, action.strength_b);
-  const int frames = machine_.frame_number() - before;
+  const int frames = frames_between(before, machine_.frame_number());
   outcome_.frames += frames;
   outcome_.acts += frames > 0;
   look_at_ends();

@@ -29,6 +29,22 @@ struct Playing : LineClient {
   }
 };
 
+constexpr std::size_t kHeader = 24, kChecksum = 20;  // of a state's bytes, see snapshot.cpp
+
+std::vector<std::uint8_t> exported(LineClient& client, const std::string& name) {
+  return bytes_of_base64(value(client.ask("export " + name), "data")).value();
+}
+
+// As text, with the checksum that they need.
+std::string forged(std::vector<std::uint8_t> bytes) {
+  const auto checksum = static_cast<std::uint32_t>(
+      crc32(0, bytes.data() + kHeader, static_cast<uInt>(bytes.size() - kHeader)));
+  std::memcpy(bytes.data() + kChecksum, &checksum, sizeof checksum);
+  std::string text;
+  append_base64(text, bytes);
+  return text;
+}
+
 }  // namespace
 
 TEST_CASE("Returning to a state gives back all that replies show, then and later") {
@@ -103,18 +119,28 @@ TEST_CASE("A state that was cut, altered or belongs to another game is refused")
 TEST_CASE("A state that names another image with bytes that are no text is refused in one line") {
   Playing client("sticky=0");
   client.ask("save here");
-  auto bytes = bytes_of_base64(value(client.ask("export here"), "data")).value();
-  constexpr std::size_t kChecksum = 20, kHeader = 24;
+  auto bytes = exported(client, "here");
   bytes[kHeader] = '\n';
   bytes[kHeader + 1] = 0xFF;
-  const auto checksum = static_cast<std::uint32_t>(
-      crc32(0, bytes.data() + kHeader, static_cast<uInt>(bytes.size() - kHeader)));
-  std::memcpy(bytes.data() + kChecksum, &checksum, sizeof checksum);
-  std::string text;
-  append_base64(text, bytes);
-  const std::string reply = client.ask("import x " + text);
+  const std::string reply = client.ask("import x " + forged(bytes));
   CHECK_THAT(reply, Contains("error bad-state the state is of the image with MD5 ??"));
   CHECK(std::ranges::all_of(reply, [](char c) { return c >= ' ' && c <= '~'; }));
+}
+
+TEST_CASE("Frames are counted beyond the largest number of them") {
+  Playing client("sticky=0");
+  client.say("observe frame frames acts\nact NOOP*77\nsave here\n");
+  const auto before = exported(client, "here");
+  client.say("act NOOP\nsave here\n");
+  auto bytes = exported(client, "here");
+  constexpr std::size_t kValues = kHeader + 108;  // behind the image, the game and three sizes
+  const std::uint32_t frame = 78, last = 2147483647;
+  std::size_t at = kValues;  // the counter: what went from 77 to 78, there twice, of the game and of the episode
+  while (std::memcmp(&bytes[at], &frame, 4) != 0 || before[at] != 77 || before[at + 4] != 77) ++at;
+  std::memcpy(&bytes[at], &last, sizeof last);
+  client.say("import x " + forged(bytes) + "\nrestore x\n");
+  CHECK(client.ask("act NOOP*3") == "ok frame=-2147483646 frames=3 acts=3");
+  CHECK_THAT(client.ask("branch x NOOP*3"), Contains(" acts=3 "));
 }
 
 TEST_CASE("A branch answers what playing would have, and leaves the session where it is") {
