@@ -105,7 +105,8 @@ Cartridge find_cartridge(const Session& session, std::string_view name, const Lo
   }
   if (words.as) {
     cartridge.game = find_game(*words.as);
-    if (!cartridge.game) throw Refusal(Code::kUnknownGame,
+    if (!cartridge.game)
+      throw Refusal(Code::kUnknownGame,
                     "there are no rules for " + quote(*words.as) + "; games all lists those that there are");
   } else if (name == kInline) {
     cartridge.game = recognise(*cartridge.image).game;

@@ -31,7 +31,8 @@ constexpr std::array kMore = {
     More{"look", "help fields has the fields and encodings"},
     More{"act", "actions has the actions; B is player B's, STRENGTH how far a paddle is turned, 0 to 1"},
     More{"step", "written as for act"},
-    More{"branch", "actions are written as for act; keep= saves where the lists end, as PREFIX0, PREFIX1, ..."},
+    More{"branch",
+         "actions are written as for act; keep= saves where the lists end, as PREFIX0, PREFIX1, ..."},
     More{"set", "modes and difficulties have the numbers"},
 };
 

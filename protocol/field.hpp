@@ -58,8 +58,8 @@ class View {
 
   // Called when the machine has run, so that stacks are right.
   void acted(const Environment& machine, int frames);
-  // A stack begins anew, with what is there: a new episode, other fields, or a state of unknown past. `blends`:
-  // made of two frames.
+  // A stack begins anew, with what is there: a new episode, other fields, or a state of unknown past.
+  // `blends`: made of two frames.
   void began(const Environment& machine, bool blends);
 
   // " name=value" for each field.

@@ -53,7 +53,7 @@ class Player {
 
   Environment machine_;
   std::uint32_t allowed_ = 0;  // bit n: action n
-  Noops noops_;  // with a generator of its own, as in the reference; no part of a state
+  Noops noops_;                // with a generator of its own, as in the reference; no part of a state
   Outcome outcome_;
   bool blends_ = false;
   mutable View view_;

@@ -46,8 +46,8 @@ KeyValue key_value(std::string_view word) {
 std::string_view value_of(std::string_view word, std::string_view key, std::string_view command) {
   if (word.size() > key.size() && word.starts_with(key) && word[key.size()] == '=')
     return word.substr(key.size() + 1);
-  throw Refusal(Code::kBadArguments, quote(word) + " makes no sense here; " + std::string(command) + " takes " +
-                                         std::string(key) + "=");
+  throw Refusal(Code::kBadArguments, quote(word) + " makes no sense here; " + std::string(command) +
+                                         " takes " + std::string(key) + "=");
 }
 
 void refuse_twice(std::string_view key) {

@@ -75,7 +75,8 @@ TEST_CASE("The document has each setting, preset, field, encoding and error code
   for (const SettingRow& setting : setting_rows()) {
     const std::string row = in_code(setting.name) + " " + std::string(setting.accepted) + " |";
     CHECK_THAT(table("| setting | values | default | |"), Contains(row));
-    CHECK_THAT(table("| setting | values | default | |"), Contains("| " + std::string(setting.summary) + " |\n"));
+    CHECK_THAT(table("| setting | values | default | |"),
+               Contains("| " + std::string(setting.summary) + " |\n"));
   }
   for (const FieldRow& field : field_rows()) {
     const std::string row = in_code(field.name) + " " + std::string(field.summary) + " |";

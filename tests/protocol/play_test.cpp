@@ -37,8 +37,8 @@ std::vector<std::uint8_t> exported(LineClient& client, const std::string& name) 
 
 // As text, with the checksum that they need.
 std::string forged(std::vector<std::uint8_t> bytes) {
-  const auto checksum = static_cast<std::uint32_t>(
-      crc32(0, bytes.data() + kHeader, static_cast<uInt>(bytes.size() - kHeader)));
+  const auto checksum =
+      static_cast<std::uint32_t>(crc32(0, bytes.data() + kHeader, static_cast<uInt>(bytes.size() - kHeader)));
   std::memcpy(bytes.data() + kChecksum, &checksum, sizeof checksum);
   std::string text;
   append_base64(text, bytes);
@@ -94,7 +94,8 @@ TEST_CASE("look shows the small screen that replies show") {
     LineClient client;
     client.ask("load beamfall seed=7 sticky=0 frame_skip=" + frames);
     client.say("observe grey84:hex\nact FIRE*9\nsave here\n");
-    for (const std::string request : {"act FIRE*9", "act UP", "restore here", "act DOWN", "reset", "act FIRE*2"}) {
+    for (const std::string request :
+         {"act FIRE*9", "act UP", "restore here", "act DOWN", "reset", "act FIRE*2"}) {
       const std::string shown = client.ask(request);
       CHECK(client.ask("look grey84:hex") == shown);
     }
@@ -135,7 +136,8 @@ TEST_CASE("Frames are counted beyond the largest number of them") {
   auto bytes = exported(client, "here");
   constexpr std::size_t kValues = kHeader + 108;  // behind the image, the game and three sizes
   const std::uint32_t frame = 78, last = 2147483647;
-  std::size_t at = kValues;  // the counter: what went from 77 to 78, there twice, of the game and of the episode
+  std::size_t at =
+      kValues;  // the counter: what went from 77 to 78, there twice, of the game and of the episode
   while (std::memcmp(&bytes[at], &frame, 4) != 0 || before[at] != 77 || before[at + 4] != 77) ++at;
   std::memcpy(&bytes[at], &last, sizeof last);
   client.say("import x " + forged(bytes) + "\nrestore x\n");
@@ -312,6 +314,7 @@ TEST_CASE("An episode that begins with no-ops begins differently, by the seed") 
   std::vector<std::string_view> words;
   split(frames, words);
   std::ranges::sort(words);
-  const auto repeated = std::unique(words.begin(), words.end());  // clang 14 lacks what std::ranges::unique needs
-  CHECK(words.end() - repeated < 12);                              // more than eight different lengths
+  const auto repeated =
+      std::unique(words.begin(), words.end());  // clang 14 lacks what std::ranges::unique needs
+  CHECK(words.end() - repeated < 12);           // more than eight different lengths
 }
