@@ -115,7 +115,8 @@ constexpr std::array kSettings = {
     SettingRow{"system_seed", "0 to 4294967295", "of what is in memory at power-on", set_system_seed,
                ECHO(std::int64_t{s.machine.system_seed})},
     SettingRow{"frame_skip", "1 to 1000, or a range such as 2-4",
-               "frames that an act lasts; of a range, each act draws one", set_frame_skip, append_frame_skip},
+               "frames that an act lasts; of a range, each act draws one, 2, 3 or 4", set_frame_skip,
+               append_frame_skip},
     SettingRow{"sticky", "0 to 1", "probability that a frame repeats the action before it", set_sticky,
                [](std::string& out, const PlaySettings& s, const Environment&) {
                  std::array<char, 32> digits;
