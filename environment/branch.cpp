@@ -26,7 +26,7 @@ int Branching::act(const BranchAct& act) {
   end_.reward += reward;
   end_.reward_b += environment_.rewards().b;
   ++end_.acts;
-  end_.frames += environment_.frame_number() - before;
+  end_.frames += frames_between(before, environment_.frame_number());
   end_.terminated = environment_.terminal();
   end_.truncated = environment_.truncated();
   end_.lives = environment_.lives();

@@ -74,7 +74,7 @@ class Environment {
   bool terminal() const;
   bool truncated() const;
   int lives() const;
-  int frame_number() const;          // counted frames since loading
+  int frame_number() const;          // counted frames since loading; goes on below 0 after the largest int
   int episode_frame_number() const;  // since the last reset
 
   int height() const;                            // rows of the screen
@@ -122,5 +122,10 @@ class Environment {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+// Frames between two values of Environment::frame_number().
+constexpr int frames_between(int earlier, int later) {
+  return static_cast<int>(static_cast<std::uint32_t>(later) - static_cast<std::uint32_t>(earlier));
+}
 
 }  // namespace racebeam

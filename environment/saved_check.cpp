@@ -36,7 +36,7 @@ void check_play(const Play& play, const Game& game) {
   for (const std::int32_t ohms : play.paddles) check_range("a turned paddle", ohms, 0, kMaxInt);
   check_range("the frame number", play.frames, 0, kMaxInt);
   check_range("the frame number of the episode", play.episode_frames, 0, kMaxInt);
-  check_offered("the mode", play.mode, game.modes);
+  check_offered("the mode", play.mode, game.offered_modes());
   if (play.difficulty != 0)
     check_offered("the difficulty", play.difficulty, game.difficulties);  // starts with 0
   check_flag("the flag of an old RAM", play.ram_is_stale);

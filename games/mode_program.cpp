@@ -58,8 +58,8 @@ class Runner {
   }
 
   [[noreturn]] void give_up(const std::string& why) const {
-    throw std::runtime_error("mode " + std::to_string(mode_) + " of " + game_.name +
-                             " could not be set up on this image: " + why);
+    throw std::invalid_argument("mode " + std::to_string(mode_) + " of " + game_.name +
+                                " could not be set up on this image: " + why);
   }
 
   const Game& game_;

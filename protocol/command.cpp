@@ -71,6 +71,12 @@ std::string count_text(const Command& command) {
 
 }  // namespace
 
+std::string usage(const Command& command) {
+  std::string text(command.name);
+  if (!command.arguments.empty()) (text += ' ') += command.arguments;
+  return text;
+}
+
 std::span<const Command> commands() { return kCommands; }
 
 const Command& find_command(std::string_view name) {
@@ -85,8 +91,7 @@ void check(const Command& command, const Session& session, std::size_t arguments
   const std::string name(command.name);
   if (arguments < command.least || arguments > command.most) {
     throw Refusal(Code::kBadArguments, name + " takes " + count_text(command) + " arguments, not " +
-                                           std::to_string(arguments) + ": " + name + " " +
-                                           std::string(command.arguments));
+                                           std::to_string(arguments) + ": " + usage(command));
   }
   if (command.needs >= Needs::kAdmission && !session.admitted)
     throw Refusal(Code::kUnauthorized, "this server wants a token before " + name + "; hello token=TOKEN");

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "protocol/words.hpp"
@@ -34,6 +35,8 @@ const Command& find_command(std::string_view name);
 
 // Throws Refusal when the number of arguments is wrong, or when something else has to come first.
 void check(const Command& command, const Session& session, std::size_t arguments);
+
+std::string usage(const Command& command);  // its name and arguments
 
 constexpr std::size_t kAnyNumber = static_cast<std::size_t>(-1);
 

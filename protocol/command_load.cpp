@@ -71,8 +71,10 @@ LoadWords sorted(Words words) {
   for (const std::string_view word : words) {
     const auto [key, value] = key_value(word);
     if (key == "image") {
+      if (load.image) refuse_twice(key);
       load.image = value;
     } else if (key == "as") {
+      if (load.as) refuse_twice(key);
       load.as = value;
     } else {
       load.settings.push_back(word);
@@ -104,7 +106,9 @@ Cartridge find_cartridge(const Session& session, std::string_view name, const Lo
   }
   if (words.as) {
     cartridge.game = find_game(*words.as);
-    if (!cartridge.game) throw Refusal(Code::kUnknownGame, "there are no rules for " + quote(*words.as));
+    if (!cartridge.game)
+      throw Refusal(Code::kUnknownGame,
+                    "there are no rules for " + quote(*words.as) + "; games all lists those that there are");
   } else if (name == kInline) {
     cartridge.game = recognise(*cartridge.image).game;
   }
@@ -122,20 +126,6 @@ void append_loaded(Session& session) {
   append_pair(out, "height", machine.height());
   append_pair(out, "format", format_name(machine.format()));
   append_settings(out, session.settings, machine);
-}
-
-std::unique_ptr<Player> power_on(const Session& session, const Cartridge& cartridge, const PlaySettings& settings,
-                                 bool sent) {
-  try {
-    return std::make_unique<Player>(cartridge, settings, session.fields);
-  } catch (const Refusal&) {
-    throw;
-  } catch (const std::invalid_argument& error) {
-    const bool asked = settings.mode || settings.difficulty;
-    throw Refusal(sent && !asked ? Code::kBadImage : Code::kBadValue, error.what());
-  } catch (const std::runtime_error& error) {  // the rules of as= do not fit the image
-    throw Refusal(Code::kBadValue, error.what());
-  }
 }
 
 }  // namespace
@@ -157,7 +147,13 @@ void run_load(Session& session, Words arguments) {
   read_settings(words.settings, settings);
   if (settings.machine.random_seed == 0) settings.machine.random_seed = std::random_device{}() | 1U;
   Cartridge cartridge = find_cartridge(session, arguments[0], words);
-  std::unique_ptr<Player> player = power_on(session, cartridge, settings, arguments[0] == kInline);
+  std::unique_ptr<Player> player;
+  try {
+    player = std::make_unique<Player>(cartridge, settings, session.fields);
+  } catch (const std::invalid_argument& error) {
+    const bool sent = arguments[0] == kInline && !settings.mode && !settings.difficulty;
+    throw Refusal(sent ? Code::kBadImage : Code::kBadValue, error.what());
+  }
   session.recording.reset();
   session.machines.close();
   session.states.clear();

@@ -10,8 +10,7 @@ namespace {
 
 Autoreset read_autoreset(Words words) {
   if (words.empty()) return Autoreset::kNextStep;
-  const auto [key, value] = key_value(words[0]);
-  if (key != "autoreset") throw Refusal(Code::kBadArguments, "open takes a number and autoreset=");
+  const auto value = value_of(words[0], "autoreset", "open");
   if (const auto autoreset = autoreset_of(value)) return *autoreset;
   throw Refusal(Code::kBadValue,
                 "autoreset is " + quote(value) + "; it takes next-step, same-step or disabled");
@@ -40,7 +39,9 @@ void run_open(Session& session, Words arguments) {
   const auto machines = static_cast<std::size_t>(count);
   const Autoreset autoreset = read_autoreset(arguments.subspan(1));
   MachinesWork::check_replies(session, session.fields, machines, autoreset);
-  session.machines.open(machines, autoreset);
+  // The first before those that are there go: it shows whether the mode can be set up.
+  auto first = std::make_unique<Player>(session.cartridge, session.settings, session.fields);
+  session.machines.open(machines, autoreset, std::move(first));
   session.start(session.machines);
 }
 

@@ -65,7 +65,7 @@ void run_look(Session& session, Words arguments) {
   check_sound(session, fields);
   check_look(fields);
   View view(std::move(fields), player.machine().height());
-  view.acted(player.machine(), player.outcome().frames > 1 ? 2 : 1);
+  view.began(player.machine(), player.blends());
   session.out += "ok";
   view.append(session.out, player.machine(), player.outcome());
 }
@@ -82,9 +82,19 @@ void run_act(Session& session, Words arguments) {
   session.start(session.act);
 }
 
+// An image that was loaded with the rules of another game may not come to its mode.
 void run_reset(Session& session, Words) {
-  session.player->begin_request();
-  session.player->reset();
+  Player& player = *session.player;
+  const Place before = player.place(true);
+  const Outcome outcome = player.outcome();
+  try {
+    player.begin_request();
+    player.reset();
+  } catch (...) {
+    player.go_to(before);
+    player.set_outcome(outcome);
+    throw;
+  }
   session.out += "ok";
   session.player->append_view(session.out);
 }

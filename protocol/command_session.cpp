@@ -1,4 +1,6 @@
 // hello, help, stats, quit
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "protocol/command.hpp"
@@ -17,6 +19,22 @@ void append_names(std::string& out, const Rows& rows, char between) {
     out += row.name;
   }
 }
+
+struct More {
+  std::string_view command, sentence;
+};
+
+// Where a person finds the words that a command takes.
+constexpr std::array kMore = {
+    More{"load", "help settings has the keys, help presets the presets, games the games"},
+    More{"observe", "help fields has the fields and encodings"},
+    More{"look", "help fields has the fields and encodings"},
+    More{"act", "actions has the actions; B is player B's, STRENGTH how far a paddle is turned, 0 to 1"},
+    More{"step", "written as for act"},
+    More{"branch",
+         "actions are written as for act; keep= saves where the lists end, as PREFIX0, PREFIX1, ..."},
+    More{"set", "modes and difficulties have the numbers"},
+};
 
 void help_on_settings(std::string& out) {
   out += "ok settings of load, as KEY=VALUE:";
@@ -48,8 +66,7 @@ void help_on_fields(std::string& out) {
 // A client that guesses has few guesses a connection.
 void take_token(Session& session, std::string_view word) {
   constexpr int kGuesses = 3;
-  const auto [key, token] = key_value(word);
-  if (key != "token") throw Refusal(Code::kBadArguments, "hello takes token=TOKEN, not " + quote(key));
+  const std::string_view token = value_of(word, "token", "hello");
   if (session.admitted) return;
   if (session.service.admission(token)) return session.admit();
   session.quitting = ++session.wrong_tokens >= kGuesses;
@@ -90,9 +107,9 @@ void run_help(Session& session, Words arguments) {
   if (arguments[0] == "presets") return help_on_presets(out);
   if (arguments[0] == "fields") return help_on_fields(out);
   const Command& command = find_command(arguments[0]);
-  (out += "ok ") += command.name;
-  if (!command.arguments.empty()) (out += ' ') += command.arguments;
-  (out += ": ") += command.summary;
+  (((out += "ok ") += usage(command)) += ": ") += command.summary;
+  const auto more = std::ranges::find(kMore, command.name, &More::command);
+  if (more != kMore.end()) (out += "; ") += more->sentence;
   if (!command.example.empty()) (out += "; example: ") += command.example;
 }
 

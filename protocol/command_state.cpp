@@ -1,6 +1,7 @@
 // save, restore, drop, states, export, import, branch
 #include <utility>
 
+#include "environment/saved.hpp"
 #include "environment/snapshot.hpp"
 #include "protocol/base64.hpp"
 #include "protocol/command.hpp"
@@ -38,28 +39,32 @@ void keep(Session& session, std::string_view name, Place place) {
   session.states.insert_or_assign(std::string(name), std::move(place));
 }
 
+std::string_view state_name(std::string_view word) {
+  if (word == "all") throw Refusal(Code::kBadValue, "'all' is no name for a state: drop all drops them all");
+  return checked_name(word, "state");
+}
+
 bool read_random(Words words) {
   if (words.empty()) return false;
-  const auto [key, value] = key_value(words[0]);
-  if (key != "random") throw Refusal(Code::kBadArguments, "save takes a name and random=0 or random=1");
-  return number_within(value, "random", 0, 1) == 1;
+  return number_within(value_of(words[0], "random", "save"), "random", 0, 1) == 1;
 }
 
 // A,B,C
 ActionQueue parse_sequence(std::string_view word, const AllowedActions& allowed) {
   ActionQueue queue;
-  while (!word.empty()) {
+  for (;;) {
     std::string_view action = word;
-    word = cut_behind(action, ',');
+    const std::string_view rest = cut_behind(action, ',');
     queue.actions.push_back(parse_action(action, allowed));
+    if (action.size() == word.size()) return queue;
+    word = rest;
   }
-  return queue;
 }
 
 }  // namespace
 
 void run_save(Session& session, Words arguments) {
-  const std::string_view name = checked_name(arguments[0], "state");
+  const std::string_view name = state_name(arguments[0]);
   keep(session, name, session.player->place(read_random(arguments.subspan(1))));
   session.out += "ok";
   append_pair(session.out, "state", name);
@@ -105,12 +110,13 @@ void run_export(Session& session, Words arguments) {
 }
 
 void run_import(Session& session, Words arguments) {
-  const std::string_view name = checked_name(arguments[0], "state");
+  const std::string_view name = state_name(arguments[0]);
   const auto bytes = bytes_of_base64(arguments[1]);
   if (!bytes) throw Refusal(Code::kBadState, "the state is not base64 (A-Z a-z 0-9 + / and = at the end)");
   Place place;
   try {
     place.machine = from_bytes(*bytes, session.player->machine());
+    place.with_random = place.machine->random.has_value();
   } catch (const std::invalid_argument& error) {
     throw Refusal(Code::kBadState, error.what());
   }

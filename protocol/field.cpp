@@ -115,7 +115,10 @@ Drawing drawing_of(const std::vector<Field>& fields, bool averaging) {
 std::vector<Field> parse_fields(Words words) {
   std::vector<Field> fields;
   for (const std::string_view word : words) {
-    if (word == "none" && words.size() == 1) break;
+    if (word == "none") {
+      if (words.size() == 1) break;
+      throw Refusal(Code::kBadArguments, "none stands alone; it chooses no field");
+    }
     if (word == "ends") {
       fields.push_back(parse_field("terminated"));
       fields.push_back(parse_field("truncated"));
@@ -150,10 +153,10 @@ void View::acted(const Environment& machine, int frames) {
   if (stack_ && frames > 0) stack_->push(machine, frames > 1);
 }
 
-void View::began(const Environment& machine) {
+void View::began(const Environment& machine, bool blends) {
   if (!stack_) return;
   stack_->clear();
-  stack_->push(machine, false);
+  stack_->push(machine, blends);
 }
 
 void View::append(std::string& out, const Environment& machine, const Outcome& outcome) {

@@ -58,7 +58,9 @@ class View {
 
   // Called when the machine has run, so that stacks are right.
   void acted(const Environment& machine, int frames);
-  void began(const Environment& machine);  // a new episode, or a state of unknown past
+  // A stack begins anew, with what is there: a new episode, other fields, or a state of unknown past.
+  // `blends`: made of two frames.
+  void began(const Environment& machine, bool blends);
 
   // " name=value" for each field.
   void append(std::string& out, const Environment& machine, const Outcome& outcome);

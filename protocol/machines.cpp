@@ -37,9 +37,10 @@ void MachinesWork::check_replies(const Session& session, const std::vector<Field
   session.check_reply(count * each, std::to_string(count) + " machines with these fields");
 }
 
-void MachinesWork::open(std::size_t count, Autoreset autoreset) {
+void MachinesWork::open(std::size_t count, Autoreset autoreset, std::unique_ptr<Player> first) {
   seats_.clear();
   seats_.resize(count);
+  seats_[0].player = std::move(first);
   autoreset_ = autoreset;
   job_ = Job::kOpen;
   next_ = 0;
@@ -96,6 +97,7 @@ void MachinesWork::work_on(const Session& session, std::size_t number) {
 }
 
 void MachinesWork::open_one(const Session& session, std::size_t number) {
+  if (seats_[number].player) return;
   PlaySettings settings = session.settings;
   settings.machine.random_seed += static_cast<std::uint32_t>(number);
   seats_[number].player = std::make_unique<Player>(session.cartridge, settings, session.fields);

@@ -30,7 +30,7 @@ class MachinesWork final : public Work {
                             Autoreset autoreset);
 
   // Each says what go_on() is to do with all machines.
-  void open(std::size_t count, Autoreset autoreset);
+  void open(std::size_t count, Autoreset autoreset, std::unique_ptr<Player> first);
   void step(std::vector<Action>& actions);          // one each; swapped in
   void restart(std::vector<std::uint8_t>& chosen);  // not 0: this one; swapped in
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -52,7 +54,7 @@ void set_sticky(PlaySettings& settings, std::string_view value) {
   const auto probability = parse_number<float>(value);
   if (!probability || *probability < 0 || *probability > 1)
     refuse("sticky", value, "a probability from 0 to 1");
-  settings.machine.sticky = *probability;
+  settings.machine.sticky = std::abs(*probability);  // no -0
 }
 
 void set_action_set(PlaySettings& settings, std::string_view value) {
@@ -113,7 +115,8 @@ constexpr std::array kSettings = {
     SettingRow{"system_seed", "0 to 4294967295", "of what is in memory at power-on", set_system_seed,
                ECHO(std::int64_t{s.machine.system_seed})},
     SettingRow{"frame_skip", "1 to 1000, or a range such as 2-4",
-               "frames that an act lasts; of a range, each act draws one", set_frame_skip, append_frame_skip},
+               "frames that an act lasts; of a range, each act draws one, 2, 3 or 4", set_frame_skip,
+               append_frame_skip},
     SettingRow{"sticky", "0 to 1", "probability that a frame repeats the action before it", set_sticky,
                [](std::string& out, const PlaySettings& s, const Environment&) {
                  std::array<char, 32> digits;
@@ -150,7 +153,7 @@ constexpr std::array kSettings = {
                  append_reward_limit(out, s.machine.reward_max, kMostReward);
                }},
     SettingRow{"rules", "ale-0.12 or fixed",
-               "whose rewards, lives and end: the reference's, or corrected ones where it errs", set_rules,
+               "how score and end are found: as the reference does, or corrected where it errs", set_rules,
                [](std::string& out, const PlaySettings& s, const Environment&) {
                  out += kRules[static_cast<std::size_t>(s.machine.rules)];
                }},
@@ -194,10 +197,16 @@ std::span<const SettingRow> setting_rows() { return kSettings; }
 std::span<const PresetRow> preset_rows() { return kPresets; }
 
 void read_settings(Words words, PlaySettings& settings) {
+  std::bitset<kSettings.size()> given;
   for (const bool presets : {true, false}) {
     for (const std::string_view word : words) {
       const auto [key, value] = key_value(word);
-      if ((key == "preset") == presets) setting_row(key).set(settings, value);
+      if ((key == "preset") != presets) continue;
+      const SettingRow& row = setting_row(key);
+      const auto place = static_cast<std::size_t>(&row - kSettings.data());
+      if (given[place]) refuse_twice(key);
+      given.set(place);
+      row.set(settings, value);
     }
   }
 }

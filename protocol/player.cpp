@@ -29,10 +29,11 @@ void Player::look_at_ends() {
 void Player::act(const Action& action) {
   const int before = machine_.frame_number();
   outcome_.reward += machine_.act(action.a, action.b, action.strength_a, action.strength_b);
-  const int frames = machine_.frame_number() - before;
+  const int frames = frames_between(before, machine_.frame_number());
   outcome_.frames += frames;
   outcome_.acts += frames > 0;
   look_at_ends();
+  if (frames > 0) blends_ = frames > 1;
   view_.acted(machine_, frames);
 }
 
@@ -43,11 +44,12 @@ void Player::reset() {
     if (machine_.game_over()) machine_.reset_game();
   }
   look_at_ends();
-  view_.began(machine_);
+  blends_ = false;
+  view_.began(machine_, blends_);
 }
 
 Place Player::place(bool with_random) const {
-  Place place{machine_.save(with_random), {}, with_random};
+  Place place{machine_.save(with_random), {}, with_random, blends_};
   if (const SmallScreens* stack = view_.stack()) {
     place.stack.assign(stack->bytes().begin(), stack->bytes().end());
   }
@@ -56,20 +58,21 @@ Place Player::place(bool with_random) const {
 
 void Player::go_to(const Place& place) {
   machine_.restore(*place.machine);
+  blends_ = place.blends;
   look_at_ends();
   SmallScreens* stack = view_.stack();
   if (stack == nullptr) return;
   if (stack->bytes().size() == place.stack.size()) {
     stack->set_bytes(place.stack);
   } else {
-    view_.began(machine_);
+    view_.began(machine_, blends_);
   }
 }
 
 void Player::observe(std::vector<Field> fields) {
   machine_.set_drawing(drawing_of(fields, machine_.settings().color_averaging));
   view_ = View(std::move(fields), machine_.height());
-  view_.began(machine_);
+  view_.began(machine_, blends_);
 }
 
 }  // namespace racebeam

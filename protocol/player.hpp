@@ -19,6 +19,7 @@ struct Place {
   std::shared_ptr<const Environment::Saved> machine;
   std::vector<std::uint8_t> stack;
   bool with_random = false;  // the generator of what is random in play is part of it
+  bool blends = false;       // as Player::blends()
 };
 
 class Player {
@@ -36,6 +37,10 @@ class Player {
   const Outcome& outcome() const { return outcome_; }
   void set_outcome(const Outcome& outcome) { outcome_ = outcome; }
 
+  // Whether a small screen is made of the last two frames, or of the last alone: the last act ran one only,
+  // or what was before is unknown.
+  bool blends() const { return blends_; }
+
   Place place(bool with_random) const;
   void go_to(const Place& place);  // throws std::invalid_argument
 
@@ -48,8 +53,9 @@ class Player {
 
   Environment machine_;
   std::uint32_t allowed_ = 0;  // bit n: action n
-  Noops noops_;  // with a generator of its own, as in the reference; no part of a state
+  Noops noops_;                // with a generator of its own, as in the reference; no part of a state
   Outcome outcome_;
+  bool blends_ = false;
   mutable View view_;
 };
 

@@ -33,6 +33,11 @@ std::size_t first_unprintable(std::string_view line) {
   return static_cast<std::size_t>(bad - line.begin());
 }
 
+// A sentence can quote what came as base64, and that may be any bytes.
+void append_printable(std::string& out, std::string_view sentence) {
+  for (const char c : sentence) out += c < ' ' || c > '~' ? '?' : c;
+}
+
 void check_bytes(std::string_view line) {
   const std::size_t bad = first_unprintable(line);
   if (bad == line.size()) return;
@@ -135,7 +140,8 @@ void Session::guarded(Step step) {
   const auto refuse = [this](Code code, std::string_view sentence) {
     if (Work* const work = std::exchange(work_, nullptr)) work->give_up(*this);
     out.resize(reply_);
-    (((out += "error ") += name_of(code)) += ' ') += sentence;
+    ((out += "error ") += name_of(code)) += ' ';
+    append_printable(out, sentence);
     ++statistics.errors;
     refused_ = true;
   };

@@ -43,6 +43,17 @@ KeyValue key_value(std::string_view word) {
   throw Refusal(Code::kBadArguments, quote(word) + " is not of the form key=value");
 }
 
+std::string_view value_of(std::string_view word, std::string_view key, std::string_view command) {
+  if (word.size() > key.size() && word.starts_with(key) && word[key.size()] == '=')
+    return word.substr(key.size() + 1);
+  throw Refusal(Code::kBadArguments, quote(word) + " makes no sense here; " + std::string(command) +
+                                         " takes " + std::string(key) + "=");
+}
+
+void refuse_twice(std::string_view key) {
+  throw Refusal(Code::kBadArguments, std::string(key) + " is given twice");
+}
+
 std::string_view cut_behind(std::string_view& text, char mark) {
   const std::size_t at = text.find(mark);
   if (at == std::string_view::npos) return {};

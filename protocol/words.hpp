@@ -42,6 +42,11 @@ struct KeyValue {
 // Throws Refusal(kBadArguments) when there is no '='.
 KeyValue key_value(std::string_view word);
 
+// The value of key=value, where `command` takes no other key. Throws Refusal(kBadArguments).
+std::string_view value_of(std::string_view word, std::string_view key, std::string_view command);
+
+[[noreturn]] void refuse_twice(std::string_view key);  // Refusal(kBadArguments)
+
 // The rest of `text` behind its first `mark`, which is cut off with it; "" if there is none.
 std::string_view cut_behind(std::string_view& text, char mark);
 

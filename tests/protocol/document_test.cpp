@@ -72,6 +72,20 @@ TEST_CASE("The document has each setting, preset, field, encoding and error code
   compare("| field | | encoding |", field_rows());
   compare("| encoding | |", encodings());
   compare("| code | |", codes());
+  for (const SettingRow& setting : setting_rows()) {
+    const std::string row = in_code(setting.name) + " " + std::string(setting.accepted) + " |";
+    CHECK_THAT(table("| setting | values | default | |"), Contains(row));
+    CHECK_THAT(table("| setting | values | default | |"),
+               Contains("| " + std::string(setting.summary) + " |\n"));
+  }
+  for (const FieldRow& field : field_rows()) {
+    const std::string row = in_code(field.name) + " " + std::string(field.summary) + " |";
+    CHECK_THAT(table("| field | | encoding |"), Contains(row));
+  }
+  for (const CodeRow& code : codes()) {
+    const std::string row = in_code(code.name) + " " + std::string(code.meaning) + " |\n";
+    CHECK_THAT(table("| code | |"), Contains(row));
+  }
   for (const PresetRow& preset : preset_rows())
     CHECK_THAT(table("| preset | sets | source |"), Contains(in_code(preset.words)));
 }

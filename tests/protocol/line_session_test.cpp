@@ -125,7 +125,7 @@ TEST_CASE("A load that is refused leaves the game before it running") {
                                   "beamfall sticky",
                                   "beamfall preset=dqn",
                                   "beamfall reward_min=1 reward_max=0",
-                                  "beamfall rules=other",
+                                  "beamfall rules=corrected",
                                   "inline",
                                   "inline image=!!!!",
                                   "inline image=",
@@ -164,13 +164,6 @@ TEST_CASE("The minimal actions are those of the rules in force") {
   client.ask("load beamfall as=blackjack action_set=minimal rules=fixed");
   CHECK(client.ask("act RIGHT").starts_with("ok "));
   CHECK(value(client.ask("actions"), "actions") == "0:NOOP,1:FIRE,3:RIGHT,4:LEFT");
-}
-
-TEST_CASE("Rules that do not fit the image are the client's mistake") {
-  LineClient client;
-  const std::string refusal = client.ask("load beamfall as=backgammon");
-  CHECK(code(refusal) == "bad-value");
-  CHECK_THAT(refusal, Contains("mode 0 of backgammon could not be set up on this image"));
 }
 
 TEST_CASE("A preset comes before the settings that change it, wherever it stands") {
@@ -349,11 +342,53 @@ TEST_CASE("Limits are told, and refused beyond") {
   CHECK(code(client.ask("open 3")) == "bad-value");
   CHECK(code(client.ask("act NOOP*101")) == "limit");
   CHECK(code(client.ask("act NOOP*100")) == "");
+  CHECK(code(client.ask("act NOOP*1000000000 NOOP*1000000000")) == "limit");
+  CHECK(code(client.ask("act NOOP*99999999999")) == "bad-value");
   client.say("save a\nsave b\n");
   CHECK(code(client.ask("save c")) == "limit");
   CHECK(code(client.ask("save b")) == "");
   CHECK(code(client.ask("branch a NOOP*60 NOOP*60")) == "limit");
   CHECK(code(client.ask("branch a keep=x NOOP")) == "limit");
+}
+
+TEST_CASE("A mode that the image does not come to is refused, and nothing has happened") {
+  LineClient client;  // updraft has no switch that pong's modes are counted by
+  client.ask(kLoad);
+  CHECK_THAT(client.ask("load updraft as=pong mode=3"),
+             StartsWith("error bad-value mode 3 of pong could not be set up on this image"));
+  CHECK(value(client.ask("settings"), "game") == "beamfall");
+  client.say("load updraft seed=7 as=pong\nobserve frame reward ram screen acts\nact FIRE*9\n");
+  CHECK(code(client.ask("open 2")) == "");
+  const std::string machines = client.ask("restart 00"), shown = client.ask("look");
+  client.ask("set mode=3");
+  CHECK(code(client.ask("reset")) == "bad-value");
+  CHECK(client.ask("look") == shown);
+  CHECK(code(client.ask("open 2")) == "bad-value");
+  CHECK(client.ask("restart 00") == machines);
+}
+
+TEST_CASE("What is given twice is refused") {
+  LineClient client;
+  client.ask(kLoad);
+  for (const std::string request :
+       {"load beamfall seed=1 seed=2", "load beamfall preset=dqn2015 preset=gym-v5",
+        "load inline image=AAAA image=AAAA", "load beamfall as=beamfall as=updraft", "set mode=0 mode=0"}) {
+    const std::string reply = client.ask(request);
+    CHECK_THAT(reply, StartsWith("error bad-arguments ") && Contains(" is given twice"));
+  }
+  CHECK(value(client.ask("settings"), "seed") == "7");
+}
+
+TEST_CASE("Errors name what is accepted") {
+  LineClient client;
+  client.ask(kLoad);
+  CHECK_THAT(client.ask("open 2 same-step"), Contains("open takes autoreset="));
+  CHECK_THAT(client.ask("save a b"), Contains("save takes random="));
+  CHECK_THAT(client.ask("hello tok=1"), Contains("hello takes token="));
+  CHECK_THAT(client.ask("observe none reward"), Contains("none stands alone"));
+  CHECK_THAT(client.ask("load updraft as=x"), Contains("games all lists"));
+  CHECK_THAT(client.ask("load beamfall rules=x"), Contains("ale-0.12 or fixed"));
+  CHECK(client.ask("reset now") == "error bad-arguments reset takes 0 arguments, not 1: reset");
 }
 
 TEST_CASE("Names of states and recordings can't leave their place") {
@@ -363,6 +398,7 @@ TEST_CASE("Names of states and recordings can't leave their place") {
        {std::string("../a"), std::string("a/b"), std::string("."), std::string(65, 'a')}) {
     CHECK(code(client.ask("save " + name)) == "bad-value");
   }
+  CHECK_THAT(client.ask("save all"), Contains("drop all drops them all"));
   CHECK_THAT(client.ask("record gif a"), Contains("--record-dir"));
 }
 

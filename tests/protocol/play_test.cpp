@@ -1,7 +1,11 @@
 // States, branches and many machines over the line protocol.
+#include <zlib.h>
+
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <thread>
 
+#include "protocol/base64.hpp"
 #include "protocol/words.hpp"
 #include "tests/protocol/line_client.hpp"
 
@@ -24,6 +28,22 @@ struct Playing : LineClient {
     REQUIRE(code(ask(kEverything)) == "");
   }
 };
+
+constexpr std::size_t kHeader = 24, kChecksum = 20;  // of a state's bytes, see snapshot.cpp
+
+std::vector<std::uint8_t> exported(LineClient& client, const std::string& name) {
+  return bytes_of_base64(value(client.ask("export " + name), "data")).value();
+}
+
+// As text, with the checksum that they need.
+std::string forged(std::vector<std::uint8_t> bytes) {
+  const auto checksum =
+      static_cast<std::uint32_t>(crc32(0, bytes.data() + kHeader, static_cast<uInt>(bytes.size() - kHeader)));
+  std::memcpy(bytes.data() + kChecksum, &checksum, sizeof checksum);
+  std::string text;
+  append_base64(text, bytes);
+  return text;
+}
 
 }  // namespace
 
@@ -52,6 +72,36 @@ TEST_CASE("A state can be taken to another process") {
   CHECK(other.ask("act UP*9 FIRE*30") == one.ask("act UP*9 FIRE*30"));
 }
 
+TEST_CASE("A state of a variation for two can be taken in") {
+  LineClient client;
+  client.say("load beamfall as=pong\nset mode=2\nsave here\n");  // pong lists 0 and 1; the others are for two
+  CHECK(value(client.ask("import there " + value(client.ask("export here"), "data")), "state") == "there");
+}
+
+TEST_CASE("A state that came with its generator passes it on to the ends of branches") {
+  Playing client("sticky=0.5 frame_skip=2-4");
+  client.say("act FIRE*30\nsave here random=1\n");
+  client.ask("import there " + value(client.ask("export here"), "data"));
+  client.ask("branch there keep=leaf FIRE*20");
+  client.ask("restore leaf0");
+  const std::string after = client.ask("act FIRE*50");
+  client.say("act UP*7\nrestore leaf0\n");
+  CHECK(client.ask("act FIRE*50") == after);
+}
+
+TEST_CASE("look shows the small screen that replies show") {
+  for (const std::string frames : {"1", "4"}) {
+    LineClient client;
+    client.ask("load beamfall seed=7 sticky=0 frame_skip=" + frames);
+    client.say("observe grey84:hex\nact FIRE*9\nsave here\n");
+    for (const std::string request :
+         {"act FIRE*9", "act UP", "restore here", "act DOWN", "reset", "act FIRE*2"}) {
+      const std::string shown = client.ask(request);
+      CHECK(client.ask("look grey84:hex") == shown);
+    }
+  }
+}
+
 TEST_CASE("A state that was cut, altered or belongs to another game is refused") {
   Playing client("sticky=0");
   client.ask("save here");
@@ -65,6 +115,34 @@ TEST_CASE("A state that was cut, altered or belongs to another game is refused")
   text[400] = text[400] == 'A' ? 'B' : 'A';
   CHECK(code(client.ask("import x " + text)) == "bad-state");
   CHECK(code(client.ask("restore x")) == "no-state");
+}
+
+TEST_CASE("A state that names another image with bytes that are no text is refused in one line") {
+  Playing client("sticky=0");
+  client.ask("save here");
+  auto bytes = exported(client, "here");
+  bytes[kHeader] = '\n';
+  bytes[kHeader + 1] = 0xFF;
+  const std::string reply = client.ask("import x " + forged(bytes));
+  CHECK_THAT(reply, Contains("error bad-state the state is of the image with MD5 ??"));
+  CHECK(std::ranges::all_of(reply, [](char c) { return c >= ' ' && c <= '~'; }));
+}
+
+TEST_CASE("Frames are counted beyond the largest number of them") {
+  Playing client("sticky=0");
+  client.say("observe frame frames acts\nact NOOP*77\nsave here\n");
+  const auto before = exported(client, "here");
+  client.say("act NOOP\nsave here\n");
+  auto bytes = exported(client, "here");
+  constexpr std::size_t kValues = kHeader + 108;  // behind the image, the game and three sizes
+  const std::uint32_t frame = 78, last = 2147483647;
+  std::size_t at =
+      kValues;  // the counter: what went from 77 to 78, there twice, of the game and of the episode
+  while (std::memcmp(&bytes[at], &frame, 4) != 0 || before[at] != 77 || before[at + 4] != 77) ++at;
+  std::memcpy(&bytes[at], &last, sizeof last);
+  client.say("import x " + forged(bytes) + "\nrestore x\n");
+  CHECK(client.ask("act NOOP*3") == "ok frame=-2147483646 frames=3 acts=3");
+  CHECK_THAT(client.ask("branch x NOOP*3"), Contains(" acts=3 "));
 }
 
 TEST_CASE("A branch answers what playing would have, and leaves the session where it is") {
@@ -103,6 +181,13 @@ TEST_CASE("The rewards of a branch are those of its acts") {
     at += run.size() + 1;
   }
   CHECK(written == expected);
+}
+
+TEST_CASE("A list of a branch that ends in a comma lacks an action") {
+  Playing client("sticky=0");
+  client.ask("save root");
+  for (const std::string list : {"UP,", ",UP", "UP,,UP", ","})
+    CHECK(code(client.ask("branch root " + list)) == "bad-action");
 }
 
 TEST_CASE("The ends of branches can be kept and gone on from") {
@@ -229,6 +314,7 @@ TEST_CASE("An episode that begins with no-ops begins differently, by the seed") 
   std::vector<std::string_view> words;
   split(frames, words);
   std::ranges::sort(words);
-  const auto repeated = std::unique(words.begin(), words.end());  // clang 14 lacks what std::ranges::unique needs
-  CHECK(words.end() - repeated < 12);                              // more than eight different lengths
+  const auto repeated =
+      std::unique(words.begin(), words.end());  // clang 14 lacks what std::ranges::unique needs
+  CHECK(words.end() - repeated < 12);           // more than eight different lengths
 }
