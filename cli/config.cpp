@@ -1,9 +1,10 @@
 #include "cli/config.hpp"
 
-#include <charconv>
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <string_view>
 
 #include "cli/serve_options.hpp"
 
@@ -17,18 +18,29 @@ comes from, as a TOML file that racebeam serve --config reads. The command line 
 
 constexpr int kColumn = 44;  // of the comments
 
+// As both TOML and we write it, so that reading it again gives the same text; anything else is quoted.
 bool is_number(const std::string& text) {
-  double number = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc{} && rest == text.data() + text.size() &&
-         (text == "0" || text[0] != '0' || text.starts_with("0."));
+  constexpr std::size_t kMostDigits = 15;  // that a real number keeps
+  const auto all_digits = [](std::string_view part) {
+    return !part.empty() && std::ranges::all_of(part, [](char c) { return c >= '0' && c <= '9'; });
+  };
+  const std::size_t point = text.find('.');
+  const std::string_view whole = std::string_view(text).substr(0, point);
+  if (text.size() > kMostDigits || !all_digits(whole) || (whole.size() > 1 && whole[0] == '0')) return false;
+  return point == std::string::npos || (all_digits(text.substr(point + 1)) && text.back() != '0');
 }
 
 std::string quoted(const std::string& text) {
   std::string all = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') all += '\\';
-    all += c;
+    if (static_cast<unsigned char>(c) >= ' ' && c != '\x7f') {
+      all += c;
+    } else {
+      constexpr std::string_view kDigits = "0123456789ABCDEF";
+      const auto byte = static_cast<unsigned char>(c);
+      ((all += "\\u00") += kDigits[byte >> 4]) += kDigits[byte & 15];
+    }
   }
   return all + '"';
 }

@@ -3,9 +3,13 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <sstream>
+#include <system_error>
 
 namespace racebeam {
 namespace {
@@ -35,9 +39,8 @@ std::string text_of(const toml::node& node, const std::string& where) {
   if (const auto* number = node.as_integer()) return std::to_string(number->get());
   if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
   if (const auto* real = node.as_floating_point()) {
-    std::ostringstream text;
-    text << real->get();
-    return text.str();
+    std::array<char, 64> digits;  // as few as make the same number again
+    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), real->get()).ptr};
   }
   throw CLI::ValidationError(where, "takes a text, a number, true or false, or a list of them");
 }
@@ -61,6 +64,8 @@ std::string names_of(const std::vector<CLI::Option*>& options) {
 FromFile read_file(const std::string& path, const std::vector<CLI::Option*>& options) {
   FromFile file{path, {}};
   if (path.empty()) return file;
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) throw CLI::ValidationError(path, "this is a folder, not a file");
   toml::table table;
   try {
     table = toml::parse_file(path);

@@ -1,5 +1,8 @@
 // racebeam: one program, a subcommand for each thing to do with it.
+#include <fcntl.h>
+
 #include <CLI/CLI.hpp>
+#include <array>
 #include <exception>
 #include <iostream>
 
@@ -20,7 +23,8 @@ constexpr auto kAbout =
 
 constexpr auto kFooter = R"(Try first:
   racebeam games                                          which games there are
-  racebeam serve --classic --stdio --rom builtin:NAME     play one by hand: type 0,0,0,1 then 3,18
+  racebeam serve --stdio                                  play by hand: type load beamfall, act FIRE, help
+  racebeam serve --classic --stdio --rom builtin:NAME     as agents of old do: type 0,0,0,1 then 3,18
   racebeam trace --rom builtin:NAME --actions FILE        what a list of actions leads to, frame by frame
 
 Each of them explains itself: racebeam serve --help.
@@ -39,16 +43,32 @@ std::string subcommand_names(const CLI::App& app) {
 // What is wrong with the command line, and where to read more.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
-  if (chosen.empty()) return "a subcommand is needed: " + subcommand_names(app) + " (see racebeam --help)";
+  if (chosen.empty()) {
+    const auto given = app.remaining();
+    return (given.empty() ? "a subcommand is needed: "
+                          : "'" + given.front() + "' is no subcommand; there are ") +
+           subcommand_names(app) + " (see racebeam --help)";
+  }
   const std::string sentence = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)
                                    ? "not understood: " + CLI::detail::join(chosen[0]->remaining(), " ")
                                    : std::string(error.what());
   return sentence + " (see racebeam " + chosen[0]->get_name() + " --help)";
 }
 
+// A descriptor of these that is closed would be taken by the next file or socket, which would then get what
+// is meant for people. Opened the wrong way round, they fail for who uses them.
+void take_standard_descriptors() {
+  constexpr std::array kWays = {O_WRONLY, O_RDONLY, O_RDONLY};
+  for (int descriptor = 0; descriptor < 3; ++descriptor) {
+    if (::fcntl(descriptor, F_GETFD) == -1)
+      ::open("/dev/null", kWays.at(static_cast<std::size_t>(descriptor)));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  take_standard_descriptors();
   CLI::App app{kAbout, "racebeam"};
   app.set_version_flag("--version", "racebeam " RACEBEAM_VERSION);
   app.footer(kFooter);

@@ -40,15 +40,14 @@ CLI::Validator one_of(const std::map<std::string, Rules>& rules) {
   return CLI::Validator(check, "");
 }
 
-void warn_about(const Recognition& recognition, const Image& image) {
+void warn_about(const Recognition& recognition, const Image& image, const Tell& tell) {
   const Game& game = *recognition.game;
   if (recognition.how == RecognisedBy::kNothing) {
-    std::cerr << "racebeam: '" << image.stem << "' (MD5 " << image.md5
-              << ") is not in the catalogue: it runs without a score; --game NAME or --game-file FILE gives "
-                 "it one\n";
+    tell("'" + image.stem + "' (MD5 " + image.md5 +
+         ") is not in the catalogue: it runs without a score; --game NAME or --game-file FILE gives it one");
   } else if (!recognition.md5_matches) {
-    std::cerr << "racebeam: the MD5 of this image, " << image.md5 << ", is not the one that the rule of '"
-              << game.name << "' was written for; score and end may be wrong\n";
+    tell("the MD5 of this image, " + image.md5 + ", is not the one that the rule of '" + game.name +
+         "' was written for; score and end may be wrong");
   }
 }
 
@@ -98,8 +97,8 @@ void add_machine_options(CLI::App& app, MachineOptions& options) {
       ->default_str("ale-0.12")
       ->type_name("NAME");
   const auto set_cpu = [&settings](const std::string& name) { settings.cpu = kCpuKinds.at(name); };
-  app.add_option_function<std::string>("--cpu", set_cpu,
-                                       "What runs the instructions; auto: the translator where the system allows it")
+  app.add_option_function<std::string>(
+         "--cpu", set_cpu, "What runs the instructions; auto: the translator where the system allows it")
       ->check(CLI::IsMember(kCpuKinds))
       ->default_str("auto");
   app.add_option("--mode", options.mode, "Game variation (racebeam games lists them)")
@@ -108,12 +107,14 @@ void add_machine_options(CLI::App& app, MachineOptions& options) {
       ->check(whole_number(0, kMostInt));
 }
 
-Cartridge open_cartridge(const MachineOptions& options) {
+void tell_on_standard_error(const std::string& sentence) { std::cerr << "racebeam: " << sentence << "\n"; }
+
+Cartridge open_cartridge(const MachineOptions& options, const Tell& tell) {
   const auto image = load_image(options.rom);
   const Recognition recognition = recognise(*image, options.game, options.game_file);
   const Cartridge cartridge{image, recognition.game};
   power_on(cartridge, options);
-  warn_about(recognition, *image);
+  warn_about(recognition, *image, tell);
   return cartridge;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,9 +34,12 @@ CLI::Validator whole_number(std::int64_t least, std::int64_t most);
 CLI::Option* add_count(CLI::App& app, const std::string& name, int& value, int least,
                        const std::string& help);
 
-// Loads the image, recognises the game and makes sure that a machine runs with them; then doubts about the
-// game go to standard error.
-Cartridge open_cartridge(const MachineOptions& options);
+using Tell = std::function<void(const std::string& sentence)>;
+void tell_on_standard_error(const std::string& sentence);
+
+// Loads the image, recognises the game and makes sure that a machine runs with them; then tells of doubts
+// about the game.
+Cartridge open_cartridge(const MachineOptions& options, const Tell& tell = tell_on_standard_error);
 
 // A machine that is switched on, with mode and difficulty in place.
 Environment power_on(const Cartridge& cartridge, const MachineOptions& options);

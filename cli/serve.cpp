@@ -56,7 +56,8 @@ Exit status: 0 the sessions ended, or SIGTERM or SIGINT came; 1 the start failed
 makes no sense; 255 a classic client asked for an action that does not exist.)";
 
 ClassicService classic_service(const ServeOptions& options) {
-  const auto power_on_one = [options, cartridge = open_cartridge(options.machine)] {
+  const auto tell = [](const std::string& sentence) { log_warning(sentence); };
+  const auto power_on_one = [options, cartridge = open_cartridge(options.machine, tell)] {
     MachineOptions machine = options.machine;
     machine.settings.classic = true;
     machine.settings.random_seed = resolve_seed(machine.settings.random_seed);
@@ -88,15 +89,25 @@ LineService line_service(const ServeOptions& options, Workers& workers) {
 // Said once, since it is the same for all machines.
 void tell_obstacle(CpuKind cpu) {
   const std::string obstacle = Translator::obstacle();
-  if (cpu == CpuKind::kAuto && !obstacle.empty()) log("instructions are interpreted, not translated: " + obstacle);
+  if (cpu == CpuKind::kAuto && !obstacle.empty())
+    log("instructions are interpreted, not translated: " + obstacle);
 }
 
-// Blocks as large as a picture or the records of its lines go back to the system as soon as they are let go; else a server
-// would stay as large as its sessions ever were together.
+// Blocks as large as a picture or the records of its lines go back to the system as soon as they are let go;
+// else a server would stay as large as its sessions ever were together.
 void return_large_blocks() {
 #if defined(M_MMAP_THRESHOLD)  // the C library is GNU's
   mallopt(M_MMAP_THRESHOLD, 32 << 10);
 #endif
+}
+
+int serve(const ServeOptions& options) {
+  Workers workers(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1,
+                  options.server.busy_poll);
+  Services services;
+  if (serves(options, true)) services.classic = classic_service(options);
+  if (serves(options, false)) services.line = line_service(options, workers);
+  return serve(options.server, services);
 }
 
 int serve(ServeOptions& options, CLI::App& command) {
@@ -104,12 +115,13 @@ int serve(ServeOptions& options, CLI::App& command) {
   finish(options, complete(command));
   set_up_log(options.log_level, options.log_format);
   tell_obstacle(options.machine.settings.cpu);
-  Workers workers(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1,
-                  options.server.busy_poll);
-  Services services;
-  if (serves(options, true)) services.classic = classic_service(options);
-  if (serves(options, false)) services.line = line_service(options, workers);
-  return serve(options.server, services);
+  try {
+    return serve(options);
+  } catch (const std::exception& error) {  // main would write it as text
+    if (options.log_format != LogFormat::kJson) throw;
+    log(LogLevel::kError, error.what());
+    return kExitFailure;
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
@@ -71,9 +72,18 @@ Recognition given(const std::shared_ptr<const Game>& game, RecognisedBy how, con
   return {with_properties_of(image, game), how, game->accepts(image.md5)};
 }
 
+// To clients of the line protocol it is a word, and one of a list.
+std::string as_name(std::string text) {
+  const auto stays = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+  };
+  std::ranges::replace_if(text, std::not_fn(stays), '_');
+  return text;
+}
+
 // Nobody's game; but the image may be another dump of a known one, which needs the same controllers.
 Recognition unknown(const Image& image) {
-  auto game = std::make_shared<const Game>(game_without_rule(image.stem));
+  auto game = std::make_shared<const Game>(game_without_rule(as_name(image.stem)));
   return {with_properties_of(image, std::move(game)), RecognisedBy::kNothing, true};
 }
 
@@ -122,7 +132,7 @@ std::shared_ptr<const Game> load_game_file(const std::string& path) {
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kMaxGameFile) throw std::invalid_argument("game file " + path + ": larger than 1 MiB");
-  return std::make_shared<const Game>(parse_game(text, stem_of(path), path));
+  return std::make_shared<const Game>(parse_game(text, as_name(stem_of(path)), path));
 }
 
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name,

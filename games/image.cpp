@@ -85,7 +85,9 @@ std::vector<std::string> image_files(const std::string& folder) {
   std::error_code error;
   std::vector<std::string> files;
   for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
-    if (entry->is_regular_file() && looks_like_image(entry->path())) files.push_back(entry->path().string());
+    std::error_code unknown;  // a link to itself, or into a folder that is closed to us
+    if (entry->is_regular_file(unknown) && looks_like_image(entry->path()))
+      files.push_back(entry->path().string());
   }
   if (error) throw std::invalid_argument("can't list the folder '" + folder + "': " + error.message());
   std::sort(files.begin(), files.end());

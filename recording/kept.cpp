@@ -53,7 +53,7 @@ void rename_anew(const std::string& temporary, const std::string& path) {
 }
 
 void refuse_existing(const std::string& path) {
-  if (!fs::exists(path)) return;
+  if (fs::symlink_status(path).type() == fs::file_type::not_found) return;  // a link to nothing is something
   throw std::runtime_error(fs::path(path).filename().string() + " exists; choose another name");
 }
 

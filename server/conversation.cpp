@@ -130,7 +130,10 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
         throw std::runtime_error("the client left in the middle of a request");
       if (!text.empty() && ++parts < kMostParts) continue;
       parts = 0;
+      client.working = true;
       co_await net::post(client.socket.get_executor(), use_awaitable);
+      client.working = false;
+      if (client.ending()) co_await take_leave(stream, client);
       continue;
     }
     if (!client.ending()) {
@@ -238,9 +241,9 @@ net::awaitable<void> converse(std::shared_ptr<Client> client, const Service& ser
   co_await close_gently(client);
 }
 
-net::awaitable<void> turn_away(std::shared_ptr<Client> client) {
+net::awaitable<void> turn_away(std::shared_ptr<Client> client, bool understands) {
   error_code ignored;
-  client->socket.write_some(net::buffer(client->farewell()), ignored);
+  if (understands) client->socket.write_some(net::buffer(client->farewell()), ignored);
   co_await close_gently(client);
 }
 

@@ -17,7 +17,7 @@ namespace racebeam {
 boost::asio::awaitable<void> converse(std::shared_ptr<Client> client, const Service& service,
                                       std::shared_ptr<boost::asio::ssl::context> tls, Metrics& metrics);
 
-// Says why there is no session, and closes.
-boost::asio::awaitable<void> turn_away(std::shared_ptr<Client> client);
+// Closes; before that it says why there is no session, if a plain line is what the client would understand.
+boost::asio::awaitable<void> turn_away(std::shared_ptr<Client> client, bool understands);
 
 }  // namespace racebeam

@@ -152,7 +152,8 @@ void Door::admit(Socket socket, Loop& loop, const Listener& listener, int number
                 " sessions");
     client->end(Code::kBusy, "there are " + std::to_string(settings_.max_sessions) +
                                  " sessions, as many as this server takes; come back later");
-    net::co_spawn(loop.context, turn_away(std::move(client)), net::detached);
+    const bool understands = !listener.endpoint().classic && !listener.endpoint().tls;
+    net::co_spawn(loop.context, turn_away(std::move(client), understands), net::detached);
     return;
   }
   ++metrics_.sessions_open;

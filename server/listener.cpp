@@ -1,9 +1,7 @@
 #include "server/listener.hpp"
 
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <sys/un.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
@@ -26,11 +24,6 @@ void remove_stale(const std::string& path) {
   error_code error;
   Unix::socket(context).connect(Unix::endpoint(path), error);
   if (error == net::error::connection_refused) std::filesystem::remove(path);
-}
-
-ino_t file_number(const std::string& path) {
-  struct stat found {};
-  return ::stat(path.c_str(), &found) == 0 ? found.st_ino : 0;
 }
 
 }  // namespace
@@ -62,8 +55,7 @@ bool Listener::is_loopback() const { return local_ || racebeam::is_loopback(host
 void Listener::close() {
   error_code ignored;
   acceptor_.close(ignored);
-  if (file_ != 0 && file_number(path_) == file_) ::unlink(path_.c_str());
-  file_ = 0;
+  file_.remove();
 }
 
 void Listener::listen(const TcpAddress& address) {
@@ -78,8 +70,7 @@ void Listener::listen(const UnixAddress& address) {
   }
   remove_stale(address.path);
   bind(Unix::endpoint(address.path));
-  path_ = address.path;
-  file_ = file_number(path_);
+  file_ = OwnFile(address.path);
 }
 
 void Listener::bind(const Protocol::endpoint& endpoint) {

@@ -1,8 +1,6 @@
 // One address where clients come in.
 #pragma once
 
-#include <sys/types.h>
-
 #include <string>
 #include <utility>  // Asio 1.74 forgets it
 
@@ -11,6 +9,7 @@
 #include "server/activation.hpp"
 #include "server/address.hpp"
 #include "server/client.hpp"
+#include "server/own_file.hpp"
 
 namespace racebeam {
 
@@ -49,8 +48,7 @@ class Listener {
   Acceptor acceptor_;
   std::string name_, host_;
   bool local_ = true;
-  std::string path_;  // of the socket file
-  ino_t file_ = 0;    // the file itself: somebody may have put another in its place
+  OwnFile file_;  // of a Unix socket
 };
 
 }  // namespace racebeam

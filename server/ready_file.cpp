@@ -26,7 +26,7 @@ void remove(const std::string& path) {
 
 ReadyFile::ReadyFile(std::string path) : path_(std::move(path)) { remove(path_); }
 
-ReadyFile::~ReadyFile() { ::unlink(path_.c_str()); }
+ReadyFile::~ReadyFile() { file_.remove(); }
 
 void ReadyFile::write(const std::vector<std::string>& addresses) {
   std::string text;
@@ -37,7 +37,10 @@ void ReadyFile::write(const std::vector<std::string>& addresses) {
   const bool written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
                        ::fchmod(file, 0644) == 0 && ::fsync(file) == 0;
   ::close(file);
-  if (written && ::rename(temporary.c_str(), path_.c_str()) == 0) return;
+  if (written && ::rename(temporary.c_str(), path_.c_str()) == 0) {
+    file_ = OwnFile(path_);
+    return;
+  }
   const int reason = errno;
   ::unlink(temporary.c_str());
   errno = reason;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "server/own_file.hpp"
+
 namespace racebeam {
 
 class ReadyFile {
@@ -12,7 +14,7 @@ class ReadyFile {
   // Removes what a server before has left: who waits for the file must not find that one's. Throws
   // std::runtime_error when it can't.
   explicit ReadyFile(std::string path);
-  ~ReadyFile();  // removes it: nobody listens any more
+  ~ReadyFile();  // removes it, unless it is a successor's: nobody listens any more
   ReadyFile(const ReadyFile&) = delete;
   ReadyFile& operator=(const ReadyFile&) = delete;
 
@@ -20,6 +22,7 @@ class ReadyFile {
 
  private:
   std::string path_;
+  OwnFile file_;
 };
 
 }  // namespace racebeam

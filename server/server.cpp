@@ -69,15 +69,17 @@ Server::Server(const ServerSettings& settings, const Services& services)
       signals_(first_, SIGTERM, SIGINT, SIGHUP),
       watch_(settings, loops_, metrics_),
       door_(settings, services, loops_, metrics_) {
-  if (!settings.ready_file.empty()) ready_file_.emplace(settings.ready_file);
   for (const Endpoint& endpoint : settings.endpoints) {
     if (!is_stream(endpoint.address)) continue;
     streams_.emplace_back(endpoint, endpoint.classic ? *services.classic : *services.line, settings.busy_poll,
                           metrics_);
   }
-  if (settings.http.empty()) return;
-  const HttpPages pages{[this] { return ready_.load(); }, [this] { return metrics_.text(); }};
-  http_ = std::make_unique<Http>(first_, parse_host_and_port(settings.http), pages);
+  if (!settings.http.empty()) {
+    const HttpPages pages{[this] { return ready_.load(); }, [this] { return metrics_.text(); }};
+    http_ = std::make_unique<Http>(first_, parse_host_and_port(settings.http), pages);
+  }
+  if (!settings.ready_file.empty())
+    ready_file_.emplace(settings.ready_file);  // once nothing else can be refused
 }
 
 void Server::announce() {
@@ -164,6 +166,7 @@ int Server::status() const {
 
 int serve(const ServerSettings& settings, const Services& services) {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of who writes it
   raise_descriptor_limit();
   return Server(settings, services).run();
 }

@@ -24,6 +24,8 @@ std::shared_ptr<ssl::context> Tls::context() const {
 std::shared_ptr<ssl::context> Tls::read() const {
   auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
   context->set_options(ssl::context::no_tlsv1 | ssl::context::no_tlsv1_1 | ssl::context::no_compression);
+  // Nobody is there to be asked for the password of a key.
+  context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string(); });
   error_code error;
   context->use_certificate_chain_file(certificate_, error);
   if (error) throw std::runtime_error("cannot use the certificate " + certificate_ + ": " + error.message());

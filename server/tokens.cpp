@@ -2,11 +2,14 @@
 
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <fstream>
 #include <stdexcept>
 #include <utility>
+
+#include "server/log.hpp"
 
 namespace racebeam {
 namespace {
@@ -23,6 +26,12 @@ std::string_view trimmed(std::string_view line) {
 bool is_token(std::string_view text) {
   return text.size() >= kShortest && text.size() <= kLongest &&
          std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; });
+}
+
+void warn_if_open(const std::string& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0 || (found.st_mode & S_IROTH) == 0) return;
+  log_warning("every user of this machine can read the tokens in " + path + "; chmod 600 keeps them");
 }
 
 }  // namespace
@@ -72,6 +81,7 @@ std::vector<Tokens::Digest> Tokens::read(const std::string& path) {
   }
   if (file.bad()) throw std::runtime_error("cannot read the token file " + path);
   if (digests.empty()) throw std::runtime_error("there is no token in " + path);
+  warn_if_open(path);
   return digests;
 }
 

@@ -51,6 +51,8 @@ void Watch::look_at(Client& client) {
     ++metrics_.ended_handshake;
     client.end(Code::kUnauthorized,
                "no token came within " + std::to_string(settings_.handshake_seconds) + " seconds");
+  } else if (client.working) {
+    return;
   } else if (idle > 0s && now - client.active() > idle) {
     ++metrics_.ended_idle;
     client.end(Code::kIdle,

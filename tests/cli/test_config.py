@@ -58,6 +58,18 @@ class Config(unittest.TestCase):
         for key, (value, _) in self.settings(*words).items():
             self.assertEqual(again[key][0], value, key)
 
+    def test_numbers_and_texts_that_look_like_them_are_kept_as_they_are(self):
+        for option, value in (("--sticky", ".5"), ("--sticky", "1."), ("--sticky", "0.123456789012"), ("--sticky", "1e-5"),
+                              ("--rom", "1e5"), ("--rom", ".5"), ("--rom", "-0"), ("--rom", "007"), ("--rom", "nan"),
+                              ("--rom", "1" * 30), ("--rom", "1.50"), ("--rom", "two\nlines\t"), ("--rom", "true"),
+                              ("--record-limit", str(1 << 60))):
+            with self.subTest(option=option, value=value):
+                key = option[2:].replace("-", "_")
+                printed = self.run_racebeam("config", option, value).stdout.decode()
+                again = self.run_racebeam("config", "--config", self.file(printed)).stdout.decode()
+                line = next(line for line in printed.splitlines() if line.startswith(key + " "))
+                self.assertIn(line.replace("# command line", "# file"), again.splitlines())
+
     def test_the_server_obeys(self):
         path = self.file("max_states = 5\nstdio = true\n")
         done = self.run_racebeam("serve", "--config", path, data=b"hello\n", RACEBEAM_MAX_LINE="999")
@@ -79,6 +91,7 @@ class Config(unittest.TestCase):
         self.refuse("classic = 'perhaps'\n", b"takes true or false, not 'perhaps'")
         self.refuse("listen = ['nowhere']\n", b"listen", b"'nowhere' is not an address")
         self.refuse("", b"RACEBEAM_GRACE", b"'soon' is not a whole number", RACEBEAM_GRACE="soon")
+        self.refuse("", b"this is a folder, not a file", RACEBEAM_CONFIG=self.folder)
         self.refuse("", b"nothing.toml", RACEBEAM_CONFIG="nothing.toml")
 
 

@@ -56,6 +56,7 @@ TEST_CASE("a game file that is given wins over the MD5") {
 TEST_CASE("an unknown image runs without a rule, under its file name") {
   const Recognition found = recognise(image(kNobody, "my_demo"));
   CHECK(found.game->name == "my_demo");
+  CHECK(recognise(image(kNobody, "my own, demo|1.0")).game->name == "my_own__demo_1.0");
   CHECK_FALSE(found.game->has_rule());
   CHECK(found.how == RecognisedBy::kNothing);
   CHECK(found.game->minimal_actions.size() == 18);

@@ -26,6 +26,7 @@ class Folder(unittest.TestCase):
     def write(self, name, text):
         with open(self.path(name), "w") as file:
             file.write(text)
+        os.chmod(self.path(name), 0o600)
         return self.path(name)
 
 
@@ -108,6 +109,15 @@ class Tokens(Folder):
                 self.assertIn(hint, errors[0])
         status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--token-file", self.path("nothing"))
         self.assertEqual((status, len(errors)), (1, 1), errors)
+
+
+    def test_a_file_that_everyone_can_read_is_warned_of(self):
+        for mode, warned in ((0o600, False), (0o644, True)):
+            path = self.write("tokens", TOKEN)
+            os.chmod(path, mode)
+            with Server("serve", "--listen", "tcp://127.0.0.1:0", "--token-file", path) as server:
+                server.wait_for("listening on")
+                self.assertEqual(any("every user of this machine" in line for line in server.log()), warned)
 
 
 class BeyondThisMachine(Folder):
@@ -205,6 +215,23 @@ class Tls(Folder):
                 ended, _, errors = run("serve", "--listen", "tls://127.0.0.1:0", *options)
                 self.assertEqual((ended, len(errors)), (status, 1), errors)
                 self.assertIn(hint, errors[0])
+
+    def test_nobody_is_asked_for_the_password_of_a_key(self):
+        subprocess.run(["openssl", "ec", "-aes256", "-in", self.key, "-passout", "pass:secret", "-out",
+                        self.path("locked.pem")], check=True, capture_output=True)
+        status, _, errors = run("serve", "--listen", "tls://127.0.0.1:0", "--tls-cert", self.certificate, "--tls-key",
+                                self.path("locked.pem"))
+        self.assertEqual((status, len(errors)), (1, 1), errors)
+        self.assertIn("cannot use the key", errors[0])
+
+    def test_one_too_many_is_turned_away_without_a_word(self):
+        with self.serve("--max-sessions", "1") as server:
+            with self.connect(server) as first:
+                first.sendall(b"hello\n")
+                first.recv(1)
+                plain = connect_tcp(self.port(server))
+                self.assertEqual(plain.rest(), b"")
+                plain.close()
 
     def test_a_session_ends_in_time_when_its_client_does_not_close(self):
         with self.serve() as server:

@@ -12,7 +12,7 @@ import unittest
 import urllib.error
 import urllib.request
 
-from harness import LOAD, PATIENCE, ask, connect_tcp, main, serve
+from harness import LOAD, PATIENCE, ask, connect_tcp, main, run, serve
 
 F_SETPIPE_SZ = 1031  # fcntl has the name from Python 3.10 on
 
@@ -102,6 +102,20 @@ class Log(unittest.TestCase):
             for event in events:
                 self.assertRegex(event["time"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$")
                 self.assertEqual(event["level"], "info")
+
+    def test_doubts_and_failures_of_the_start_are_objects_too(self):
+        with tempfile.TemporaryDirectory() as folder:
+            image = os.path.join(folder, "unknown.bin")
+            with open(image, "wb") as file:
+                file.write(bytes(range(256)) * 16)
+            for words, status, level, hint in (
+                    (["--classic", "--stdio", "--rom", image], 0, "warning", "is not in the catalogue"),
+                    (["--classic", "--stdio", "--rom", image + "x"], 1, "error", "there is no such file"),
+                    (["--listen", "unix:/nowhere/s"], 1, "error", "cannot listen on unix:/nowhere/s")):
+                ended, _, errors = run("serve", "--log-format", "json", *words)
+                first = [json.loads(line) for line in errors][0]
+                self.assertEqual((ended, first["level"]), (status, level))
+                self.assertIn(hint, first["message"])
 
     def test_a_standard_error_that_nobody_reads_holds_up_nobody(self):
         for log_format in ("text", "json"):

@@ -1,6 +1,7 @@
 """What those who run a server rely on: limits, the end, the ready file, systemd's sockets."""
 
 import os
+import resource
 import signal
 import socket
 import subprocess
@@ -29,6 +30,28 @@ class Limits(unittest.TestCase):
             self.assertTrue(ask(wires[-1], b"hello").startswith(b"ok "))
             for wire in (refused, *wires):
                 wire.close()
+
+    def test_who_would_not_understand_it_is_turned_away_without_a_word(self):
+        with Server("serve", "--listen", "classic+tcp://127.0.0.1:0", "--rom", GAME, "--max-sessions", "1") as server:
+            wires = [connect_tcp(server.port()) for _ in range(2)]
+            self.assertEqual(wires[0].line(), b"160-210\n")
+            self.assertEqual(wires[1].rest(), b"")
+            for wire in wires:
+                wire.close()
+
+    def test_a_long_request_is_not_idle(self):
+        frames = 100 if thread_sanitized() else 1000
+        with serve("--idle", "1", "--max-request-frames", "10000000") as server:
+            wire = connect_tcp(server.port())
+            wire.send(LOAD + b"branch root " + b"NOOP*%d " % frames * 600 + b"\n")
+            start = time.monotonic()
+            for _ in range(3):
+                wire.line()
+            self.assertEqual(wire.line().count(b" |"), 600)
+            if time.monotonic() - start < 1.5:
+                self.skipTest("the request did not take long enough to tell")
+            self.assertEqual(wire.rest(), b"error idle nothing came or went for 1 seconds\n")
+            wire.close()
 
     def test_a_session_that_is_idle_is_told_so_and_closed(self):
         with serve("--idle", "1") as server:
@@ -61,6 +84,23 @@ class Limits(unittest.TestCase):
             self.assertIn(b"error recording the recording has reached its limit of 1000000 bytes", lines[3])
             self.assertTrue(lines[4].startswith(b"ok "))
             self.assertEqual(os.listdir(folder), [])
+
+    def test_a_file_that_may_not_grow_is_an_error_of_its_recording(self):
+        with tempfile.TemporaryDirectory() as folder:
+            requests = b"load beamfall sticky=0\nrecord y4m film\nact NOOP*60\nrecord stop\nact NOOP\n"
+            done = subprocess.run([BINARY, "serve", "--stdio", "--record-dir", folder], input=requests,
+                                  capture_output=True, timeout=PATIENCE,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000000, 1000000)))
+            lines = done.stdout.splitlines()
+            self.assertIn(b"error recording cannot write film.y4m: File too large", lines[3])
+            self.assertTrue(lines[4].startswith(b"ok "))
+            self.assertEqual((done.returncode, os.listdir(folder)), (0, []))
+
+    def test_nothing_that_is_there_is_replaced(self):
+        with tempfile.TemporaryDirectory() as folder:
+            os.symlink("/nowhere/file", os.path.join(folder, "link.gif"))
+            lines = run("serve", "--stdio", "--record-dir", folder, data=b"load beamfall\nrecord gif link\n")[1].splitlines()
+            self.assertIn(b"error recording link.gif exists", lines[1])
 
     def test_there_is_no_way_to_a_path(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -100,6 +140,17 @@ class Stopping(unittest.TestCase):
             wire.close()
             self.assertEqual(server.wait(), 0)
             self.assertGreater(time.monotonic() - start, 0.9)
+
+    def test_who_is_in_the_middle_of_a_request_is_told_too(self):
+        with serve("--grace", "0", "--max-request-frames", "10000000") as server:
+            wire = connect_tcp(server.port())
+            wire.send(LOAD + b"branch root " + b"NOOP*1000 " * 5000 + b"\n")
+            for _ in range(3):
+                wire.line()
+            server.process.send_signal(signal.SIGTERM)
+            self.assertEqual(wire.rest(), b"error stopping the server stops\n")
+            wire.close()
+            self.assertEqual(server.wait(), 0)
 
     def test_a_second_signal_ends_the_grace(self):
         with serve("--grace", "1000") as server:
@@ -179,6 +230,29 @@ class ReadyFile(unittest.TestCase):
                 self.assertRegex(lines[1], r"^http://127\.0\.0\.1:\d+$")
                 self.assertEqual(server.stop(), 0)
             self.assertEqual(os.listdir(folder), [])
+
+    def test_that_of_a_successor_is_left_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "ready")
+            with serve("--ready-file", path) as server:
+                server.addresses(path)
+                with serve("--ready-file", path) as heir:
+                    heir.wait_for("listening on")
+                    mine = heir.port()
+                    while True:
+                        try:
+                            with open(path) as ready:
+                                if f":{mine}" in ready.read():
+                                    break
+                        except FileNotFoundError:
+                            pass
+                    status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--http", f"127.0.0.1:{mine}",
+                                            "--ready-file", path)
+                    self.assertEqual((status, os.path.exists(path)), (1, True), errors)
+                    self.assertEqual(server.stop(), 0)
+                    self.assertTrue(os.path.exists(path))
+                    self.assertEqual(heir.stop(), 0)
+                    self.assertFalse(os.path.exists(path))
 
     def test_one_that_cannot_be_written_is_an_error(self):
         status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--ready-file", "nowhere/ready")

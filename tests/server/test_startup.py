@@ -1,10 +1,11 @@
 """A start that fails says why in one line, with an exit status and nothing on standard output."""
 
 import os
+import subprocess
 import tempfile
 import unittest
 
-from harness import GAME, SOURCE, main, run
+from harness import BINARY, GAME, PATIENCE, SOURCE, main, run
 
 SERVE = ("serve", "--classic", "--stdio", "--rom", GAME)
 HOMEBREW = os.path.join(SOURCE, "games", "homebrew", GAME.split(":")[1] + ".bin")
@@ -111,8 +112,48 @@ class CommandLine(Refusals):
         self.check(["serve", "--classic", "--stdio"], 2, "--rom is required")
 
     def test_an_unknown_subcommand_is_answered_by_those_there_are(self):
-        self.check(["play"], 2, "serve, config, classic, trace")
+        self.check(["play"], 2, "'play' is no subcommand", "serve, config, classic, trace")
         self.check([], 2, "serve, config, classic, trace")
+
+
+class Folders(unittest.TestCase):
+    """What lies in the folder of --roms; what can't be used there is passed over."""
+
+    def games(self, prepare):
+        with tempfile.TemporaryDirectory() as folder:
+            prepare(lambda name: os.path.join(folder, name))
+            status, output, errors = run("serve", "--stdio", "--roms", folder, data=b"games\nload my_own__game__1_\n")
+            self.assertEqual((status, len(errors)), (0, 1), errors)
+            return output.decode().splitlines()
+
+    def test_what_is_no_image_is_passed_over(self):
+        def prepare(path):
+            os.symlink("loop.bin", path("loop.bin"))
+            os.symlink("nowhere.bin", path("dangling.bin"))
+            os.mkdir(path("folder.bin"))
+            os.mkfifo(path("pipe.bin"))
+            for name, data in (("empty.bin", b""), ("large.bin", bytes(1 << 20)), ("cut.bin.gz", b"\x1f\x8b\x08")):
+                with open(path(name), "wb") as file:
+                    file.write(data)
+        self.assertEqual(self.games(prepare)[0], "ok count=2 games=beamfall,updraft")
+
+    def test_the_name_of_an_unknown_image_is_a_word(self):
+        def prepare(path):
+            with open(HOMEBREW, "rb") as image, open(path("My own, game (1).bin"), "wb") as changed:
+                changed.write(bytes(reversed(image.read())))
+        listed, loaded = self.games(prepare)
+        self.assertEqual(listed, "ok count=3 games=beamfall,my_own__game__1_,updraft")
+        self.assertTrue(loaded.startswith("ok game=my_own__game__1_ md5="), loaded)
+
+
+class Descriptors(unittest.TestCase):
+    def test_standard_ones_that_are_closed_are_not_taken_by_others(self):
+        for redirection, status in (("<&-", 0), (">&-", 1), ("2>&-", 0), ("<&- >&- 2>&-", 0)):
+            with self.subTest(redirection=redirection):
+                done = subprocess.run(["bash", "-c", f"printf 'hello\\n' | '{BINARY}' serve --stdio {redirection}"],
+                                      capture_output=True, timeout=PATIENCE)
+                self.assertEqual(done.returncode, status, done)
+                self.assertEqual(done.stdout.startswith(b"ok server="), redirection == "2>&-", done)
 
 
 class Help(unittest.TestCase):
