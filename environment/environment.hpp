@@ -45,7 +45,7 @@ class Environment {
     int a, b;
   };
   Rewards rewards() const;
-  void reset_game();
+  void reset_game();  // throws std::invalid_argument when the image does not come to the mode that was set
 
   // The same for a number of frames that is not the settings': no-ops at the start of an episode.
   int act_for(int frames, int a);

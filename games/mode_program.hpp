@@ -45,7 +45,7 @@ struct ModeProgram {
 constexpr int kModeTurns =
     20000;  // of all loops of one run; more means that the image is not the one it was written for
 
-// Puts `mode` in place. Throws std::runtime_error when that can't be done with the image that is running.
+// Puts `mode` in place. Throws std::invalid_argument when that can't be done with the image that is running.
 void run_mode_program(const Game& game, Rule& rule, int mode, ModeHost& host);
 
 }  // namespace racebeam

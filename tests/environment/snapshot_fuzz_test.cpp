@@ -102,7 +102,7 @@ Bytes play_nonsense(Environment& environment, const Environment::Saved& from, st
   environment.restore(from);
   try {
     play(environment, kFrames, random);
-  } catch (const std::runtime_error&) {
+  } catch (const std::invalid_argument&) {
   }
   environment.screen_rgb(rgb);
   return to_bytes(*environment.save(true), environment);

@@ -112,7 +112,7 @@ TEST_CASE("an empty loop that does not end is given up too") {
   const Game game = game_with_setup("while 1 { while 0 { } }");
   Rule rule(game);
   FakeHost host;
-  CHECK_THROWS_AS(run_mode_program(game, rule, 5, host), std::runtime_error);
+  CHECK_THROWS_AS(run_mode_program(game, rule, 5, host), std::invalid_argument);
 }
 
 TEST_CASE("fail gives up with its text") {
