@@ -10,24 +10,22 @@ namespace {
 
 constexpr int kMostTimes = 1'000'000'000;  // Session::check_frames() limits what is asked for in all
 
-bool is_allowed(int action, std::uint32_t allowed) {
-  return action >= 0 && action < kActions && (allowed >> action & 1) != 0;
-}
-
-[[noreturn]] void refuse(std::string_view word, const AllowedActions& actions) {
+[[noreturn]] void refuse(std::string_view word, std::string_view why, const AllowedActions& actions) {
   std::string list;
   for (int action = 0; action < kActions; ++action) {
-    if (is_allowed(action, actions.allowed))
+    if ((actions.allowed >> action & 1) != 0)
       ((list += ' ') += std::to_string(action) + '=') += action_name(action);
   }
   throw Refusal(Code::kBadAction,
-                quote(word) + " is no action; " + std::string(actions.game) + " takes" + list);
+                quote(word) + std::string(why) + "; " + std::string(actions.game) + " takes" + list);
 }
 
 int number_of(std::string_view word, const AllowedActions& actions) {
   const bool digits = !word.empty() && word[0] >= '0' && word[0] <= '9';
   const auto number = digits ? parse_number<int>(word) : action_number(word);
-  if (!number || !is_allowed(*number, actions.allowed)) refuse(word, actions);
+  if (!number || *number < 0 || *number >= kActions) refuse(word, " is no action", actions);
+  if ((actions.allowed >> *number & 1) == 0)
+    refuse(word, " is not in the action set that was loaded", actions);
   return *number;
 }
 

@@ -54,6 +54,7 @@ TEST_CASE("What is no action is refused with those there are") {
 
 TEST_CASE("With a smaller set the others are refused, the numbers are the same") {
   CHECK(parse_action("RIGHT", kSome).a == 3);
-  CHECK_THAT(refusal("UP", kSome), Contains("pong takes 0=NOOP 1=FIRE 3=RIGHT"));
+  CHECK_THAT(refusal("UP", kSome),
+             Contains("'UP' is not in the action set that was loaded; pong takes 0=NOOP 1=FIRE 3=RIGHT"));
   CHECK_THAT(refusal("0/2", kSome), Contains("bad-action"));
 }
