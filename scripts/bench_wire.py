@@ -2,8 +2,8 @@
 
 Steps (one act, answered with reward, ends, lives, RAM and the screen as runs) of one client, beside an echo server with
 plain sockets that sends the same bytes, and beside the same session in process, without a wire. Then the bytes a frame by
-encoding, and a batch of 64 machines beside one. Rates are by the clock, medians of five rounds; microseconds are processor
-time of the serving process for a step, which others on the machine disturb less. Client and server have a processor each
+encoding, and a batch of 64 machines beside one. Rates are by the clock, medians of nine rounds, ratios medians of those within a
+round; microseconds are processor time of the serving process for a step, which others on the machine disturb less. Client and server have a processor each
 ("apart"), so that every wait ends with waking somebody up, or are put where the system likes ("free"), often on one.
 """
 import argparse
@@ -12,6 +12,7 @@ import itertools
 import json
 import os
 import pathlib
+import statistics
 import subprocess
 import sys
 
@@ -29,7 +30,7 @@ def parse_arguments():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--games", nargs="+", default=GAMES, metavar="GAME", help="for the bytes (default: ten)")
     parser.add_argument("--speed-games", nargs="+", default=["pong", "seaquest"], metavar="GAME", help="for the steps")
-    parser.add_argument("--steps", type=int, default=10000, help="of one round (default 10000)")
+    parser.add_argument("--steps", type=int, default=4000, help="of one round (default 4000)")
     parser.add_argument("--placement", nargs="+", default=["apart", "free"], choices=["apart", "free"],
                         help="of client and server on the processors (default: both)")
     parser.add_argument("--ahead", type=int, nargs="+", default=[1, 16],
@@ -69,6 +70,11 @@ class Session:
         self.process.wait()
 
 
+def ratio(own, *others):
+    """Beside the slowest of the others in the same round; the median of the rounds."""
+    return statistics.median(rates[0] / min(rates[1:]) for rates in zip(own["rates"], *(other["rates"] for other in others)))
+
+
 def print_speed(game, steps, ahead, placement, one_write=False):
     rom = image(game)
     apart = ["--apart"] if placement == "apart" else []
@@ -82,9 +88,8 @@ def print_speed(game, steps, ahead, placement, one_write=False):
     print(f"{'':8}{'steps/s':>10}{'echo':>10}{'of less':>9}{'us':>8}{'echo us':>9}{'extra us':>10}")
     for transport in TRANSPORTS:
         own, echo = found[transport], found["echo_" + transport]
-        ratio = own["rate"] / min(alone["rate"], echo["rate"])
         extra = own["microseconds"] - alone["microseconds"] - echo["microseconds"]
-        print(f"{transport:8}{own['rate']:10.0f}{echo['rate']:10.0f}{ratio:9.2f}{own['microseconds']:8.1f}"
+        print(f"{transport:8}{own['rate']:10.0f}{echo['rate']:10.0f}{ratio(own, alone, echo):9.2f}{own['microseconds']:8.1f}"
               f"{echo['microseconds']:9.1f}{extra:10.1f}", flush=True)
 
 
@@ -109,12 +114,12 @@ def print_batch(game, machines=64):
     print(f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} processors, steps/s and times one in process")
     for ahead, words in itertools.product((1, 2), ("reward ends", "reward ends lives ram screen:rle",
                                                    "reward ends frame_skip=4", "reward ends lives ram screen:rle frame_skip=4")):
-        done = subprocess.run([WIRE_BENCH, "--machines", str(machines), RACEBEAM, rom, "10000", str(ahead), *words.split()],
+        done = subprocess.run([WIRE_BENCH, "--machines", str(machines), RACEBEAM, rom, "5000", str(ahead), *words.split()],
                               capture_output=True, check=True)
         found = json.loads(done.stdout)
-        alone = found["in_process"]["rate"]
-        print(f"{ahead} under way, {words:46}{alone:9.0f}" + "".join(
-            f"{transport:>8}{found[transport]['rate']:8.0f}{found[transport]['rate'] / alone:6.2f}" for transport in TRANSPORTS))
+        alone = found["in_process"]
+        print(f"{ahead} under way, {words:46}{alone['rate']:9.0f}" + "".join(
+            f"{transport:>8}{found[transport]['rate']:8.0f}{ratio(found[transport], alone):6.2f}" for transport in TRANSPORTS))
 
 
 def main():
