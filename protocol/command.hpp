@@ -19,7 +19,8 @@ struct Command {
   std::string_view name;
   std::string_view arguments;  // as `help` and PROTOCOL.md show them
   std::string_view summary;
-  std::string_view example;  // for `help`; empty: it is clear without
+  std::string_view hint;     // for `help`: where a person finds the words that it takes; may be empty
+  std::string_view example;  // the same: one that works; empty: it is clear without
   std::size_t least, most;  // arguments
   Needs needs;
 

@@ -1,6 +1,4 @@
 // hello, help, stats, quit
-#include <algorithm>
-#include <array>
 #include <utility>
 
 #include "protocol/command.hpp"
@@ -19,22 +17,6 @@ void append_names(std::string& out, const Rows& rows, char between) {
     out += row.name;
   }
 }
-
-struct More {
-  std::string_view command, sentence;
-};
-
-// Where a person finds the words that a command takes.
-constexpr std::array kMore = {
-    More{"load", "help settings has the keys, help presets the presets, games the games"},
-    More{"observe", "help fields has the fields and encodings"},
-    More{"look", "help fields has the fields and encodings"},
-    More{"act", "actions has the actions; B is player B's, STRENGTH how far a paddle is turned, 0 to 1"},
-    More{"step", "written as for act"},
-    More{"branch",
-         "actions are written as for act; keep= saves where the lists end, as PREFIX0, PREFIX1, ..."},
-    More{"set", "modes and difficulties have the numbers"},
-};
 
 void help_on_settings(std::string& out) {
   out += "ok settings of load, as KEY=VALUE:";
@@ -108,8 +90,7 @@ void run_help(Session& session, Words arguments) {
   if (arguments[0] == "fields") return help_on_fields(out);
   const Command& command = find_command(arguments[0]);
   (((out += "ok ") += usage(command)) += ": ") += command.summary;
-  const auto more = std::ranges::find(kMore, command.name, &More::command);
-  if (more != kMore.end()) (out += "; ") += more->sentence;
+  if (!command.hint.empty()) (out += "; ") += command.hint;
   if (!command.example.empty()) (out += "; example: ") += command.example;
 }
 
