@@ -20,7 +20,7 @@ Socket::message_flags LookAhead::flags(bool client_sleeps) const {
 std::size_t LookAhead::look(std::span<char> space) {
   if (socket_ == nullptr || space.empty()) return 0;
   error_code nothing;
-  if (seen_ > 0 && socket_->available(nothing) == seen_) return 0;
+  if (seen_ > 0 && socket_->available(nothing) == seen_) return 0;  // nothing new: it stays where it is
   take();
   seen_ = socket_->receive(net::buffer(space.data(), space.size()), Socket::message_peek, nothing);
   return seen_;
