@@ -97,8 +97,8 @@ void Console::Impl::check_ram_size(std::span<const std::uint8_t> cartridge_ram) 
 }
 
 Console::Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on,
-                 CpuKind cpu)
-    : impl_(std::make_unique<Impl>(std::move(rom), properties, power_on, cpu)) {
+                 CpuKind cpu, Pace* pace)
+    : impl_(std::make_unique<Impl>(std::move(rom), properties, power_on, cpu, pace)) {
   impl_->power_up();
 }
 

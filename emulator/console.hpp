@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/inputs.hpp"
+#include "emulator/pace.hpp"
 #include "emulator/picture.hpp"
 #include "emulator/power_on.hpp"
 #include "emulator/properties.hpp"
@@ -21,9 +22,10 @@ class Console {
  public:
   // Builds the console around an image, as console.md section 1 says: power-on RAM, format detection, system reset.
   // Throws std::invalid_argument when no cartridge scheme fits the image. `power_on` must outlive the console.
-  // cpu: what runs the instructions; kTranslator throws std::system_error where code can't be translated.
+  // cpu: what runs the instructions; kTranslator throws std::system_error where code can't be translated. pace: is told of
+  // every step, those of format detection too, and must outlive the console; null: none.
   Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on,
-          CpuKind cpu = CpuKind::kAuto);
+          CpuKind cpu = CpuKind::kAuto, Pace* pace = nullptr);
   ~Console();
 
   void reset();  // system reset, console.md section 2

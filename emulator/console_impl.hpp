@@ -13,12 +13,13 @@
 namespace racebeam {
 
 struct Console::Impl {
-  Impl(std::shared_ptr<const Rom> rom, const Properties& given, PowerOn& source, CpuKind kind)
-      : properties(given), power_on(source), board(std::move(rom), given), format(given.format),
+  Impl(std::shared_ptr<const Rom> rom, const Properties& given, PowerOn& source, CpuKind kind, Pace* paced_by)
+      : properties(given), power_on(source), pace(paced_by), board(std::move(rom), given), format(given.format),
         translator(Translator::make(board, kind)) {}
 
   Properties properties;
   PowerOn& power_on;
+  Pace* const pace;  // null: none
   Board board;
   Format format;
   Pictures pictures;

@@ -43,6 +43,7 @@ void Console::Impl::step(bool looked_at, bool follow) {
     frame.greyed = 1;
   }
   if (state().cycle >= kEndlessCycle) board.turn_back_clocks(kEndlessTurn);
+  if (pace != nullptr) pace->frame();
 }
 
 // Runs a frame without a look at what its picture shows so far. It must fill the whole window: false if it does not, or

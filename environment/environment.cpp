@@ -63,7 +63,7 @@ std::size_t ram_index(int index) {
 }  // namespace
 
 Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_ptr<const Game> game_given,
-                        const Settings& settings_given)
+                        const Settings& settings_given, Pace* pace)
     : image(std::move(image_given)),
       game(by_rules(game_given, settings_given.rules)),
       settings(checked(settings_given, *game)),
@@ -71,7 +71,7 @@ Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_pt
       properties(game->properties_for(image->md5)),
       random(settings.random_seed),
       power_on(make_power_on(settings, random)),
-      console(image->bytes, properties, *power_on, settings.cpu),
+      console(image->bytes, properties, *power_on, settings.cpu, pace),
       rule(*game),
       legal(game->legal_actions, console.has_paddles()),
       sticky(settings.sticky),
@@ -95,8 +95,8 @@ std::span<const std::uint8_t> Environment::Impl::screen() {
 }
 
 Environment::Environment(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game,
-                         const Settings& settings)
-    : impl_(std::make_unique<Impl>(std::move(image), std::move(game), settings)) {}
+                         const Settings& settings, Pace* pace)
+    : impl_(std::make_unique<Impl>(std::move(image), std::move(game), settings, pace)) {}
 
 Environment::~Environment() = default;
 Environment::Environment(Environment&&) noexcept = default;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/pace.hpp"
 #include "emulator/properties.hpp"
 #include "environment/settings.hpp"
 #include "games/game.hpp"
@@ -30,8 +31,9 @@ constexpr int kAudioSize = 512;
 class Environment {
  public:
   // Powers a console on with `image` and resets `game`. Throws std::invalid_argument when a setting, or the
-  // image, can't be used.
-  Environment(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings);
+  // image, can't be used. `pace` is told of every frame and must outlive the environment; null: none.
+  Environment(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings,
+              Pace* pace = nullptr);
   ~Environment();
   Environment(Environment&&) noexcept;
   Environment& operator=(Environment&&) noexcept;

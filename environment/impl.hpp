@@ -22,7 +22,7 @@ namespace racebeam {
 class Blend;
 
 struct Environment::Impl {
-  Impl(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings);
+  Impl(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings, Pace* pace);
 
   const std::shared_ptr<const Image> image;
   const std::shared_ptr<const Game> game;
