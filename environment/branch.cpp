@@ -33,7 +33,7 @@ int Branching::act(const BranchAct& act) {
   return reward;
 }
 
-void Branching::leave() {
+Branching::~Branching() {
   environment_.set_drawing(drawing_);
   environment_.restore(*undisturbed_);
 }
@@ -45,20 +45,14 @@ void branch(Environment& environment, const Environment::Saved& root,
                                 std::to_string(sequences.size()) + " branches");
   }
   Branching branching(environment);
-  try {
-    for (std::size_t i = 0; i < sequences.size(); ++i) {
-      branching.enter(root);
-      for (const BranchAct& act : sequences[i]) {
-        if (branching.over()) break;
-        branching.act(act);
-      }
-      ends[i] = branching.end();
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    branching.enter(root);
+    for (const BranchAct& act : sequences[i]) {
+      if (branching.over()) break;
+      branching.act(act);
     }
-  } catch (...) {
-    branching.leave();
-    throw;
+    ends[i] = branching.end();
   }
-  branching.leave();
 }
 
 }  // namespace racebeam

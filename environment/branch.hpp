@@ -23,11 +23,14 @@ struct BranchEnd {
   int lives = 0;
 };
 
-// An environment that is lent to branches, act by act. It must not be used otherwise until `leave`.
+// An environment that is lent to branches, act by act. It must not be used otherwise meanwhile.
 class Branching {
  public:
   // Remembers where `environment` is, its generator included.
   explicit Branching(Environment& environment);
+  ~Branching();  // puts it back there
+  Branching(const Branching&) = delete;
+  Branching& operator=(const Branching&) = delete;
 
   // Begins a branch at `root`. A state without a generator goes on with the environment's, for every branch
   // from the same place in it. Throws std::invalid_argument for a state of another image or game.
@@ -40,9 +43,6 @@ class Branching {
 
   // Of the branch so far.
   const BranchEnd& end() const { return end_; }
-
-  // Puts the environment back to where it was.
-  void leave();
 
  private:
   Environment& environment_;

@@ -1,81 +1,101 @@
 #include "protocol/branch.hpp"
 
+#include <utility>
+
+#include "environment/branch.hpp"
+#include "protocol/recording.hpp"
 #include "protocol/session.hpp"
 
 namespace racebeam {
+namespace {
 
-void BranchWork::begin(Session& session) {
-  undisturbed_ = session.player->place(true);
-  session.player->machine().watch({});  // no recording of what did not happen
-  branching_.emplace(session.player->machine());
-  current_ = 0;
-  inside_ = false;
-  session.out += "ok";
-  append_pair(session.out, "branches", static_cast<std::int64_t>(branches.size()));
-}
+// The session's player, lent to branches.
+class Loan {
+ public:
+  explicit Loan(Session& session) : session_(session), undisturbed_(session.player->place(true)) {
+    session.player->machine().watch({});  // no recording of what did not happen
+  }
+  ~Loan() {
+    session_.player->go_to(undisturbed_);
+    session_.watch();
+  }
+  Loan(const Loan&) = delete;
+  Loan& operator=(const Loan&) = delete;
 
-bool BranchWork::go_on(Session& session, int& frames) {
-  while (current_ < branches.size()) {
-    if (!inside_) enter();
-    ActionQueue& queue = branches[current_];
-    while (!queue.empty() && !branching_->over()) {
-      if (frames <= 0) return false;
-      const int before = branching_->end().frames;
-      const Action& action = queue.take();
-      add(branching_->act({action.a, action.b, action.strength_a, action.strength_b}));
-      frames -= branching_->end().frames - before;
+ private:
+  Session& session_;
+  const Place undisturbed_;  // with generator and stack
+};
+
+class Rewards {  // of each act, runs of equal ones together
+ public:
+  void add(std::int64_t reward) {
+    if (!runs_.empty() && runs_.back().reward == reward) {
+      ++runs_.back().times;
+    } else {
+      runs_.push_back({reward, 1});
     }
-    leave(session);
   }
-  give_up(session);
-  return true;
-}
 
-void BranchWork::give_up(Session& session) {
-  session.player->go_to(undisturbed_);
-  session.watch();
-  branching_.reset();
-}
-
-void BranchWork::enter() {
-  branching_->enter(*root.machine);
-  rewards_.clear();
-  inside_ = true;
-}
-
-void BranchWork::add(std::int64_t reward) {
-  if (!rewards_.empty() && rewards_.back().reward == reward) {
-    ++rewards_.back().times;
-  } else {
-    rewards_.push_back({reward, 1});
+  void append(std::string& out) const {
+    append_pair(out, "rewards", "");
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      if (i > 0) out += ',';
+      append_number(out, runs_[i].reward);
+      if (runs_[i].times == 1) continue;
+      out += '*';
+      append_number(out, std::int64_t{runs_[i].times});
+    }
   }
+
+ private:
+  struct Run {
+    std::int64_t reward;
+    int times;
+  };
+  std::vector<Run> runs_;
+};
+
+Rewards play(Branching& branching, const std::vector<Action>& actions) {
+  Rewards rewards;
+  for (const Action& action : actions) {
+    for (int n = 0; n < action.times && !branching.over(); ++n)
+      rewards.add(branching.act({action.a, action.b, action.strength_a, action.strength_b}));
+  }
+  return rewards;
 }
 
-void BranchWork::leave(Session& session) {
-  const BranchEnd& end = branching_->end();
-  std::string& out = session.out;
+void append_end(std::string& out, const BranchEnd& end, const Rewards& rewards) {
   out += " |";
   append_pair(out, "reward", end.reward);
   append_pair(out, "acts", end.acts);
   append_pair(out, "terminated", end.terminated);
   append_pair(out, "truncated", end.truncated);
   append_pair(out, "lives", end.lives);
-  append_pair(out, "rewards", "");
-  for (std::size_t i = 0; i < rewards_.size(); ++i) {
-    if (i > 0) out += ',';
-    append_number(out, rewards_[i].reward);
-    if (rewards_[i].times == 1) continue;
-    out += '*';
-    append_number(out, std::int64_t{rewards_[i].times});
+  rewards.append(out);
+}
+
+}  // namespace
+
+void play_branches(Session& session, const BranchRequest& request) {
+  std::vector<std::pair<std::string, Place>> kept;
+  append_pair(session.out += "ok", "branches", static_cast<std::int64_t>(request.lists.size()));
+  {
+    const Loan loan(session);
+    Branching branching(session.player->machine());
+    for (std::size_t i = 0; i < request.lists.size(); ++i) {
+      branching.enter(*request.root.machine);
+      const Rewards rewards = play(branching, request.lists[i]);
+      append_end(session.out, branching.end(), rewards);
+      session.count({branching.end().reward, 0, branching.end().acts, branching.end().frames});
+      if (request.keep.empty()) continue;
+      const std::string name = request.keep + std::to_string(i);
+      append_pair(session.out, "state", name);
+      const bool with_random = request.root.with_random;
+      kept.emplace_back(name, Place{session.player->machine().save(with_random), {}, with_random});
+    }
   }
-  if (!keep.empty()) {
-    const std::string name = keep + std::to_string(current_);
-    session.states[name] = {session.player->machine().save(root.with_random), {}, root.with_random};
-    append_pair(out, "state", name);
-  }
-  session.count({end.reward, 0, end.acts, end.frames});
-  inside_ = false;
-  ++current_;
+  for (auto& [name, place] : kept) session.states.insert_or_assign(name, std::move(place));
 }
 
 }  // namespace racebeam

@@ -1,42 +1,22 @@
 // `branch`: from one state, several lists of actions; what planners do all day.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "environment/branch.hpp"
 #include "protocol/player.hpp"
-#include "protocol/work.hpp"
 
 namespace racebeam {
 
-class BranchWork final : public Work {
- public:
-  struct Rewards {  // of each act, runs of equal ones together
-    std::int64_t reward;
-    int times;
-  };
+class Session;
 
-  // To be filled before the work starts.
+struct BranchRequest {
   Place root;
-  std::vector<ActionQueue> branches;
+  std::vector<std::vector<Action>> lists;
   std::string keep;  // the ends are saved as this name with 0, 1, 2 ... behind it; empty: they are not
-
-  void begin(Session& session);
-  bool go_on(Session& session, int& frames) override;
-  void give_up(Session& session) override;
-
- private:
-  void enter();
-  void leave(Session& session);
-  void add(std::int64_t reward);
-
-  Place undisturbed_;  // where the session is, generator and stack included
-  std::optional<Branching> branching_;
-  std::size_t current_ = 0;
-  bool inside_ = false;  // the machine stands in branches[current_]
-  std::vector<Rewards> rewards_;
 };
+
+// Appends the reply to session.out. The session's machine is where it was afterwards, whatever is thrown.
+void play_branches(Session& session, const BranchRequest& request);
 
 }  // namespace racebeam

@@ -24,8 +24,8 @@ struct Command {
   std::size_t least, most;  // arguments
   Needs needs;
 
-  // Writes "ok" and what follows to session.out, without LF, or gives a Work to session.start(). Throws
-  // Refusal.
+  // Appends "ok" and what follows to session.out, without LF. Throws Refusal. Runs as the body of session.pacer: what takes
+  // long is suspended between frames, or where it calls breathe().
   void (*run)(Session& session, Words arguments);
 };
 

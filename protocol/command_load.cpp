@@ -149,7 +149,8 @@ void run_load(Session& session, Words arguments) {
   Cartridge cartridge = find_cartridge(session, arguments[0], words);
   std::unique_ptr<Player> player;
   try {
-    player = std::make_unique<Player>(cartridge, settings, session.fields);
+    session.allow_resets(1);
+    player = std::make_unique<Player>(cartridge, settings, session.fields, session.pacer);
   } catch (const std::invalid_argument& error) {
     const bool sent = arguments[0] == kInline && !settings.mode && !settings.difficulty;
     throw Refusal(sent ? Code::kBadImage : Code::kBadValue, error.what());

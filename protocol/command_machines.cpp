@@ -38,11 +38,8 @@ void run_open(Session& session, Words arguments) {
   const auto count = number_within(arguments[0], "N", 1, session.service.limits.machines);
   const auto machines = static_cast<std::size_t>(count);
   const Autoreset autoreset = read_autoreset(arguments.subspan(1));
-  MachinesWork::check_replies(session, session.fields, machines, autoreset);
-  // The first before those that are there go: it shows whether the mode can be set up.
-  auto first = std::make_unique<Player>(session.cartridge, session.settings, session.fields);
-  session.machines.open(machines, autoreset, std::move(first));
-  session.start(session.machines);
+  Machines::check_replies(session, session.fields, machines, autoreset);
+  session.machines.open(session, machines, autoreset);
 }
 
 void run_step(Session& session, Words arguments) {
@@ -58,14 +55,11 @@ void run_step(Session& session, Words arguments) {
       throw Refusal(Code::kBadValue, "a step is one act; *TIMES is for act and branch");
   }
   actions.resize(machines, actions[0]);
-  session.machines.step(actions);
-  session.start(session.machines);
+  session.machines.step(session, actions);
 }
 
 void run_restart(Session& session, Words arguments) {
-  auto chosen = read_mask(session, arguments);
-  session.machines.restart(chosen);
-  session.start(session.machines);
+  session.machines.restart(session, read_mask(session, arguments));
 }
 
 void run_close(Session& session, Words) {

@@ -32,6 +32,15 @@ void append_bytes_of(Session& session, int index, std::size_t count) {
       .append(session.out, session.player->machine().ram().subspan(static_cast<std::size_t>(index), count));
 }
 
+void play(Player& player, const std::vector<Action>& actions) {
+  for (const Action& action : actions) {
+    for (int n = 0; n < action.times; ++n) {
+      player.act(action);
+      if (player.machine().game_over()) return;
+    }
+  }
+}
+
 int ram_index(std::string_view text) {
   return static_cast<int>(number_within(text, "INDEX", 0, kRamSize - 1));
 }
@@ -42,7 +51,7 @@ void run_observe(Session& session, Words arguments) {
   if (!arguments.empty()) {
     std::vector<Field> fields = parse_fields(arguments);
     check_sound(session, fields);
-    const MachinesWork& machines = session.machines;
+    const Machines& machines = session.machines;
     if (!machines.empty()) machines.check_replies(session, fields, machines.size(), machines.autoreset());
     session.fields = std::move(fields);
     if (session.player) session.player->observe(session.fields);
@@ -70,33 +79,32 @@ void run_look(Session& session, Words arguments) {
   view.append(session.out, player.machine(), player.outcome());
 }
 
+// Ends early with the episode.
 void run_act(Session& session, Words arguments) {
-  auto& actions = session.act.queue.actions;
+  Player& player = *session.player;
+  std::vector<Action>& actions = session.actions;
+  std::int64_t acts = 0;
   actions.clear();
-  const AllowedActions allowed = session.player->allowed();
-  for (const std::string_view word : arguments) actions.push_back(parse_action(word, allowed));
-  session.act.queue.next = 0;
-  session.act.queue.repeated = 0;
-  session.check_frames(session.act.queue.acts());
-  session.player->begin_request();
-  session.start(session.act);
+  for (const std::string_view word : arguments) {
+    actions.push_back(parse_action(word, player.allowed()));
+    acts += actions.back().times;
+    if (actions.size() % 256 == 0) session.pacer.breathe();
+  }
+  session.check_frames(acts);
+  player.begin_request();
+  play(player, actions);
+  session.count(player.outcome());
+  session.out += "ok";
+  player.append_view(session.out);
 }
 
-// An image that was loaded with the rules of another game may not come to its mode.
 void run_reset(Session& session, Words) {
   Player& player = *session.player;
-  const Place before = player.place(true);
-  const Outcome outcome = player.outcome();
-  try {
-    player.begin_request();
-    player.reset();
-  } catch (...) {
-    player.go_to(before);
-    player.set_outcome(outcome);
-    throw;
-  }
+  session.allow_resets(1);
+  player.reset();
+  player.begin_request();
   session.out += "ok";
-  session.player->append_view(session.out);
+  player.append_view(session.out);
 }
 
 void run_peek(Session& session, Words arguments) {

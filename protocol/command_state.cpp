@@ -4,6 +4,7 @@
 #include "environment/saved.hpp"
 #include "environment/snapshot.hpp"
 #include "protocol/base64.hpp"
+#include "protocol/branch.hpp"
 #include "protocol/command.hpp"
 #include "protocol/recording.hpp"
 #include "protocol/session.hpp"
@@ -50,15 +51,21 @@ bool read_random(Words words) {
 }
 
 // A,B,C
-ActionQueue parse_sequence(std::string_view word, const AllowedActions& allowed) {
-  ActionQueue queue;
+std::vector<Action> parse_list(std::string_view word, const AllowedActions& allowed) {
+  std::vector<Action> list;
   for (;;) {
     std::string_view action = word;
     const std::string_view rest = cut_behind(action, ',');
-    queue.actions.push_back(parse_action(action, allowed));
-    if (action.size() == word.size()) return queue;
+    list.push_back(parse_action(action, allowed));
+    if (action.size() == word.size()) return list;
     word = rest;
   }
+}
+
+std::int64_t acts_of(const std::vector<Action>& list) {
+  std::int64_t acts = 0;
+  for (const Action& action : list) acts += action.times;
+  return acts;
 }
 
 }  // namespace
@@ -126,10 +133,7 @@ void run_import(Session& session, Words arguments) {
 }
 
 void run_branch(Session& session, Words arguments) {
-  BranchWork& branch = session.branch;
-  branch.root = find_state(session, arguments[0]);
-  branch.keep.clear();
-  branch.branches.clear();
+  BranchRequest branch{find_state(session, arguments[0]), {}, {}};
   Words sequences = arguments.subspan(1);
   if (sequences[0].starts_with("keep=")) {
     branch.keep = checked_name(key_value(sequences[0]).value, "state");
@@ -138,15 +142,15 @@ void run_branch(Session& session, Words arguments) {
   if (sequences.empty()) throw Refusal(Code::kBadArguments, "branch takes at least one list of actions");
   std::int64_t acts = 0;
   for (const std::string_view word : sequences) {
-    branch.branches.push_back(parse_sequence(word, session.player->allowed()));
-    acts += branch.branches.back().acts();
+    branch.lists.push_back(parse_list(word, session.player->allowed()));
+    acts += acts_of(branch.lists.back());
+    session.pacer.breathe();
   }
   session.check_frames(acts);
-  const std::size_t lists = branch.branches.size();
+  const std::size_t lists = branch.lists.size();
   session.check_reply(128 * lists + 8 * static_cast<std::size_t>(acts), std::to_string(lists) + " branches");
   if (!branch.keep.empty()) check_room(session, lists);
-  branch.begin(session);
-  session.start(branch);
+  play_branches(session, branch);
 }
 
 }  // namespace racebeam

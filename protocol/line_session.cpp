@@ -15,7 +15,9 @@ void LineSession::received(std::size_t count) {
   if (count == 0) session_->input.end();
 }
 
-bool LineSession::run(int frames) { return session_->run(frames); }
+bool LineSession::run(std::chrono::microseconds slice) { return session_->run(slice); }
+
+std::chrono::steady_clock::duration LineSession::worked() const { return session_->worked(); }
 
 bool LineSession::wants_more() const { return session_->wants_more(); }
 

@@ -3,6 +3,7 @@
 // Nothing here throws and nothing waits.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -60,10 +61,12 @@ class LineSession {
   std::span<char> space();           // where input goes; do not read while it is empty
   void received(std::size_t count);  // so much was put there; 0: the client has closed its end
 
-  // Carries out requests until about `frames` frames have run, or replies are worth sending. True: there is
-  // more to do, call it again; when output is waiting, send it first.
-  bool run(int frames = kSlice);
-  static constexpr int kSlice = 256;  // some milliseconds, which is what others have to wait
+  // Carries out requests, or a part of one, for about as long as `slice`, or until replies are worth sending.
+  // Returns true when there is more to do: send the output that waits, and call it again.
+  bool run(std::chrono::microseconds slice = kSlice);
+  static constexpr std::chrono::microseconds kSlice{2000};  // what other sessions have to wait
+
+  std::chrono::steady_clock::duration worked() const;  // how long the last run() took
 
   // Replies to requests that were sent ahead are there, and few such requests are left: if more have come by
   // now, hand them in and run() again; else send the output.

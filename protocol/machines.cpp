@@ -9,7 +9,6 @@ namespace racebeam {
 namespace {
 
 constexpr std::array<std::string_view, 3> kAutoresets = {"next-step", "same-step", "disabled"};
-constexpr int kResetFrames = 70;  // about what a reset costs
 
 }  // namespace
 
@@ -21,115 +20,157 @@ std::optional<Autoreset> autoreset_of(std::string_view name) {
 
 std::string_view name_of(Autoreset autoreset) { return kAutoresets[static_cast<std::size_t>(autoreset)]; }
 
-void MachinesWork::observe(const std::vector<Field>& fields) {
-  for (Seat& seat : seats_) seat.player->observe(fields);
+void Machines::observe(const std::vector<Field>& fields) {
+  for (const auto& seat : seats_) seat->player->observe(fields);
 }
 
-void MachinesWork::rest() {
-  for (Seat& seat : seats_)
-    if (seat.player) seat.player->machine().rest();
+void Machines::rest() {
+  for (const auto& seat : seats_) {
+    seat->player->machine().rest();
+    std::string().swap(seat->text);
+  }
 }
 
-void MachinesWork::check_replies(const Session& session, const std::vector<Field>& fields, std::size_t count,
-                                 Autoreset autoreset) {
+void Machines::check_replies(const Session& session, const std::vector<Field>& fields, std::size_t count,
+                             Autoreset autoreset) {
   const std::size_t once = text_size(fields, session.player->machine());
   const std::size_t each = autoreset == Autoreset::kSameStep ? 2 * once : once;
   session.check_reply(count * each, std::to_string(count) + " machines with these fields");
 }
 
-void MachinesWork::open(std::size_t count, Autoreset autoreset, std::unique_ptr<Player> first) {
-  seats_.clear();
-  seats_.resize(count);
-  seats_[0].player = std::move(first);
+void Machines::open(Session& session, std::size_t count, Autoreset autoreset) {
+  Seats seats(count);
+  for (auto& seat : seats) seat = std::make_unique<Seat>();
+  session.allow_resets(count);
+  work_on_all(session, seats, [&session](Seat& seat, std::size_t number) {
+    PlaySettings settings = session.settings;
+    settings.machine.random_seed += static_cast<std::uint32_t>(number);
+    seat.player = std::make_unique<Player>(session.cartridge, settings, session.fields, seat.pacer);
+    seat.player->begin_request();
+    seat.tell();
+  });
+  seats_.swap(seats);
   autoreset_ = autoreset;
-  job_ = Job::kOpen;
-  next_ = 0;
+  session.out += "ok";
+  append_pair(session.out, "machines", static_cast<std::int64_t>(count));
+  append_pair(session.out, "autoreset", name_of(autoreset));
+  append_texts(session);
 }
 
-void MachinesWork::step(std::vector<Action>& actions) {
-  actions_.swap(actions);
-  job_ = Job::kStep;
-  next_ = 0;
+void Machines::step(Session& session, std::span<const Action> actions) {
+  const std::vector<std::uint8_t> resets(size(), autoreset_ != Autoreset::kDisabled);
+  check_frames(session, static_cast<std::int64_t>(size()), resets);
+  work_on_all(session, seats_, [this, actions](Seat& seat, std::size_t number) {
+    seat.player->begin_request();
+    seat.step(actions[number], autoreset_);
+    seat.tell();
+  });
+  session.out += "ok";
+  append_pair(session.out, "machines", static_cast<std::int64_t>(size()));
+  append_texts(session);
+  for (const auto& seat : seats_) session.count(seat->player->outcome());
 }
 
-void MachinesWork::restart(std::vector<std::uint8_t>& chosen) {
-  chosen_.swap(chosen);
-  job_ = Job::kRestart;
-  next_ = 0;
+void Machines::restart(Session& session, std::span<const std::uint8_t> chosen) {
+  check_frames(session, 0, chosen);
+  work_on_all(session, seats_, [chosen](Seat& seat, std::size_t number) {
+    seat.player->begin_request();
+    if (chosen[number] != 0) seat.player->reset();
+    seat.tell();
+  });
+  session.out += "ok";
+  append_pair(session.out, "machines", static_cast<std::int64_t>(size()));
+  append_texts(session);
 }
 
-bool MachinesWork::go_on(Session& session, int& frames) {
-  const Settings& machine = session.settings.machine;
-  const int cost =
-      job_ == Job::kStep ? std::max(machine.frame_skip, machine.frame_skip_max) : 2 * kResetFrames;
-  while (next_ < seats_.size()) {
-    if (frames <= 0) return false;
-    const std::size_t affordable = std::max(static_cast<std::size_t>(frames / cost), session.service.threads);
-    const std::size_t first = next_, count = std::min(affordable, seats_.size() - first);
-    const auto task = [this, &session, first](std::size_t number) { work_on(session, first + number); };
-    if (session.service.parallel) {
-      session.service.parallel(count, std::ref(task));
-    } else {
-      for (std::size_t number = 0; number < count; ++number) task(number);
-    }
-    next_ += count;
-    frames -= static_cast<int>(count) * cost;
+// A reset is taken to last as long as the machine's longest one so far.
+void Machines::check_frames(const Session& session, std::int64_t acts,
+                            std::span<const std::uint8_t> resets) const {
+  std::int64_t frames = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (resets[i] != 0)
+      frames += std::max<std::int64_t>(seats_[i]->player->reset_frames() - kFreeResetFrames, 0);
   }
-  reply(session);
-  return true;
+  session.check_frames(acts, frames);
+}
+
+std::int64_t Machines::frames_of(const Seats& seats) {
+  std::int64_t frames = 0;
+  for (const auto& seat : seats) frames += seat->pacer.frames();
+  return frames;
+}
+
+// Rounds of a slice each; the session yields between them. A machine begins only while its round lasts, so
+// that no more machines are in progress than there are threads. The first begins in any case.
+void Machines::work_on_all(Session& session, Seats& seats, const Task& task) {
+  struct Guard {  // the task does not outlive this call
+    ~Guard() {
+      for (const auto& seat : of) seat->pacer.cancel();
+    }
+    Seats& of;
+  };
+  const Guard guard{seats};
+  for (const auto& seat : seats) {
+    seat->done = false;
+    seat->failure = nullptr;
+    seat->text.clear();
+  }
+  std::int64_t counted = frames_of(seats);
+  for (std::size_t first = 0;;) {  // that is not done
+    const auto end = session.pacer.end();
+    session.run_parallel(seats.size() - first, [&](std::size_t i) {
+      Seat& seat = *seats[first + i];
+      const bool begins = i == 0 || seat.pacer.in_progress() || Pacer::Clock::now() < end;
+      if (!seat.done && begins) work_on(seat, first + i, task, end);
+    });
+    session.pacer.count(frames_of(seats) - counted);
+    counted = frames_of(seats);
+    while (first < seats.size() && seats[first]->done) ++first;
+    if (first == seats.size()) break;
+    session.pacer.pause();
+  }
+  for (const auto& seat : seats) {
+    if (seat->failure) std::rethrow_exception(seat->failure);
+  }
 }
 
 // On any thread; touches nothing but its own seat.
-void MachinesWork::work_on(const Session& session, std::size_t number) {
-  Seat& seat = seats_[number];
-  seat.text.clear();
-  seat.failure.clear();
+void Machines::work_on(Seat& seat, std::size_t number, const Task& task, Pacer::Clock::time_point end) {
+  const auto attempt = [&seat, number, &task] {
+    try {
+      task(seat, number);
+    } catch (const std::exception&) {
+      seat.failure = std::current_exception();
+    }
+  };
   try {
-    if (job_ == Job::kOpen) open_one(session, number);
-    seat.player->begin_request();
-    if (job_ == Job::kStep) step_one(seat, actions_[number]);
-    if (job_ == Job::kRestart && chosen_[number] != 0) seat.player->reset();
-    seat.player->append_view(seat.text);
-    seat.over = seat.player->machine().game_over();
-  } catch (const std::exception& error) {
-    seat.failure = error.what();
+    seat.done = seat.pacer.work(end, attempt);
+  } catch (const std::bad_alloc&) {
+    seat.failure = std::current_exception();
+    seat.done = true;
   }
 }
 
-void MachinesWork::open_one(const Session& session, std::size_t number) {
-  if (seats_[number].player) return;
-  PlaySettings settings = session.settings;
-  settings.machine.random_seed += static_cast<std::uint32_t>(number);
-  seats_[number].player = std::make_unique<Player>(session.cartridge, settings, session.fields);
-}
-
-void MachinesWork::step_one(Seat& seat, const Action& action) {
-  Player& player = *seat.player;
-  if (autoreset_ == Autoreset::kNextStep && seat.over) return player.reset();
-  player.act(action);
-  if (autoreset_ != Autoreset::kSameStep || !player.machine().game_over()) return;
-  player.view().append_final(seat.text, player.machine());
-  const Outcome outcome = player.outcome();
-  player.reset();
-  player.set_outcome(outcome);
-}
-
-void MachinesWork::reply(Session& session) {
-  for (const Seat& seat : seats_) {
-    if (!seat.failure.empty()) throw std::runtime_error(seat.failure);
-  }
-  session.out += "ok";
-  append_pair(session.out, "machines", static_cast<std::int64_t>(seats_.size()));
-  if (job_ == Job::kOpen) append_pair(session.out, "autoreset", name_of(autoreset_));
-  for (const Seat& seat : seats_) {
-    (session.out += " |") += seat.text;
-    if (job_ == Job::kStep) session.count(seat.player->outcome());
+void Machines::append_texts(Session& session) const {
+  for (const auto& seat : seats_) {
+    (session.out += " |") += seat->text;
+    session.pacer.breathe();
   }
 }
 
-// Machines of which some were not made are of no use.
-void MachinesWork::give_up(Session&) {
-  if (job_ == Job::kOpen) seats_.clear();
+void Machines::Seat::tell() {
+  player->append_view(text);
+  over = player->machine().game_over();
+}
+
+void Machines::Seat::step(const Action& action, Autoreset autoreset) {
+  if (autoreset == Autoreset::kNextStep && over) return player->reset();
+  player->act(action);
+  if (autoreset != Autoreset::kSameStep || !player->machine().game_over()) return;
+  player->view().append_final(text, player->machine());
+  const Outcome outcome = player->outcome();
+  player->reset();
+  player->set_outcome(outcome);
 }
 
 }  // namespace racebeam

@@ -2,62 +2,67 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "environment/autoreset.hpp"
 #include "protocol/player.hpp"
-#include "protocol/work.hpp"
 
 namespace racebeam {
+
+class Session;
 
 std::optional<Autoreset> autoreset_of(std::string_view name);
 std::string_view name_of(Autoreset autoreset);
 
-class MachinesWork final : public Work {
+class Machines {
  public:
   bool empty() const { return seats_.empty(); }
   std::size_t size() const { return seats_.size(); }
   Autoreset autoreset() const { return autoreset_; }
   void close() { seats_.clear(); }
   void observe(const std::vector<Field>& fields);
-  void rest();
+  void rest();  // gives back memory that only saves time
+
   // Throws Refusal when replies about so many, of these fields, are longer than they may be.
   static void check_replies(const Session& session, const std::vector<Field>& fields, std::size_t count,
                             Autoreset autoreset);
 
-  // Each says what go_on() is to do with all machines.
-  void open(std::size_t count, Autoreset autoreset, std::unique_ptr<Player> first);
-  void step(std::vector<Action>& actions);          // one each; swapped in
-  void restart(std::vector<std::uint8_t>& chosen);  // not 0: this one; swapped in
-
-  bool go_on(Session& session, int& frames) override;
-  void give_up(Session& session) override;
+  // Each appends its reply to session.out. All throw Refusal; `open` then leaves the machines that were
+  // there.
+  void open(Session& session, std::size_t count, Autoreset autoreset);
+  void step(Session& session, std::span<const Action> actions);          // one each
+  void restart(Session& session, std::span<const std::uint8_t> chosen);  // those that are not 0
 
  private:
-  enum class Job { kOpen, kStep, kRestart };
-
   struct Seat {
+    Pacer pacer;
     std::unique_ptr<Player> player;
-    bool over = false;    // its episode
-    std::string text;     // its part of the reply; kept for its memory
-    std::string failure;  // of the job
+    bool over = false;           // its episode
+    bool done = false;           // with the request
+    std::string text;            // its part of the reply; kept for its memory
+    std::exception_ptr failure;  // of the request
+
+    void tell();  // what the machine shows
+    void step(const Action& action, Autoreset autoreset);
   };
+  using Seats = std::vector<std::unique_ptr<Seat>>;
+  using Task = std::function<void(Seat& seat, std::size_t number)>;
 
-  void work_on(const Session& session, std::size_t number);
-  void open_one(const Session& session, std::size_t number);
-  void step_one(Seat& seat, const Action& action);
-  void reply(Session& session);
+  static std::int64_t frames_of(const Seats& seats);
+  static void work_on_all(Session& session, Seats& seats, const Task& task);
+  static void work_on(Seat& seat, std::size_t number, const Task& task, Pacer::Clock::time_point end);
+  void check_frames(const Session& session, std::int64_t acts, std::span<const std::uint8_t> resets) const;
+  void append_texts(Session& session) const;
 
-  std::vector<Seat> seats_;
+  Seats seats_;
   Autoreset autoreset_ = Autoreset::kNextStep;
-  Job job_ = Job::kOpen;
-  std::vector<Action> actions_;
-  std::vector<std::uint8_t> chosen_;
-  std::size_t next_ = 0;  // seats before it are done
 };
 
 }  // namespace racebeam

@@ -4,14 +4,16 @@
 
 namespace racebeam {
 
-Player::Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields)
-    : machine_(cartridge.image, cartridge.game, settings.machine),
+Player::Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields,
+               Pacer& pacer)
+    : pacer_(pacer),
+      machine_(cartridge.image, cartridge.game, settings.machine, &pacer),
       noops_(settings.machine.random_seed, settings.noop_max),
       view_({}, machine_.height()) {
   for (const int action : actions_of(settings.action_set, machine_.game())) allowed_ |= 1U << action;
   if (settings.mode) machine_.set_mode(*settings.mode);
   if (settings.difficulty) machine_.set_difficulty(*settings.difficulty);
-  if (settings.mode || settings.difficulty || settings.noop_max > 0) reset();
+  if (settings.mode || settings.difficulty || settings.noop_max > 0) begin_episode();
   observe(std::move(fields));
   begin_request();
 }
@@ -37,7 +39,21 @@ void Player::act(const Action& action) {
   view_.acted(machine_, frames);
 }
 
+// A mode may not come about, and a request may exceed its frames.
 void Player::reset() {
+  const Place before = place(true);
+  const Outcome outcome = outcome_;
+  try {
+    begin_episode();
+  } catch (...) {
+    go_to(before);
+    outcome_ = outcome;
+    throw;
+  }
+}
+
+void Player::begin_episode() {
+  const std::int64_t frames_before = pacer_.frames();
   machine_.reset_game();
   for (int noops = noops_.draw(); noops > 0; --noops) {
     machine_.act_for(1, 0);
@@ -46,6 +62,7 @@ void Player::reset() {
   look_at_ends();
   blends_ = false;
   view_.began(machine_, blends_);
+  reset_frames_ = std::max(reset_frames_, pacer_.frames() - frames_before);
 }
 
 Place Player::place(bool with_random) const {

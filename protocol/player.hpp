@@ -10,6 +10,7 @@
 #include "games/catalogue.hpp"
 #include "protocol/action.hpp"
 #include "protocol/field.hpp"
+#include "protocol/pacer.hpp"
 #include "protocol/play_settings.hpp"
 
 namespace racebeam {
@@ -24,8 +25,9 @@ struct Place {
 
 class Player {
  public:
-  // Powers on, sets mode and difficulty, and begins an episode. Throws std::invalid_argument.
-  Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields);
+  // Powers on, sets mode and difficulty, and begins an episode. Throws std::invalid_argument, and what
+  // `pacer` throws, which outlives the player.
+  Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields, Pacer& pacer);
 
   Environment& machine() { return machine_; }
   const Environment& machine() const { return machine_; }
@@ -33,7 +35,8 @@ class Player {
 
   void begin_request();            // sums begin at 0
   void act(const Action& action);  // once, whatever its `times`
-  void reset();                    // and no-ops, as the settings have it
+  void reset();                    // and no-ops, as the settings have it; what throws leaves all as it was
+  std::int64_t reset_frames() const { return reset_frames_; }  // that the longest reset so far has run
   const Outcome& outcome() const { return outcome_; }
   void set_outcome(const Outcome& outcome) { outcome_ = outcome; }
 
@@ -49,12 +52,15 @@ class Player {
   void append_view(std::string& out) { view_.append(out, machine_, outcome_); }
 
  private:
+  void begin_episode();
   void look_at_ends();
 
+  Pacer& pacer_;
   Environment machine_;
   std::uint32_t allowed_ = 0;  // bit n: action n
   Noops noops_;                // with a generator of its own, as in the reference; no part of a state
   Outcome outcome_;
+  std::int64_t reset_frames_ = 0;
   bool blends_ = false;
   mutable View view_;
 };

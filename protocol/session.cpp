@@ -10,8 +10,6 @@
 namespace racebeam {
 namespace {
 
-constexpr int kFramesOfARequest = 1;  // what any request costs at least, so that a slice ends
-
 // Waking a client that sleeps takes the time of a step, sending that of some more: the replies of requests
 // that were sent ahead go out together, when kLastRequests are left, which are answered while the client
 // reads and sends the next. No more of them wait than this.
@@ -55,15 +53,19 @@ Session::Session(const LineService& with, Meter* counting)
       fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})),
       meter_(counting) {}
 
-Session::~Session() = default;
+Session::~Session() { pacer.cancel(); }  // before what its body uses
 
-void Session::check_frames(std::int64_t acts) const {
+void Session::check_frames(std::int64_t acts, std::int64_t frames) const {
   const Settings& machine = settings.machine;
-  const std::int64_t frames = acts * std::max(machine.frame_skip, machine.frame_skip_max);
+  frames += acts * std::max(machine.frame_skip, machine.frame_skip_max);
   const std::int64_t most = limits(service).request_frames;
   if (frames <= most) return;
   throw Refusal(Code::kLimit, "the request asks for " + std::to_string(frames) + " frames; it may ask for " +
                                   std::to_string(most));
+}
+
+void Session::allow_resets(std::size_t count) {
+  pacer.allow_frames(limits(service).request_frames + kFreeResetFrames * static_cast<std::int64_t>(count));
 }
 
 void Session::check_reply(std::size_t bytes, const std::string& about) const {
@@ -89,68 +91,72 @@ void Session::watch() {
   player->machine().watch([this] { recording->add(player->machine()); });
 }
 
-bool Session::run(int frames) {
-  frames_left_ = frames;
-  if (meter_ && work_ == nullptr) began_ = std::chrono::steady_clock::now();
-  while (!done_ && frames_left_ > 0 && !pauses()) {
-    if (!go_on()) return false;
-  }
-  return !done_;
+void Session::run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const {
+  if (service.parallel) return service.parallel(count, task);
+  for (std::size_t number = 0; number < count; ++number) task(number);
+}
+
+bool Session::run(std::chrono::microseconds slice) {
+  const auto begin = looked_ = Clock::now(), end = begin + slice;
+  if (!pacer.in_progress()) began_ = begin;
+  bool more = true;
+  for (bool late = false; more && !late && !done_ && !pauses(); late = looked_ >= end) more = go_on(end);
+  worked_ = looked_ - begin;
+  return more && !done_;
 }
 
 // A reader that is slow holds up its own requests only.
 bool Session::has_enough() const {
-  return unsent_frames_ >= kFramesOfReplies ||
+  return pacer.frames() - sent_frames_ >= kFramesOfReplies ||
          out.size() >= std::min(kBytesOfReplies, limits(service).output);
 }
 
 bool Session::pauses() const {
-  if (work_ != nullptr || out.empty() || input.empty()) return false;
+  if (pacer.in_progress() || out.empty() || input.empty()) return false;
   return has_enough() || (unsent_ >= kFewReplies && input.lines(kLastRequests + 1) == kLastRequests);
 }
 
 bool Session::wants_more() const {
-  return work_ == nullptr && !done_ && unsent_ > 1 && !has_enough() &&
+  return !pacer.in_progress() && !done_ && unsent_ > 1 && !has_enough() &&
          input.lines(kLastRequests + 1) <= kLastRequests;
 }
 
-// One step; false when there is nothing to do before something comes in.
-bool Session::go_on() {
-  const int before = frames_left_;
-  if (work_ == nullptr) {
+// A request, or a part of one; false when there is nothing to do before something comes in.
+bool Session::go_on(Clock::time_point end) {
+  if (pacer.in_progress()) {
+    pacer.go_on(end);
+  } else {
     const auto line = input.next();
     if (!line) {
       done_ = input.ended();
       return false;
     }
-    take(*line);
+    begin_request();
+    guarded([&] { pacer.work(end, [this, line = *line] { guarded([&] { take(line); }); }); });
   }
-  if (work_ != nullptr) {
-    guarded([this] {
-      if (work_->go_on(*this, frames_left_)) work_ = nullptr;
-    });
-  }
-  unsent_frames_ += before - frames_left_;
-  if (work_ == nullptr) finish_reply();
+  looked_ = Clock::now();
+  if (!pacer.in_progress()) finish_reply();
   return true;
+}
+
+void Session::refuse(Code code, std::string_view sentence) {
+  out.resize(reply_);
+  ((out += "error ") += name_of(code)) += ' ';
+  append_printable(out, sentence);
+  ++statistics.errors;
+  refused_ = true;
 }
 
 template <typename Step>
 void Session::guarded(Step step) {
-  const auto refuse = [this](Code code, std::string_view sentence) {
-    if (Work* const work = std::exchange(work_, nullptr)) work->give_up(*this);
-    out.resize(reply_);
-    ((out += "error ") += name_of(code)) += ' ';
-    append_printable(out, sentence);
-    ++statistics.errors;
-    refused_ = true;
-  };
   try {
     step();
   } catch (const Refusal& refusal) {
     refuse(refusal.code(), refusal.what());
   } catch (const std::invalid_argument& error) {
     refuse(Code::kBadValue, error.what());
+  } catch (const std::bad_alloc&) {
+    refuse(Code::kLimit, "the system has no more memory for this request");
   } catch (const std::exception& error) {
     refuse(Code::kInternal, error.what());
   }
@@ -159,21 +165,18 @@ void Session::guarded(Step step) {
 void Session::begin_request() {
   ++statistics.requests;
   reply_ = out.size();
-  frames_left_ -= kFramesOfARequest;
+  pacer.allow_any_frames();
   command_ = commands().size();
   refused_ = false;
 }
 
 void Session::take(const LineReader::Line& line) {
-  begin_request();
   statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
-  guarded([&] {
-    if (line.kind == LineReader::Kind::kLine) return execute(line.text);
-    if (line.kind == LineReader::Kind::kHalf)
-      throw Refusal(Code::kHalfLine, "the input ended within a line; it was not carried out");
-    throw Refusal(Code::kLineTooLong,
-                  "the line has more than " + std::to_string(input.longest()) + " bytes; it was skipped");
-  });
+  if (line.kind == LineReader::Kind::kLine) return execute(line.text);
+  if (line.kind == LineReader::Kind::kHalf)
+    throw Refusal(Code::kHalfLine, "the input ended within a line; it was not carried out");
+  throw Refusal(Code::kLineTooLong,
+                "the line has more than " + std::to_string(input.longest()) + " bytes; it was skipped");
 }
 
 void Session::execute(std::string_view line) {
@@ -193,29 +196,31 @@ void Session::finish_reply() {
   statistics.bytes_out += static_cast<std::int64_t>(out.size() - reply_);
   done_ = quitting;
   if (meter_) measure();
+  began_ = looked_;  // the next, if it is there
 }
 
 void Session::measure() {
-  const auto now = std::chrono::steady_clock::now();
-  meter_->request(command_, refused_, now - began_);
-  began_ = now;  // of the next, if it is there
+  meter_->request(command_, refused_, looked_ - began_);
   meter_->frames.add(statistics.frames - metered_frames_);
   metered_frames_ = statistics.frames;
 }
 
 std::string_view Session::whole_replies() const {
-  return std::string_view(out).substr(0, work_ != nullptr ? reply_ : out.size());
+  return std::string_view(out).substr(0, pacer.in_progress() ? reply_ : out.size());
 }
 
 void Session::sent(std::size_t count) {
   out.erase(0, count);
-  unsent_ = unsent_frames_ = 0;
+  unsent_ = 0;
+  sent_frames_ = pacer.frames();
   reply_ -= std::min(reply_, count);
 }
 
 void Session::cancel() {
-  if (work_ != nullptr) out.resize(reply_);
-  work_ = nullptr;
+  if (pacer.in_progress()) {
+    pacer.cancel();
+    out.resize(reply_);
+  }
   done_ = true;
 }
 
@@ -223,6 +228,8 @@ void Session::rest() {
   if (player) player->machine().rest();
   machines.rest();
   if (out.empty()) out.shrink_to_fit();
+  std::vector<Action>().swap(actions);
+  std::vector<std::string_view>().swap(words_);
 }
 
 }  // namespace racebeam

@@ -10,17 +10,19 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/branch.hpp"
 #include "protocol/line_reader.hpp"
 #include "protocol/line_session.hpp"
 #include "protocol/machines.hpp"
+#include "protocol/pacer.hpp"
 #include "protocol/player.hpp"
-#include "protocol/work.hpp"
 
 namespace racebeam {
 
 struct Command;
 class Recording;
+
+// What a machine may run beyond what was asked for: powering on and an ordinary reset take some 130 frames.
+constexpr std::int64_t kFreeResetFrames = 1000;
 
 struct Statistics {
   std::int64_t requests = 0, errors = 0, acts = 0, frames = 0, episodes = 0, bytes_in = 0, bytes_out = 0;
@@ -38,6 +40,7 @@ class Session {
   bool admitted;         // true once a token was given, or where none is needed
   int wrong_tokens = 0;  // so far
   Statistics statistics;
+  Pacer pacer;  // a request runs as its body
 
   // The game that was loaded; `player` is null without one.
   Cartridge cartridge;
@@ -48,18 +51,19 @@ class Session {
   std::unique_ptr<Recording> recording;  // null: none is running
 
   std::vector<Action> actions;  // of a request; kept for their memory
-  ActWork act;
-  BranchWork branch;
-  MachinesWork machines;
+  Machines machines;
 
-  void check_frames(std::int64_t acts) const;  // throws Refusal when a request asks for too many
+  // Throws Refusal when so many acts, and frames beside them, are more than a request may ask for.
+  void check_frames(std::int64_t acts, std::int64_t frames = 0) const;
+  void allow_resets(std::size_t machines);  // the request resets so many, for as long as its frames last
   void check_reply(std::size_t bytes, const std::string& about) const;  // throws Refusal when it is too long
-  void start(Work& work) { work_ = &work; }                             // what a handler can't do at once
   void admit();                                                         // a token was right
   void count(const Outcome& outcome);                                   // into the statistics
   void watch();  // the machine, for the recording if there is one
+  void run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
 
-  bool run(int frames);
+  bool run(std::chrono::microseconds slice);
+  Pacer::Clock::duration worked() const { return worked_; }
   std::string_view whole_replies() const;  // not the one that is being worked on: it may yet be refused
   void sent(std::size_t count);            // of them
   bool wants_more() const;                 // see LineSession
@@ -68,30 +72,33 @@ class Session {
   void rest();
 
  private:
+  using Clock = Pacer::Clock;
+
   bool has_enough() const;
   bool pauses() const;
-  bool go_on();
-  void take(const LineReader::Line& line);
+  bool go_on(Clock::time_point end);
   void begin_request();
+  void take(const LineReader::Line& line);
   void execute(std::string_view line);
+  void refuse(Code code, std::string_view sentence);
   void finish_reply();
   void measure();
   template <typename Step>
   void guarded(Step step);  // an exception becomes an error reply
 
   std::vector<std::string_view> words_;
-  std::size_t reply_ = 0;  // where in `out` the current reply begins
-  int unsent_ = 0;         // whole replies in `out`
-  int unsent_frames_ = 0;  // that they took
-  Work* work_ = nullptr;   // what is left of the current request
-  int frames_left_ = 0;    // of this slice
+  std::size_t reply_ = 0;         // where in `out` the current reply begins
+  int unsent_ = 0;                // whole replies in `out`
+  std::int64_t sent_frames_ = 0;  // of the pacer's, those before the replies in `out`
   bool done_ = false;
+  Clock::time_point began_;   // the current request
+  Clock::time_point looked_;  // at the clock, the last time
+  Clock::duration worked_{};  // in the last run()
 
   // For those who watch the server; null: nobody does.
   Meter* meter_;
   std::size_t command_ = 0;  // of the request: its row in commands()
   bool refused_ = false;
-  std::chrono::steady_clock::time_point began_;
   std::int64_t metered_frames_ = 0;
 };
 

@@ -1,0 +1,51 @@
+// A function call that can be suspended wherever it stands and resumed later. It has a stack of its own
+// (Boost.Context), so that work that takes long is written as straight-line code and still yields to other
+// sessions.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+namespace racebeam {
+
+class Fiber {
+ public:
+  Fiber();
+  ~Fiber();  // as cancel()
+  Fiber(const Fiber&) = delete;
+  Fiber& operator=(const Fiber&) = delete;
+
+  // Calls `body` until it returns or is suspended. Returns true when it has returned. `body` must not throw.
+  // No other body may be in progress. Throws std::bad_alloc when there is no memory for a stack.
+  template <typename Body>
+  bool start(Body body) {
+    const auto call = [](void* context) {
+      Body own = std::move(*static_cast<Body*>(context));
+      own();
+    };
+    return start(call, &body);
+  }
+
+  // Continues a suspended body, on any thread. Returns true when the body has returned. A function that
+  // suspends must not use thread_local variables both before and after: compilers keep their addresses.
+  bool resume();
+
+  // Unwinds a suspended body: its suspend() throws.
+  void cancel();
+
+  bool in_progress() const { return run_ != nullptr; }
+
+  // Called by the body: returns to the caller of start() or resume(), and from there only when resume() is
+  // called. Not to be called within a catch block, since exceptions in flight belong to the thread.
+  void suspend();
+
+ private:
+  struct Run;
+
+  bool start(void (*body)(void*), void* context);
+
+  std::unique_ptr<Run> run_;  // null: no body is in progress
+};
+
+}  // namespace racebeam

@@ -1,0 +1,114 @@
+// Whatever runs frames does it in slices, can be given up, and counts against the limit.
+#include <catch2/catch.hpp>
+
+#include "tests/protocol/line_client.hpp"
+
+using namespace racebeam;
+using namespace racebeam::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+// Slices that a request takes when each is as short as can be.
+int slices_of(LineClient& client, const std::string& request, std::string& reply) {
+  client.hand_in(request + "\n");
+  int slices = 1;
+  for (; client.session.run(0us); ++slices) {
+    if (!client.session.output().empty()) break;
+    REQUIRE(slices < 1'000'000);
+  }
+  reply = client.session.output();
+  client.session.sent(reply.size());
+  return slices;
+}
+
+// One session after `before`, and the slices of `request`.
+int slices_after(const std::vector<std::string>& before, const std::string& request) {
+  LineClient client;
+  for (const std::string& line : before) REQUIRE(client.ask(line).starts_with("ok"));
+  std::string reply;
+  const int slices = slices_of(client, request, reply);
+  INFO(reply);
+  CHECK(reply.starts_with("ok"));
+  return slices;
+}
+
+const std::string kLong = "load beamfall seed=1 frame_skip=1000 max_episode_frames=0 noop_max=1000";
+
+}  // namespace
+
+TEST_CASE("Every command that runs frames is done in slices") {
+  CHECK(slices_after({}, "load updraft seed=3 system_seed=77") > 10);
+  CHECK(slices_after({}, kLong) > 50);
+  CHECK(slices_after({kLong}, "act NOOP") > 50);  // also within one act
+  CHECK(slices_after({kLong}, "reset") > 50);
+  CHECK(slices_after({kLong}, "open 8") > 50);
+  CHECK(slices_after({kLong, "save a"}, "branch a NOOP") > 50);
+  CHECK(slices_after({kLong, "open 2"}, "step NOOP") > 50);
+  CHECK(slices_after({kLong, "open 2"}, "restart") > 50);
+  CHECK(slices_after({kLong, "open 2", "step NOOP", "step NOOP", "step NOOP", "step NOOP"}, "step NOOP") >
+        50);
+}
+
+TEST_CASE("Slices change nothing") {
+  LineClient whole, sliced;
+  for (const std::string request :
+       {"load beamfall seed=5 noop_max=30 frame_skip=7", "observe reward ends lives frame ram screen:rle",
+        "act FIRE*40 LEFT", "save a random=1", "branch a keep=b UP*20 FIRE*30,LEFT", "restore b1",
+        "open 5 autoreset=same-step", "step FIRE", "step UP", "restart 01010", "reset", "act RIGHT*100"}) {
+    std::string reply;
+    slices_of(sliced, request, reply);
+    CHECK(whole.ask(request) + "\n" == reply);
+  }
+}
+
+TEST_CASE("What is given up leaves no trace but the end of the session") {
+  LineClient client;
+  client.ask(kLong);
+  client.hand_in("open 200\n");
+  for (int n = 0; n < 20; ++n) REQUIRE(client.session.run(0us));
+  client.session.cancel();
+  CHECK_FALSE(client.session.run());
+  CHECK(client.session.finished());
+  CHECK(client.session.output().empty());
+}
+
+TEST_CASE("A session may end while a request is in progress") {
+  for (const std::string request : {"open 50", "act NOOP*1000", "reset", "load updraft noop_max=1000"}) {
+    LineClient client;
+    client.ask(kLong);
+    client.hand_in(request + "\n");
+    for (int n = 0; n < 5; ++n) REQUIRE(client.session.run(0us));
+  }
+}
+
+TEST_CASE("Frames of load, open, reset, restart and step count against the limit") {
+  LineLimits limits;
+  limits.request_frames = 5000;
+  LineClient client(line_service(limits));
+  client.ask("load updraft seed=1");
+  const std::string before = client.ask("settings");
+  CHECK(code(client.ask("load beamfall as=adventure mode=1 frame_skip=1000 max_episode_frames=0")) != "");
+  CHECK(client.ask("settings") == before);
+  CHECK(client.ask("load beamfall seed=1 frame_skip=200 noop_max=900 max_episode_frames=0 sticky=0")
+            .starts_with("ok"));
+  CHECK(code(client.ask("act NOOP*26")) == "limit");
+  CHECK(client.ask("open 2 autoreset=disabled").starts_with("ok"));
+  CHECK(client.ask("step NOOP").starts_with("ok"));
+  const std::string machines = client.ask("step NOOP");
+  CHECK(client.ask("open 25 autoreset=disabled").starts_with("ok"));
+  CHECK(client.ask("step NOOP").starts_with("ok"));
+  CHECK(client.ask("open 26 autoreset=disabled").starts_with("ok"));
+  CHECK(code(client.ask("step NOOP")) == "limit");  // 26 acts of 200 frames
+  CHECK(value(client.ask("restart 1" + std::string(25, '0')), "machines") == "26");
+}
+
+TEST_CASE("open beyond the frames of a request leaves the machines that are there") {
+  LineLimits limits;
+  limits.request_frames = 1;
+  LineClient client(line_service(limits));
+  client.ask("load beamfall seed=1 noop_max=1000");
+  CHECK(client.ask("open 1").starts_with("ok"));
+  CHECK(code(client.ask("open 100")) == "");  // 1,000 frames a machine are free
+  CHECK(value(client.ask("step NOOP"), "machines") == "(none)");
+}
