@@ -55,6 +55,7 @@ class Client {
   const std::string name;
   bool admitted = false;  // has shown what is needed to play
   bool working = false;   // it waits for us: a slice of its requests is done, the next has yet to come
+  Usage usage;            // of the loop
 
  private:
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};

@@ -1,7 +1,5 @@
 #include "server/conversation.hpp"
 
-#include <poll.h>
-
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -9,6 +7,7 @@
 
 #include <boost/asio/ssl.hpp>
 
+#include "server/departure.hpp"
 #include "server/log.hpp"
 #include "server/look_ahead.hpp"
 
@@ -88,13 +87,6 @@ net::awaitable<void> converse(Stream& stream, Client& client, ClassicSession& se
   }
 }
 
-// Waiting for it may take for ever: a client that only closed its sending end still listens.
-bool has_gone(Socket& socket) {
-  if (!socket.is_open()) return true;  // cut off by us
-  pollfd state{socket.native_handle(), 0, 0};
-  return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLHUP | POLLERR)) != 0;
-}
-
 LookAhead look_ahead(Socket& socket) { return LookAhead(&socket); }
 LookAhead look_ahead(TlsStream&) { return LookAhead(nullptr); }
 
@@ -106,14 +98,25 @@ bool found_more(LookAhead& ahead, Client& client, LineSession& session) {
   return true;
 }
 
+// Waits for the session's turn on its loop.
+net::awaitable<void> take_turn(Client& client) {
+  client.working = true;
+  co_await client.loop.turns.wait(client.usage);
+  client.working = false;
+}
+
 // Between two slices of a long request, or of many that were sent ahead, the loop's other sessions have their
 // turn. Of the latter a slice has some parts, each of which ends with replies that are sent.
 template <typename Stream>
 net::awaitable<void> converse(Stream& stream, Client& client, LineSession& session) {
   constexpr int kMostParts = 4;
   LookAhead ahead = look_ahead(stream);
+  Departure departure;
+  Turns& turns = client.loop.turns;
   for (int parts = 0;;) {
+    if (!turns.may_work(client.usage)) co_await take_turn(client);
     const bool more = session.run();
+    turns.worked(client.usage, session.worked());
     if (session.wants_more() && found_more(ahead, client, session)) continue;
     client.admitted = session.admitted();
     const std::string_view text = session.output();
@@ -126,13 +129,11 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
     }
     if (session.finished()) break;
     if (more) {
-      if (text.empty() && has_gone(client.socket))
+      if (text.empty() && departure.has_gone(client.socket))
         throw std::runtime_error("the client left in the middle of a request");
       if (!text.empty() && ++parts < kMostParts) continue;
       parts = 0;
-      client.working = true;
-      co_await net::post(client.socket.get_executor(), use_awaitable);
-      client.working = false;
+      co_await take_turn(client);
       if (client.ending()) co_await take_leave(stream, client);
       continue;
     }

@@ -12,7 +12,10 @@ namespace racebeam {
 void Loop::run() {
   const auto stay = boost::asio::make_work_guard(context);
   while (!context.stopped()) {
-    if (busy.again()) {
+    if (!turns.empty()) {
+      turns.wake_next();
+      context.poll();
+    } else if (busy.again()) {
       context.poll();
     } else {
       context.run_one();

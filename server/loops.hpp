@@ -12,6 +12,7 @@
 
 #include "server/busy_poll.hpp"
 #include "server/metrics.hpp"
+#include "server/turns.hpp"
 
 namespace racebeam {
 
@@ -25,6 +26,7 @@ struct Loop {
   std::atomic<int> sessions = 0;
   Meter& meter;
   BusyPoll busy;                        // only touched on the loop's thread
+  Turns turns;                          // the same
   std::unordered_set<Client*> clients;  // those in a session; only touched on the loop's thread
   boost::asio::io_context context{1};   // the last, so that what waits in it goes first
 };

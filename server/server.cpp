@@ -134,7 +134,7 @@ net::awaitable<void> Server::wind_down() {
   const auto grace = Clock::now() + std::chrono::seconds(settings_.grace_seconds);
   for (; !all_ended() && patient_ && Clock::now() < grace; co_await pause()) stop_streams(false);
   watch_.end_all();
-  const auto farewell = Clock::now() + 1s;
+  const auto farewell = Clock::now() + 700ms;
   for (; !all_ended() && Clock::now() < farewell; co_await pause()) stop_streams(true);
   // Connections that are being closed: what was sent last is on its way.
   const auto last = Clock::now() + 100ms;
