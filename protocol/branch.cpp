@@ -4,6 +4,24 @@
 
 namespace racebeam {
 
+void RewardRuns::add(std::int64_t reward) {
+  if (!runs_.empty() && runs_.back().reward == reward) {
+    ++runs_.back().times;
+  } else {
+    runs_.push_back({reward, 1});
+  }
+}
+
+void RewardRuns::append(std::string& out) const {
+  for (const Run& run : runs_) {
+    if (&run != runs_.data()) out += ',';
+    append_number(out, run.reward);
+    if (run.times == 1) continue;
+    out += '*';
+    append_number(out, std::int64_t{run.times});
+  }
+}
+
 void BranchWork::begin(Session& session) {
   undisturbed_ = session.player->place(true);
   session.player->machine().watch({});  // no recording of what did not happen
@@ -22,7 +40,8 @@ bool BranchWork::go_on(Session& session, int& frames) {
       if (frames <= 0) return false;
       const int before = branching_->end().frames;
       const Action& action = queue.take();
-      add(branching_->act({action.a, action.b, action.strength_a, action.strength_b}));
+      rewards_.add(branching_->act({action.a, action.b, action.strength_a, action.strength_b}));
+      rewards_b_.add(session.player->machine().rewards().b);
       frames -= branching_->end().frames - before;
     }
     leave(session);
@@ -40,40 +59,33 @@ void BranchWork::give_up(Session& session) {
 void BranchWork::enter() {
   branching_->enter(*root.machine);
   rewards_.clear();
+  rewards_b_.clear();
   inside_ = true;
-}
-
-void BranchWork::add(std::int64_t reward) {
-  if (!rewards_.empty() && rewards_.back().reward == reward) {
-    ++rewards_.back().times;
-  } else {
-    rewards_.push_back({reward, 1});
-  }
 }
 
 void BranchWork::leave(Session& session) {
   const BranchEnd& end = branching_->end();
+  const bool for_two = session.player->machine().game().has_second_reward();
   std::string& out = session.out;
   out += " |";
   append_pair(out, "reward", end.reward);
+  if (for_two) append_pair(out, "reward_b", end.reward_b);
   append_pair(out, "acts", end.acts);
   append_pair(out, "terminated", end.terminated);
   append_pair(out, "truncated", end.truncated);
   append_pair(out, "lives", end.lives);
   append_pair(out, "rewards", "");
-  for (std::size_t i = 0; i < rewards_.size(); ++i) {
-    if (i > 0) out += ',';
-    append_number(out, rewards_[i].reward);
-    if (rewards_[i].times == 1) continue;
-    out += '*';
-    append_number(out, std::int64_t{rewards_[i].times});
+  rewards_.append(out);
+  if (for_two) {
+    append_pair(out, "rewards_b", "");
+    rewards_b_.append(out);
   }
   if (!keep.empty()) {
     const std::string name = keep + std::to_string(current_);
     session.states[name] = {session.player->machine().save(root.with_random), {}, root.with_random};
     append_pair(out, "state", name);
   }
-  session.count({end.reward, 0, end.acts, end.frames});
+  session.count({end.reward, end.reward_b, end.acts, end.frames});
   inside_ = false;
   ++current_;
 }

@@ -11,13 +11,23 @@
 
 namespace racebeam {
 
-class BranchWork final : public Work {
+// The rewards of one act after the other, runs of equal ones together.
+class RewardRuns {
  public:
-  struct Rewards {  // of each act, runs of equal ones together
+  void clear() { runs_.clear(); }
+  void add(std::int64_t reward);
+  void append(std::string& out) const;  // R,R*TIMES,...
+
+ private:
+  struct Run {
     std::int64_t reward;
     int times;
   };
+  std::vector<Run> runs_;
+};
 
+class BranchWork final : public Work {
+ public:
   // To be filled before the work starts.
   Place root;
   std::vector<ActionQueue> branches;
@@ -30,13 +40,12 @@ class BranchWork final : public Work {
  private:
   void enter();
   void leave(Session& session);
-  void add(std::int64_t reward);
 
   Place undisturbed_;  // where the session is, generator and stack included
   std::optional<Branching> branching_;
   std::size_t current_ = 0;
   bool inside_ = false;  // the machine stands in branches[current_]
-  std::vector<Rewards> rewards_;
+  RewardRuns rewards_, rewards_b_;
 };
 
 }  // namespace racebeam

@@ -143,7 +143,9 @@ void run_branch(Session& session, Words arguments) {
   }
   session.check_frames(acts);
   const std::size_t lists = branch.branches.size();
-  session.check_reply(128 * lists + 8 * static_cast<std::size_t>(acts), std::to_string(lists) + " branches");
+  const std::size_t players = session.player->machine().game().has_second_reward() ? 2 : 1;
+  session.check_reply(128 * lists + 8 * players * static_cast<std::size_t>(acts),
+                      std::to_string(lists) + " branches");
   if (!branch.keep.empty()) check_room(session, lists);
   branch.begin(session);
   session.start(branch);

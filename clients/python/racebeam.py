@@ -47,6 +47,15 @@ def apply_delta(array, text):
             place += length
 
 
+def decode_rewards(text):
+    """A list from R,R*TIMES,..."""
+    rewards = []
+    for run in filter(None, text.split(",")):
+        reward, _, times = run.partition("*")
+        rewards += [int(reward)] * int(times or 1)
+    return rewards
+
+
 DECODERS = {
     "hex": bytes.fromhex,
     "rle": lambda text: decode_runs(bytes.fromhex(text)),
@@ -260,16 +269,12 @@ class Session:
         self.ask("import", name, base64.b64encode(data).decode())
 
     def branch(self, name, *sequences, keep=None):
-        """Each sequence is a list of actions; answers a dictionary for each, with `rewards` as a list."""
+        """Each sequence is a list of actions; answers a dictionary for each, with `rewards`, and `rewards_b` if there are, as lists."""
         words = [f"keep={keep}"] if keep else []
         words += [",".join(map(str, actions)) for actions in sequences]
         results = []
         for texts in self.ask("branch", name, *words)[1:]:
-            rewards = []
-            for run in filter(None, texts.pop("rewards").split(",")):
-                reward, _, times = run.partition("*")
-                rewards += [int(reward)] * int(times or 1)
-            results.append({**{key: number(text) for key, text in texts.items()}, "rewards": rewards})
+            results.append({key: decode_rewards(text) if key.startswith("rewards") else number(text) for key, text in texts.items()})
         return results
 
     def open(self, count, autoreset="next-step"):

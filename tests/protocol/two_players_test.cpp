@@ -92,3 +92,27 @@ TEST_CASE("In the catalogue's games for two player B is rewarded") {
     CHECK(gains_and_losses_of_b(client) > 0);
   }
 }
+
+TEST_CASE("A branch answers what both players get, where the rules know two") {
+  Duel client;
+  client.ask("save root");
+  const std::string reply = client.ask("branch root NOOP/RIGHT*2,RIGHT,NOOP*3 RIGHT/RIGHT*4");
+  CHECK(value(reply, "reward", 1) == "1");
+  CHECK(value(reply, "reward_b", 1) == "6");
+  CHECK(value(reply, "rewards", 1) == "0*2,1,0*3");
+  CHECK(value(reply, "rewards_b", 1) == "3*2,0*4");
+  CHECK(value(reply, "reward_b", 2) == "12");
+  CHECK(value(reply, "rewards_b", 2) == "3*4");
+  client.say("load beamfall\nsave root\n");
+  CHECK(value(client.ask("branch root NOOP/RIGHT"), "reward_b", 1) == "(none)");
+}
+
+TEST_CASE("The rewards of two players take twice the room in the reply of a branch") {
+  LineLimits limits;
+  limits.reply = 1000;
+  LineClient client(duel_service(limits));
+  client.say("load beamfall\nsave root\n");
+  CHECK(code(client.ask("branch root NOOP*100")) == "");
+  client.say("load duel\nsave root\n");
+  CHECK(code(client.ask("branch root NOOP*100")) == "limit");
+}
