@@ -18,7 +18,7 @@ import subprocess
 import zlib
 
 # What bytes are written in when `observe` does not say.
-USUAL_ENCODING = {"ram": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "audio": "hex"}
+USUAL_ENCODING = {"ram": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
 
 
 class Refused(Exception):
@@ -173,7 +173,7 @@ class Session:
     def _size(self, field):
         if field.startswith("grey84"):
             return 84 * 84 * int(field.partition("x")[2] or 1)
-        return {"ram": 128, "audio": 512, "screen": 160 * self.height, "grey": 160 * self.height,
+        return {"ram": 128, "palette": 768, "audio": 512, "screen": 160 * self.height, "grey": 160 * self.height,
                 "rgb": 480 * self.height}[field]
 
     def _shown(self, *words):
@@ -237,6 +237,11 @@ class Session:
     def look(self, *fields):
         texts = self.ask("look", *fields)[0]
         return self.decoded(texts, 0, self._encodings(fields) if fields else None)
+
+    def palette(self):
+        """Red, green and blue of each value that a pixel of `screen` can have."""
+        data = self.look("palette")["palette"]
+        return [tuple(data[at:at + 3]) for at in range(0, len(data), 3)]
 
     def act(self, *actions):
         return self._shown("act", *actions)

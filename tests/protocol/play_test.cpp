@@ -7,7 +7,7 @@
 
 #include "protocol/base64.hpp"
 #include "protocol/words.hpp"
-#include "tests/protocol/line_client.hpp"
+#include "tests/protocol/duel.hpp"
 
 using namespace racebeam;
 using Catch::Matchers::Contains;
@@ -343,4 +343,21 @@ TEST_CASE("An episode that begins with no-ops begins differently, by the seed") 
   const auto repeated =
       std::unique(words.begin(), words.end());  // clang 14 lacks what std::ranges::unique needs
   CHECK(words.end() - repeated < 12);           // more than eight different lengths
+}
+
+TEST_CASE("The palette gives a screen its colours, in each television standard") {
+  for (const std::string game : {"duel", "duel_pal"}) {
+    LineClient client(test::duel_service());
+    client.ask("load " + game + " seed=7");
+    const auto colours = bytes_of_hex(value(client.ask("look palette"), "palette"));
+    REQUIRE(colours.size() == 768);
+    const std::string shown = client.ask("look screen:hex rgb:hex");
+    std::vector<std::uint8_t> rgb;
+    for (const std::uint8_t pixel : bytes_of_hex(value(shown, "screen"))) {
+      const auto* const colour = &colours[std::size_t{3} * pixel];
+      rgb.insert(rgb.end(), colour, colour + 3);
+    }
+    const bool same = rgb == bytes_of_hex(value(shown, "rgb"));
+    CHECK(same);
+  }
 }
