@@ -78,6 +78,7 @@ void run_act(Session& session, Words arguments) {
   session.act.queue.next = 0;
   session.act.queue.repeated = 0;
   session.check_frames(session.act.queue.acts());
+  if (session.settings.autoreset && session.player->machine().game_over()) return run_reset(session, {});
   session.player->begin_request();
   session.start(session.act);
 }

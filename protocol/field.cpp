@@ -169,6 +169,7 @@ void View::began(const Environment& machine, bool blends) {
 }
 
 void View::append(std::string& out, const Environment& machine, const Outcome& outcome) {
+  if (outcome.over) append_pair(out, "over", 1);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     ((out += ' ') += fields_[i].name) += '=';
     append_value(out, i, machine, outcome);

@@ -30,7 +30,10 @@ void Player::act(const Action& action) {
   const int before = machine_.frame_number();
   machine_.act(action.a, action.b, action.strength_a, action.strength_b);
   const int frames = frames_between(before, machine_.frame_number());
-  if (frames == 0) return;  // the episode was over: no reward, even where each is raised to a least one
+  if (frames == 0) {  // no reward, even where each is raised to a least one
+    outcome_.over = outcome_.acts == 0;
+    return;
+  }
   const auto [reward, reward_b] = machine_.rewards();
   outcome_.reward += reward;
   outcome_.reward_b += reward_b;

@@ -229,6 +229,8 @@ const Cases kSettings = {
     {"max_episode_frames", kLoad + " max_episode_frames=2", kLoad + " max_episode_frames=0", "act NOOP*3"},
     {"life_loss_ends", kLoad + " life_loss_ends=1", kLoad + " life_loss_ends=0", "poke 18 01\nact NOOP"},
     {"noop_max", kLoad + " noop_max=30", kLoad + " noop_max=0", "look episode_frame"},
+    {"autoreset", kLoad + " max_episode_frames=2 autoreset=1", kLoad + " max_episode_frames=2 autoreset=0",
+     "observe episode_frame\nact NOOP*2\nact NOOP"},
     {"action_set", kLoad + " action_set=full", kLoad + " action_set=minimal", "act UP"},
     {"reward_min", kLoad + " reward_min=1", kLoad + " reward_min=0", "act NOOP"},
     {"reward_max", kLoad + " reward_max=1", kLoad + " reward_max=2", "observe reward_b\nact NOOP/RIGHT"},
@@ -355,7 +357,7 @@ TEST_CASE("Each key of a reply tells something") {
   compare(
       "load duel_pal preset=dqn2015 rules=fixed seed=7 system_seed=1 frame_skip=2-4 mode=2 difficulty=3 "
       "max_episode_frames=9 "
-      "life_loss_ends=1 noop_max=3 reward_min=-7 reward_max=7 color_averaging=1 sound=1",
+      "life_loss_ends=1 noop_max=3 reward_min=-7 reward_max=7 autoreset=1 color_averaging=1 sound=1",
       "load inline seed=8 image=" + counter_as_text(1), {"width"});
   other.ask("load beamfall as=pong");
   compare("modes", "modes", {"default"});

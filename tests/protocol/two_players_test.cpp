@@ -66,7 +66,7 @@ TEST_CASE("Acts after the end give no reward, whatever a reward is raised to") {
   for (const std::string end : {"max_episode_frames=2", "life_loss_ends=0"}) {
     Duel client("reward_min=1 " + end);
     client.say("act NOOP\npoke 17 01\nact NOOP\n");
-    CHECK(client.ask("act RIGHT/RIGHT*3") == "ok reward=0 reward_b=0");
+    CHECK(client.ask("act RIGHT/RIGHT*3") == "ok over=1 reward=0 reward_b=0");
   }
 }
 
