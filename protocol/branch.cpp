@@ -27,7 +27,7 @@ class Loan {
   const Place undisturbed_;  // with generator and stack
 };
 
-class Rewards {  // of each act, runs of equal ones together
+class RewardRuns {  // the rewards of one act after the other, runs of equal ones together
  public:
   void add(std::int64_t reward) {
     if (!runs_.empty() && runs_.back().reward == reward) {
@@ -37,14 +37,14 @@ class Rewards {  // of each act, runs of equal ones together
     }
   }
 
-  void append(std::string& out) const {
-    append_pair(out, "rewards", "");
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
-      if (i > 0) out += ',';
-      append_number(out, runs_[i].reward);
-      if (runs_[i].times == 1) continue;
+  void append(std::string& out, std::string_view key) const {  // " key=R,R*TIMES,..."
+    append_pair(out, key, "");
+    for (const Run& run : runs_) {
+      if (&run != runs_.data()) out += ',';
+      append_number(out, run.reward);
+      if (run.times == 1) continue;
       out += '*';
-      append_number(out, std::int64_t{runs_[i].times});
+      append_number(out, std::int64_t{run.times});
     }
   }
 
@@ -56,23 +56,31 @@ class Rewards {  // of each act, runs of equal ones together
   std::vector<Run> runs_;
 };
 
-Rewards play(Branching& branching, const std::vector<Action>& actions) {
+struct Rewards {
+  RewardRuns a, b;
+};
+
+Rewards play(Branching& branching, const Environment& machine, const std::vector<Action>& actions) {
   Rewards rewards;
   for (const Action& action : actions) {
-    for (int n = 0; n < action.times && !branching.over(); ++n)
-      rewards.add(branching.act({action.a, action.b, action.strength_a, action.strength_b}));
+    for (int n = 0; n < action.times && !branching.over(); ++n) {
+      rewards.a.add(branching.act({action.a, action.b, action.strength_a, action.strength_b}));
+      rewards.b.add(machine.rewards().b);
+    }
   }
   return rewards;
 }
 
-void append_end(std::string& out, const BranchEnd& end, const Rewards& rewards) {
+void append_end(std::string& out, const BranchEnd& end, const Rewards& rewards, bool for_two) {
   out += " |";
   append_pair(out, "reward", end.reward);
+  if (for_two) append_pair(out, "reward_b", end.reward_b);
   append_pair(out, "acts", end.acts);
   append_pair(out, "terminated", end.terminated);
   append_pair(out, "truncated", end.truncated);
   append_pair(out, "lives", end.lives);
-  rewards.append(out);
+  rewards.a.append(out, "rewards");
+  if (for_two) rewards.b.append(out, "rewards_b");
 }
 
 }  // namespace
@@ -82,17 +90,19 @@ void play_branches(Session& session, const BranchRequest& request) {
   append_pair(session.out += "ok", "branches", static_cast<std::int64_t>(request.lists.size()));
   {
     const Loan loan(session);
-    Branching branching(session.player->machine());
+    Environment& machine = session.player->machine();
+    Branching branching(machine);
     for (std::size_t i = 0; i < request.lists.size(); ++i) {
       branching.enter(*request.root.machine);
-      const Rewards rewards = play(branching, request.lists[i]);
-      append_end(session.out, branching.end(), rewards);
-      session.count({branching.end().reward, 0, branching.end().acts, branching.end().frames});
+      const Rewards rewards = play(branching, machine, request.lists[i]);
+      const BranchEnd& end = branching.end();
+      append_end(session.out, end, rewards, machine.game().has_second_reward());
+      session.count({end.reward, end.reward_b, end.acts, end.frames});
       if (request.keep.empty()) continue;
       const std::string name = request.keep + std::to_string(i);
       append_pair(session.out, "state", name);
       const bool with_random = request.root.with_random;
-      kept.emplace_back(name, Place{session.player->machine().save(with_random), {}, with_random});
+      kept.emplace_back(name, Place{machine.save(with_random), {}, with_random});
     }
   }
   for (auto& [name, place] : kept) session.states.insert_or_assign(name, std::move(place));

@@ -1,5 +1,5 @@
 // open, step, restart, close
-#include <algorithm>
+#include <limits>
 
 #include "protocol/command.hpp"
 #include "protocol/recording.hpp"
@@ -14,6 +14,13 @@ Autoreset read_autoreset(Words words) {
   if (const auto autoreset = autoreset_of(value)) return *autoreset;
   throw Refusal(Code::kBadValue,
                 "autoreset is " + quote(value) + "; it takes next-step, same-step or disabled");
+}
+
+std::size_t read_machines(const Session& session, std::string_view word) {
+  const auto count = number_within(word, "N", 1, std::numeric_limits<std::int64_t>::max());
+  const int most = session.service.limits.machines;
+  if (count <= most) return static_cast<std::size_t>(count);
+  throw Refusal(Code::kLimit, "N is " + quote(word) + "; there may be " + std::to_string(most) + " machines");
 }
 
 [[noreturn]] void refuse_count(const Session& session, std::size_t given, const std::string& what) {
@@ -35,8 +42,7 @@ std::vector<std::uint8_t> read_mask(const Session& session, Words words) {
 }  // namespace
 
 void run_open(Session& session, Words arguments) {
-  const auto count = number_within(arguments[0], "N", 1, session.service.limits.machines);
-  const auto machines = static_cast<std::size_t>(count);
+  const std::size_t machines = read_machines(session, arguments[0]);
   const Autoreset autoreset = read_autoreset(arguments.subspan(1));
   Machines::check_replies(session, session.fields, machines, autoreset);
   session.machines.open(session, machines, autoreset);

@@ -91,6 +91,7 @@ void run_act(Session& session, Words arguments) {
     if (actions.size() % 256 == 0) session.pacer.breathe();
   }
   session.check_frames(acts);
+  if (session.settings.autoreset && player.machine().game_over()) return run_reset(session, {});
   player.begin_request();
   play(player, actions);
   session.count(player.outcome());

@@ -45,6 +45,18 @@ std::string_view state_name(std::string_view word) {
   return checked_name(word, "state");
 }
 
+// The names under which `lists` ends of a branch are kept; all of them are good, and there is room for the
+// new ones.
+void check_keep(const Session& session, std::string_view prefix, std::size_t lists) {
+  std::size_t added = 0;
+  for (std::size_t list = 0; list < lists; ++list) {
+    const std::string name = std::string(prefix) + std::to_string(list);
+    state_name(name);
+    added += !session.states.contains(name);
+  }
+  check_room(session, added);
+}
+
 bool read_random(Words words) {
   if (words.empty()) return false;
   return number_within(value_of(words[0], "random", "save"), "random", 0, 1) == 1;
@@ -148,8 +160,10 @@ void run_branch(Session& session, Words arguments) {
   }
   session.check_frames(acts);
   const std::size_t lists = branch.lists.size();
-  session.check_reply(128 * lists + 8 * static_cast<std::size_t>(acts), std::to_string(lists) + " branches");
-  if (!branch.keep.empty()) check_room(session, lists);
+  const std::size_t players = session.player->machine().game().has_second_reward() ? 2 : 1;
+  session.check_reply(128 * lists + 8 * players * static_cast<std::size_t>(acts),
+                      std::to_string(lists) + " branches");
+  if (!branch.keep.empty()) check_keep(session, branch.keep, lists);
   play_branches(session, branch);
 }
 

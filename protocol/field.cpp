@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "emulator/palette.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -50,6 +52,13 @@ constexpr std::array kFields = {
     FieldRow{kStack,
              "84 x 84 grey, the brighter of the last two frames; grey84x4: a stack of 4, oldest first", false,
              nullptr, nullptr, Encoding::kZlib, Drawing::kLastTwo},
+    FieldRow{"palette", "256 x 3: red, green, blue of each value of screen", false, nullptr,
+             [](const Environment& e, Scratch& scratch) -> Bytes {
+               scratch.clear();
+               for (const auto [r, g, b] : palette(e.format())) scratch.insert(scratch.end(), {r, g, b});
+               return scratch;
+             },
+             Encoding::kHex},
     FieldRow{"audio", "512 samples of the last act; needs sound=1", false, nullptr,
              [](const Environment& e, Scratch&) -> Bytes { return e.audio(); }, Encoding::kHex},
 };
@@ -160,6 +169,7 @@ void View::began(const Environment& machine, bool blends) {
 }
 
 void View::append(std::string& out, const Environment& machine, const Outcome& outcome) {
+  if (outcome.over) append_pair(out, "over", 1);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     ((out += ' ') += fields_[i].name) += '=';
     append_value(out, i, machine, outcome);

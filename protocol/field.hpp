@@ -20,6 +20,7 @@ struct Outcome {
   int acts = 0;
   int frames = 0;
   bool terminated = false, truncated = false;
+  bool over = false;  // nothing was done: the episode had ended before
 };
 
 struct FieldRow {
@@ -62,7 +63,7 @@ class View {
   // `blends`: made of two frames.
   void began(const Environment& machine, bool blends);
 
-  // " name=value" for each field.
+  // " name=value" for each field, behind " over=1" where nothing was done.
   void append(std::string& out, const Environment& machine, const Outcome& outcome);
 
   // " final_name=value" for each that the machine shows: how an episode ended.

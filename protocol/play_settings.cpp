@@ -139,6 +139,8 @@ constexpr std::array kSettings = {
     SettingRow{"noop_max", "0 to 1000",
                "an episode begins with 0 to noop_max - 1 frames of NOOP, drawn by seed",
                READ(s.noop_max = whole(value, "noop_max", 0, kMostNoops)), ECHO(std::int64_t{s.noop_max})},
+    SettingRow{"autoreset", "0 or 1", "an act after the end of an episode does what `reset` does",
+               READ(s.autoreset = flag(value, "autoreset")), ECHO(std::int64_t{s.autoreset})},
     SettingRow{
         "action_set", "full, legal or minimal", "the actions that `act` accepts", set_action_set,
         [](std::string& out, const PlaySettings& s, const Environment&) { out += name_of(s.action_set); }},

@@ -20,7 +20,8 @@ struct PlaySettings {
   Settings machine;
   std::optional<int> mode, difficulty;  // the game's defaults if not given
   ActionSet action_set = ActionSet::kFull;
-  int noop_max = 0;  // an episode begins with 0 to noop_max - 1 frames in which nobody acts
+  bool autoreset = false;  // an act after the end of an episode is a reset
+  int noop_max = 0;        // an episode begins with 0 to noop_max - 1 frames in which nobody acts
   std::string_view preset = "none";
 };
 

@@ -30,12 +30,19 @@ void Player::look_at_ends() {
 
 void Player::act(const Action& action) {
   const int before = machine_.frame_number();
-  outcome_.reward += machine_.act(action.a, action.b, action.strength_a, action.strength_b);
+  machine_.act(action.a, action.b, action.strength_a, action.strength_b);
   const int frames = frames_between(before, machine_.frame_number());
+  if (frames == 0) {  // no reward, even where each is raised to a least one
+    outcome_.over = outcome_.acts == 0;
+    return;
+  }
+  const auto [reward, reward_b] = machine_.rewards();
+  outcome_.reward += reward;
+  outcome_.reward_b += reward_b;
   outcome_.frames += frames;
-  outcome_.acts += frames > 0;
+  ++outcome_.acts;
   look_at_ends();
-  if (frames > 0) blends_ = frames > 1;
+  blends_ = frames > 1;
   view_.acted(machine_, frames);
 }
 

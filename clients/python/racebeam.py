@@ -18,7 +18,7 @@ import subprocess
 import zlib
 
 # What bytes are written in when `observe` does not say.
-USUAL_ENCODING = {"ram": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "audio": "hex"}
+USUAL_ENCODING = {"ram": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
 
 
 class Refused(Exception):
@@ -45,6 +45,15 @@ def apply_delta(array, text):
                 array.extend(bytes(place + length - len(array)))
             array[place:place + length] = bytes([value]) * length
             place += length
+
+
+def decode_rewards(text):
+    """A list from R,R*TIMES,..."""
+    rewards = []
+    for run in filter(None, text.split(",")):
+        reward, _, times = run.partition("*")
+        rewards += [int(reward)] * int(times or 1)
+    return rewards
 
 
 DECODERS = {
@@ -164,7 +173,7 @@ class Session:
     def _size(self, field):
         if field.startswith("grey84"):
             return 84 * 84 * int(field.partition("x")[2] or 1)
-        return {"ram": 128, "audio": 512, "screen": 160 * self.height, "grey": 160 * self.height,
+        return {"ram": 128, "palette": 768, "audio": 512, "screen": 160 * self.height, "grey": 160 * self.height,
                 "rgb": 480 * self.height}[field]
 
     def _shown(self, *words):
@@ -229,6 +238,11 @@ class Session:
         texts = self.ask("look", *fields)[0]
         return self.decoded(texts, 0, self._encodings(fields) if fields else None)
 
+    def palette(self):
+        """Red, green and blue of each value that a pixel of `screen` can have."""
+        data = self.look("palette")["palette"]
+        return [tuple(data[at:at + 3]) for at in range(0, len(data), 3)]
+
     def act(self, *actions):
         return self._shown("act", *actions)
 
@@ -260,16 +274,12 @@ class Session:
         self.ask("import", name, base64.b64encode(data).decode())
 
     def branch(self, name, *sequences, keep=None):
-        """Each sequence is a list of actions; answers a dictionary for each, with `rewards` as a list."""
+        """Each sequence is a list of actions; answers a dictionary for each, with `rewards`, and `rewards_b` if there are, as lists."""
         words = [f"keep={keep}"] if keep else []
         words += [",".join(map(str, actions)) for actions in sequences]
         results = []
         for texts in self.ask("branch", name, *words)[1:]:
-            rewards = []
-            for run in filter(None, texts.pop("rewards").split(",")):
-                reward, _, times = run.partition("*")
-                rewards += [int(reward)] * int(times or 1)
-            results.append({**{key: number(text) for key, text in texts.items()}, "rewards": rewards})
+            results.append({key: decode_rewards(text) if key.startswith("rewards") else number(text) for key, text in texts.items()})
         return results
 
     def open(self, count, autoreset="next-step"):

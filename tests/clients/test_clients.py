@@ -12,7 +12,7 @@ import racebeam  # noqa: E402
 from harness import BINARY, GAME, PATIENCE, Server, main  # noqa: E402
 
 ENCODINGS = ("hex", "rle", "delta", "base64", "zlib")
-CONTENTS = {"ram": 128, "screen": 33600, "rgb": 100800, "grey": 33600, "grey84x3": 3 * 84 * 84, "audio": 512}
+CONTENTS = {"ram": 128, "screen": 33600, "rgb": 100800, "grey": 33600, "grey84x3": 3 * 84 * 84, "palette": 768, "audio": 512}
 
 
 def over_each_transport(test):
@@ -44,6 +44,14 @@ class PythonClient(unittest.TestCase):
         for others in seen[1:]:
             self.assertEqual(others, seen[0])
         self.assertNotEqual(seen[0][0]["screen"], seen[0][3]["screen"])
+
+    @over_each_transport
+    def test_the_palette_shows_the_screen(self, session):
+        session.load("beamfall", seed=3)
+        session.act("FIRE*30")
+        shown, palette = session.look("screen", "rgb"), session.palette()
+        self.assertEqual(b"".join(bytes(palette[value]) for value in shown["screen"]), shown["rgb"])
+        self.assertGreater(len(set(shown["screen"])), 2)
 
     @over_each_transport
     def test_each_command_has_a_method(self, session):

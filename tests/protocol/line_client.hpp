@@ -72,6 +72,7 @@ class LineClient {
 // The value of `key` in the `group`th part of a reply.
 inline std::string value(std::string_view reply, const std::string& key, int group = 0) {
   for (; group > 0; --group) reply.remove_prefix(reply.find(" |") + 2);
+  reply = reply.substr(0, reply.find(" |"));
   const std::string wanted = " " + key + "=";
   const std::size_t at = reply.find(wanted);
   if (at == std::string_view::npos) return "(none)";

@@ -104,7 +104,8 @@ TEST_CASE("The examples of help are carried out") {
     CHECK(command.example.starts_with(command.name));
     if (command.name == "export") client.ask("save start");  // drop comes before
     CHECK(client.ask(std::string(command.example)).starts_with("ok"));
-    CHECK(client.ask("help " + std::string(command.name)).ends_with("; example: " + std::string(command.example)));
+    CHECK(client.ask("help " + std::string(command.name))
+              .ends_with("; example: " + std::string(command.example)));
   }
 }
 
@@ -241,7 +242,10 @@ TEST_CASE("Limits are told, and refused beyond") {
   LineClient client(line_service(limits));
   CHECK(value(client.ask("hello"), "max_machines") == "2");
   client.ask(kLoad);
-  CHECK(code(client.ask("open 3")) == "bad-value");
+  for (const std::string many : {"3", "9223372036854775807"})
+    CHECK(code(client.ask("open " + many)) == "limit");
+  for (const std::string none : {"0", "-1", "x", "9223372036854775808"})
+    CHECK(code(client.ask("open " + none)) == "bad-value");
   CHECK(code(client.ask("act NOOP*101")) == "limit");
   CHECK(code(client.ask("act NOOP*100")) == "");
   CHECK(code(client.ask("act NOOP*1000000000 NOOP*1000000000")) == "limit");

@@ -7,7 +7,7 @@
 
 #include "protocol/base64.hpp"
 #include "protocol/words.hpp"
-#include "tests/protocol/line_client.hpp"
+#include "tests/protocol/duel.hpp"
 
 using namespace racebeam;
 using namespace std::chrono_literals;
@@ -201,6 +201,32 @@ TEST_CASE("The ends of branches can be kept and gone on from") {
   CHECK(client.ask("look ram screen:hex frame") == kept);
 }
 
+TEST_CASE("What a branch keeps has names that save takes, and needs room for new ones only") {
+  LineLimits limits;
+  limits.states = 3;
+  Playing client("sticky=0", line_service(limits));
+  client.ask("save root");
+  CHECK(code(client.ask("branch root keep=" + std::string(64, 'a') + " UP")) == "bad-value");
+  CHECK(code(client.ask("branch root keep=all DOWN")) == "");
+  CHECK(client.ask("states") == "ok count=2 states=all0,root");
+  const std::string longest(63, 'a');
+  CHECK(code(client.ask("branch root keep=" + longest + " UP")) == "");
+  CHECK(code(client.ask("restore " + longest + "0")) == "");
+  CHECK(code(client.ask("branch root keep=" + longest + " DOWN*9")) == "");
+  CHECK(code(client.ask("branch root keep=all UP DOWN")) == "limit");
+  CHECK(value(client.ask("states"), "count") == "3");
+}
+
+TEST_CASE("A name of ten and more ends of a branch has a digit more") {
+  Playing client("sticky=0");
+  client.ask("save root");
+  std::string lists;
+  for (int list = 0; list < 11; ++list) lists += " UP";
+  CHECK(code(client.ask("branch root keep=" + std::string(63, 'a') + lists)) == "bad-value");
+  CHECK(client.ask("states") == "ok count=1 states=root");
+  CHECK(code(client.ask("branch root keep=" + std::string(62, 'a') + lists)) == "");
+}
+
 TEST_CASE("Each of many machines plays as one alone with its seed") {
   LineService service = line_service();
   service.threads = 3;
@@ -318,4 +344,21 @@ TEST_CASE("An episode that begins with no-ops begins differently, by the seed") 
   const auto repeated =
       std::unique(words.begin(), words.end());  // clang 14 lacks what std::ranges::unique needs
   CHECK(words.end() - repeated < 12);           // more than eight different lengths
+}
+
+TEST_CASE("The palette gives a screen its colours, in each television standard") {
+  for (const std::string game : {"duel", "duel_pal"}) {
+    LineClient client(test::duel_service());
+    client.ask("load " + game + " seed=7");
+    const auto colours = bytes_of_hex(value(client.ask("look palette"), "palette"));
+    REQUIRE(colours.size() == 768);
+    const std::string shown = client.ask("look screen:hex rgb:hex");
+    std::vector<std::uint8_t> rgb;
+    for (const std::uint8_t pixel : bytes_of_hex(value(shown, "screen"))) {
+      const auto* const colour = &colours[std::size_t{3} * pixel];
+      rgb.insert(rgb.end(), colour, colour + 3);
+    }
+    const bool same = rgb == bytes_of_hex(value(shown, "rgb"));
+    CHECK(same);
+  }
 }
