@@ -31,6 +31,15 @@ class Config(unittest.TestCase):
         lines = [line.rsplit("  # ", 1) for line in done.stdout.decode().splitlines()]
         return {line.split(" =")[0]: (line.split("=", 1)[1].strip(), source) for line, source in lines}
 
+    def test_threads_are_as_many_as_the_processors_that_may_be_used(self):
+        allowed = os.sched_getaffinity(0)
+        self.addCleanup(os.sched_setaffinity, 0, allowed)
+        for processors in (allowed, {min(allowed)}):
+            os.sched_setaffinity(0, processors)  # a child has it too
+            found = self.settings("--stdio")["threads"]
+            self.assertLessEqual(int(found[0]), len(processors))  # a quota may allow fewer
+            self.assertEqual(found[1], "default")
+
     def test_options_win_over_variables_over_the_file_over_defaults(self):
         path = self.file("max_states = 1\nmax_machines = 2\nmax_sessions = 3\n")
         found = self.settings("--config", path, "--max-states", "9", RACEBEAM_MAX_STATES="8", RACEBEAM_MAX_MACHINES="7")
