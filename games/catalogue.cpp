@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <numeric>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "games/game_file.hpp"
+#include "system/input_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -123,15 +123,7 @@ std::vector<std::string> similar_games(std::string_view name) {
 }
 
 std::shared_ptr<const Game> load_game_file(const std::string& path) {
-  if (std::filesystem::is_directory(path))
-    throw std::invalid_argument("game file " + path + ": this is a directory, not a file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::invalid_argument("game file " + path + ": the file cannot be opened for reading");
-  std::string text;
-  text.resize(kMaxGameFile + 1);
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kMaxGameFile) throw std::invalid_argument("game file " + path + ": larger than 1 MiB");
+  const std::string text = read_input_file("game file", path, kMaxGameFile);
   return std::make_shared<const Game>(parse_game(text, as_name(stem_of(path)), path));
 }
 

@@ -100,7 +100,7 @@ class Config(unittest.TestCase):
         self.refuse("classic = 'perhaps'\n", b"takes true or false, not 'perhaps'")
         self.refuse("listen = ['nowhere']\n", b"listen", b"'nowhere' is not an address")
         self.refuse("", b"RACEBEAM_GRACE", b"'soon' is not a whole number", RACEBEAM_GRACE="soon")
-        self.refuse("", b"this is a folder, not a file", RACEBEAM_CONFIG=self.folder)
+        self.refuse("", b"this is a directory, not a file", RACEBEAM_CONFIG=self.folder)
         self.refuse("", b"nothing.toml", RACEBEAM_CONFIG="nothing.toml")
 
 
