@@ -70,7 +70,7 @@ class Config(unittest.TestCase):
     def test_numbers_and_texts_that_look_like_them_are_kept_as_they_are(self):
         for option, value in (("--sticky", ".5"), ("--sticky", "1."), ("--sticky", "0.123456789012"), ("--sticky", "1e-5"),
                               ("--rom", "1e5"), ("--rom", ".5"), ("--rom", "-0"), ("--rom", "007"), ("--rom", "nan"),
-                              ("--rom", "1" * 30), ("--rom", "1.50"), ("--rom", "two\nlines\t"), ("--rom", "true"),
+                              ("--rom", "1" * 30), ("--rom", "1.50"), ("--rom", "two\nlines\t"), ("--rom", "\x9b1m L\u00f6we"), ("--rom", "true"),
                               ("--record-limit", str(1 << 60))):
             with self.subTest(option=option, value=value):
                 key = option[2:].replace("-", "_")
