@@ -72,13 +72,21 @@ Recognition given(const std::shared_ptr<const Game>& game, RecognisedBy how, con
   return {with_properties_of(image, game), how, game->accepts(image.md5)};
 }
 
+// What clients of the line protocol say for something else than a game: `load inline`, `games all`, an MD5.
+bool is_taken(std::string_view name) {
+  constexpr std::size_t kDigitsOfMd5 = 32;
+  return name == "inline" || name == "all" ||
+         (name.size() == kDigitsOfMd5 &&
+          name.find_first_not_of("0123456789abcdef") == std::string_view::npos);
+}
+
 // To clients of the line protocol it is a word, and one of a list.
 std::string as_name(std::string text) {
   const auto stays = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
   };
   std::ranges::replace_if(text, std::not_fn(stays), '_');
-  return text;
+  return is_taken(text) ? text + '_' : text;
 }
 
 // Nobody's game; but the image may be another dump of a known one, which needs the same controllers.
