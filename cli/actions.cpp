@@ -13,6 +13,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "system/input_file.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -24,13 +26,18 @@ namespace {
 std::string contents(const std::string& path) {
   const auto close = [](gzFile file) { gzclose(file); };
   const std::unique_ptr<gzFile_s, decltype(close)> file{
-      path == "-" ? gzdopen(dup(STDIN_FILENO), "rb") : gzopen(path.c_str(), "rb"), close};
+      gzdopen(path == "-" ? dup(STDIN_FILENO) : open_input_file("can't read actions from", path), "rb"),
+      close};
   if (!file) refuse(path, std::strerror(errno));
 
+  constexpr std::size_t kLargest = 1 << 28;  // inflated
   std::string text;
   std::array<char, 65536> chunk;
   int count = 0;
-  while ((count = gzread(file.get(), chunk.data(), chunk.size())) > 0) text.append(chunk.data(), count);
+  while ((count = gzread(file.get(), chunk.data(), chunk.size())) > 0) {
+    text.append(chunk.data(), count);
+    if (text.size() > kLargest) refuse(path, "larger than " + std::to_string(kLargest) + " bytes");
+  }
 
   int error = Z_OK;
   const char* message = gzerror(file.get(), &error);

@@ -1,11 +1,13 @@
 #include "cli/classic_settings.hpp"
 
 #include <cstdlib>
-#include <fstream>
+#include <filesystem>
+#include <sstream>
 #include <stdexcept>
 
 #include "protocol/text.hpp"
 #include "server/log.hpp"
+#include "system/input_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -23,11 +25,10 @@ bool is_key(const std::string& word) { return word.starts_with('-'); }
 }  // namespace
 
 ClassicSettings::ClassicSettings(const std::vector<std::string>& words) {
-  read_file("ale.cfg");
+  if (std::filesystem::exists("ale.cfg")) read_file("ale.cfg");
   read_words(words);
   const std::string config = text("config");
-  if (!config.empty() && !read_file(config))
-    log("cannot read the configuration " + config + "; going on without it");
+  if (!config.empty()) read_file(config);
 }
 
 bool ClassicSettings::asks_for_help(const std::vector<std::string>& words) {
@@ -50,14 +51,16 @@ void ClassicSettings::read_words(const std::vector<std::string>& words) {
   image_ = words[at];
 }
 
-bool ClassicSettings::read_file(const std::string& path) {
-  std::ifstream file(path);
+void ClassicSettings::read_file(const std::string& path) try {
+  constexpr std::size_t kLargestFile = 1 << 20;
+  std::istringstream file(read_input_file("cannot read the configuration", path, kLargestFile));
   for (std::string line; std::getline(file, line);) {
     const std::size_t equals = line.find('=');
     if (equals == std::string::npos || line.starts_with('#') || line.starts_with(';')) continue;
     values_[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
   }
-  return file.eof();
+} catch (const InputFileError& error) {
+  log(std::string(error.what()) + "; going on without it");
 }
 
 std::string ClassicSettings::text(const std::string& key) const {

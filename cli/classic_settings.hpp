@@ -24,7 +24,7 @@ class ClassicSettings {
 
  private:
   void read_words(const std::vector<std::string>& words);
-  bool read_file(const std::string& path);
+  void read_file(const std::string& path);
 
   std::map<std::string, std::string> values_;
   std::string image_;

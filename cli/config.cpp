@@ -30,16 +30,22 @@ bool is_number(const std::string& text) {
   return point == std::string::npos || (all_digits(text.substr(point + 1)) && text.back() != '0');
 }
 
+// The control characters U+0080 to U+009F, whose second byte has their number.
+bool begins_control_pair(std::string_view text) {
+  return text.size() > 1 && text[0] == '\xC2' && (text[1] & 0xE0) == 0x80;
+}
+
 std::string quoted(const std::string& text) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::string all = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') all += '\\';
-    if (static_cast<unsigned char>(c) >= ' ' && c != '\x7f') {
-      all += c;
-    } else {
-      constexpr std::string_view kDigits = "0123456789ABCDEF";
-      const auto byte = static_cast<unsigned char>(c);
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '"' || text[at] == '\\') all += '\\';
+    const bool is_pair = begins_control_pair(std::string_view(text).substr(at));
+    const auto byte = static_cast<unsigned char>(text[is_pair ? ++at : at]);
+    if (byte < ' ' || byte == 0x7F || is_pair) {
       ((all += "\\u00") += kDigits[byte >> 4]) += kDigits[byte & 15];
+    } else {
+      all += text[at];
     }
   }
   return all + '"';

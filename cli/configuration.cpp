@@ -6,10 +6,11 @@
 #include <array>
 #include <charconv>
 #include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <sstream>
 #include <system_error>
+
+#include "system/input_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -64,11 +65,12 @@ std::string names_of(const std::vector<CLI::Option*>& options) {
 FromFile read_file(const std::string& path, const std::vector<CLI::Option*>& options) {
   FromFile file{path, {}};
   if (path.empty()) return file;
-  std::error_code unknown;
-  if (std::filesystem::is_directory(path, unknown)) throw CLI::ValidationError(path, "this is a folder, not a file");
+  constexpr std::size_t kLargestFile = 1 << 20;
   toml::table table;
   try {
-    table = toml::parse_file(path);
+    table = toml::parse(read_input_file("cannot read", path, kLargestFile), path);
+  } catch (const InputFileError& error) {
+    throw CLI::ValidationError("--config", error.what());
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
     throw CLI::ValidationError(

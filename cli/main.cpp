@@ -15,6 +15,7 @@
 #include "cli/roms.hpp"
 #include "cli/serve.hpp"
 #include "cli/trace.hpp"
+#include "system/printable.hpp"
 
 namespace {
 
@@ -88,10 +89,10 @@ int main(int argc, char** argv) {
     return ended.get_exit_code();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::cerr << "racebeam: " << explain(app, error) << "\n";
+    std::cerr << "racebeam: " << racebeam::printable(explain(app, error)) << "\n";
     return racebeam::kExitUsage;
   } catch (const std::exception& error) {
-    std::cerr << "racebeam: " << error.what() << "\n";
+    std::cerr << "racebeam: " << racebeam::printable(error.what()) << "\n";
     return racebeam::kExitFailure;
   }
 }

@@ -8,6 +8,7 @@
 
 #include "games/catalogue.hpp"
 #include "games/image.hpp"
+#include "system/printable.hpp"
 
 namespace racebeam {
 namespace {
@@ -107,7 +108,9 @@ void add_machine_options(CLI::App& app, MachineOptions& options) {
       ->check(whole_number(0, kMostInt));
 }
 
-void tell_on_standard_error(const std::string& sentence) { std::cerr << "racebeam: " << sentence << "\n"; }
+void tell_on_standard_error(const std::string& sentence) {
+  std::cerr << "racebeam: " << printable(sentence) << "\n";
+}
 
 Cartridge open_cartridge(const MachineOptions& options, const Tell& tell) {
   const auto image = load_image(options.rom);

@@ -12,6 +12,7 @@
 
 #include "games/catalogue.hpp"
 #include "games/image.hpp"
+#include "system/printable.hpp"
 
 namespace racebeam {
 namespace {
@@ -83,8 +84,8 @@ void print_text(const std::vector<Finding>& findings, const std::vector<std::str
   for (const Finding& finding : findings) {
     const std::string game = finding.game.empty() ? "-" : finding.game;
     std::printf("%-8s  %-20s %-32s  %s%s%s\n", finding.verdict.c_str(), game.c_str(),
-                finding.md5.empty() ? "-" : finding.md5.c_str(), finding.file.c_str(),
-                finding.note.empty() ? "" : ": ", finding.note.c_str());
+                finding.md5.empty() ? "-" : finding.md5.c_str(), printable(finding.file).c_str(),
+                finding.note.empty() ? "" : ": ", printable(finding.note).c_str());
   }
   for (const std::string& name : missing) std::printf("missing   %s\n", name.c_str());
   std::printf("%zu images; %zu games without one\n", findings.size(), missing.size());
@@ -99,9 +100,9 @@ void print_json(const std::vector<Finding>& findings, const std::vector<std::str
                     {"md5", finding.md5},
                     {"note", finding.note}});
   }
-  // A file's name need not be UTF-8.
+  // A file's name need not be UTF-8. Beyond ASCII all is escaped: some characters are control characters.
   constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
-  std::cout << nlohmann::ordered_json{{"images", rows}, {"missing", missing}}.dump(1, ' ', false, kReplace)
+  std::cout << nlohmann::ordered_json{{"images", rows}, {"missing", missing}}.dump(1, ' ', true, kReplace)
             << '\n';
 }
 

@@ -14,6 +14,7 @@
 #include "server/log.hpp"
 #include "server/server.hpp"
 #include "server/workers.hpp"
+#include "system/resources.hpp"
 
 namespace racebeam {
 namespace {
@@ -93,6 +94,13 @@ void tell_obstacle(CpuKind cpu) {
     log("instructions are interpreted, not translated: " + obstacle);
 }
 
+// What decided how many threads there are, for the log.
+std::string limit_of_threads(const std::vector<Setting>& settings) {
+  const auto is_threads = [](const Setting& setting) { return key_of(*setting.option) == "threads"; };
+  const bool given = std::ranges::find_if(settings, is_threads)->source != Source::kDefault;
+  return given ? "--threads" : usable_processors().limited_by;
+}
+
 // Blocks as large as a picture or the records of its lines go back to the system as soon as they are let go;
 // else a server would stay as large as its sessions ever were together.
 void return_large_blocks() {
@@ -112,8 +120,10 @@ int serve(const ServeOptions& options) {
 
 int serve(ServeOptions& options, CLI::App& command) {
   return_large_blocks();
-  finish(options, complete(command));
+  const std::vector<Setting> settings = complete(command);
+  finish(options, settings);
   set_up_log(options.log_level, options.log_format);
+  options.server.threads_limited_by = limit_of_threads(settings);
   tell_obstacle(options.machine.settings.cpu);
   try {
     return serve(options);

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <thread>
+
+#include "system/resources.hpp"
 
 namespace racebeam {
 namespace {
@@ -113,9 +114,12 @@ void add_limits(CLI::App& command, ServeOptions& options) {
 void add_operation(CLI::App& command, ServeOptions& options) {
   ServerSettings& server = options.server;
   const std::string group = "Operation";
-  server.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  command.add_option("--threads", server.threads, "Threads that serve; as many help with open and step")
-      ->check(whole_number(1, 1024))
+  constexpr std::uint64_t kMostThreads = 1024;
+  server.threads = static_cast<int>(std::min(usable_processors().amount, kMostThreads));
+  command
+      .add_option("--threads", server.threads,
+                  "Threads that serve; as many help with open and step (default: the processors it may use)")
+      ->check(whole_number(1, kMostThreads))
       ->capture_default_str()
       ->group(group);
   command

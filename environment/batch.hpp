@@ -35,7 +35,7 @@ struct BatchSettings {
   int stack = 4;         // small screens of an observation, at least 1; 0: none are made
   bool max_pool = true;  // small screens are of the brighter of the last two frames, pixel by pixel
   bool screens = false;  // give out screens too
-  unsigned threads = 0;  // 0: one for each processor
+  unsigned threads = 0;  // 0: one for each processor that the process may use
 };
 
 // One array each, the machines one after the other. Their memory stays where it is.

@@ -1,11 +1,10 @@
 #include "environment/thread_pool.hpp"
 
-#include <algorithm>
+#include "system/resources.hpp"
 
 namespace racebeam {
 
-ThreadPool::ThreadPool(unsigned threads)
-    : shares_(threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency())) {
+ThreadPool::ThreadPool(unsigned threads) : shares_(threads != 0 ? threads : usable_processors().amount) {
   for (std::size_t thread = 1; thread < shares_.size(); ++thread)
     threads_.emplace_back([this, thread] { wait_for_work(thread); });
 }

@@ -13,7 +13,8 @@ namespace racebeam {
 
 class ThreadPool {
  public:
-  explicit ThreadPool(unsigned threads);  // the caller of run() is one of them; 0: one for each processor
+  // The caller of run() is one of the threads. 0: one for each processor that the process may use.
+  explicit ThreadPool(unsigned threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
@@ -44,7 +45,7 @@ class ThreadPool {
 
   void (*call_)(void*, std::size_t) = nullptr;
   void* context_ = nullptr;
-  std::vector<Share> shares_;           // one a thread; the caller's is the first
+  std::vector<Share> shares_;             // one a thread; the caller's is the first
   std::atomic<std::uint32_t> round_ = 0;  // counts calls of run(); its change wakes the threads
   std::atomic<std::uint32_t> busy_ = 0;   // threads, beside the caller, that have not finished the round
   std::atomic<bool> stopping_ = false;

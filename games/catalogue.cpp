@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <numeric>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "games/game_file.hpp"
+#include "system/input_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -72,13 +72,21 @@ Recognition given(const std::shared_ptr<const Game>& game, RecognisedBy how, con
   return {with_properties_of(image, game), how, game->accepts(image.md5)};
 }
 
+// What clients of the line protocol say for something else than a game: `load inline`, `games all`, an MD5.
+bool is_taken(std::string_view name) {
+  constexpr std::size_t kDigitsOfMd5 = 32;
+  return name == "inline" || name == "all" ||
+         (name.size() == kDigitsOfMd5 &&
+          name.find_first_not_of("0123456789abcdef") == std::string_view::npos);
+}
+
 // To clients of the line protocol it is a word, and one of a list.
 std::string as_name(std::string text) {
   const auto stays = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
   };
   std::ranges::replace_if(text, std::not_fn(stays), '_');
-  return text;
+  return is_taken(text) ? text + '_' : text;
 }
 
 // Nobody's game; but the image may be another dump of a known one, which needs the same controllers.
@@ -123,15 +131,7 @@ std::vector<std::string> similar_games(std::string_view name) {
 }
 
 std::shared_ptr<const Game> load_game_file(const std::string& path) {
-  if (std::filesystem::is_directory(path))
-    throw std::invalid_argument("game file " + path + ": this is a directory, not a file");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::invalid_argument("game file " + path + ": the file cannot be opened for reading");
-  std::string text;
-  text.resize(kMaxGameFile + 1);
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kMaxGameFile) throw std::invalid_argument("game file " + path + ": larger than 1 MiB");
+  const std::string text = read_input_file("game file", path, kMaxGameFile);
   return std::make_shared<const Game>(parse_game(text, as_name(stem_of(path)), path));
 }
 

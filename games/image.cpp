@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "games/digest.hpp"
+#include "system/input_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -59,8 +60,7 @@ using GzipFile = std::unique_ptr<gzFile_s, Closer>;
 
 // At most one byte more than an image may have. zlib hands on files that aren't gzip as they are.
 std::vector<std::uint8_t> read_file(const std::string& path) {
-  const GzipFile file(gzopen(path.c_str(), "rb"));
-  if (!file) refuse(path, "the file cannot be opened for reading");
+  const GzipFile file(gzdopen(open_input_file("image", path), "rb"));
   std::vector<std::uint8_t> bytes(kMaxImageSize + 1);
   const int count = gzread(file.get(), bytes.data(), static_cast<unsigned>(bytes.size()));
   int error = Z_OK;
@@ -96,10 +96,6 @@ std::vector<std::string> image_files(const std::string& folder) {
 
 std::shared_ptr<const Image> load_image(const std::string& where) {
   if (where.starts_with(kBuiltIn)) return built_in(std::string_view(where).substr(kBuiltIn.size()));
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(where, ignored);
-  if (!std::filesystem::exists(status)) refuse(where, "there is no such file");
-  if (std::filesystem::is_directory(status)) refuse(where, "this is a directory, not a file");
   std::vector<std::uint8_t> bytes = read_file(where);
   if (bytes.empty()) refuse(where, "the file is empty");
   if (bytes.size() > kMaxImageSize)

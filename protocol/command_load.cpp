@@ -44,9 +44,9 @@ std::string_view format_name(Format format) {
 }
 
 void describe_game(Session& session, std::string_view name) {
-  const auto game = find_game(name);
-  if (!game) refuse_game(name);
   const Cartridge* cartridge = session.service.images->find(name);
+  const auto game = cartridge ? cartridge->game : find_game(name);
+  if (!game) refuse_game(name);
   std::string& out = session.out;
   out += "ok";
   append_pair(out, "game", game->name);

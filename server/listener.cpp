@@ -22,7 +22,9 @@ void remove_stale(const std::string& path) {
   if (!std::filesystem::is_socket(path)) throw std::runtime_error(path + " exists, but is not a socket");
   net::io_context context;
   error_code error;
-  Unix::socket(context).connect(Unix::endpoint(path), error);
+  Unix::socket probe(context, Unix());
+  probe.non_blocking(true);  // a server that is busy has a full queue: the system would wait for it
+  probe.connect(Unix::endpoint(path), error);
   if (error == net::error::connection_refused) std::filesystem::remove(path);
 }
 

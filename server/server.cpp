@@ -83,6 +83,11 @@ Server::Server(const ServerSettings& settings, const Services& services)
 }
 
 void Server::announce() {
+  if (!door_.empty()) {
+    log("threads that serve: " + std::to_string(settings_.threads) + ", limited by " +
+            settings_.threads_limited_by,
+        {{"event", "threads"}});
+  }
   door_.open();
   for (StreamSession& stream : streams_) {
     stream.start([this] {

@@ -16,6 +16,7 @@ struct ServerSettings {
   std::string tls_certificate, tls_key;
   std::string http;                          // HOST:PORT for health and metrics; empty: none
   int threads = 1;                           // that serve sockets
+  std::string threads_limited_by;            // why there are no more, for the log
   std::chrono::microseconds busy_poll{100};  // that a thread waits awake for a quick client; 0: never
   int max_sessions = 4096;                   // at a time
   int idle_seconds = 86400;    // without a byte to or from a client, after which it is closed; 0: never

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "system/input_file.hpp"
+
 namespace racebeam {
 
 namespace ssl = boost::asio::ssl;
@@ -27,9 +29,12 @@ std::shared_ptr<ssl::context> Tls::read() const {
   // Nobody is there to be asked for the password of a key.
   context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string(); });
   error_code error;
-  context->use_certificate_chain_file(certificate_, error);
+  constexpr std::size_t kLargestFile = 1 << 20;
+  const std::string certificate = read_input_file("cannot use the certificate", certificate_, kLargestFile);
+  const std::string key = read_input_file("cannot use the key", key_, kLargestFile);
+  context->use_certificate_chain(boost::asio::buffer(certificate), error);
   if (error) throw std::runtime_error("cannot use the certificate " + certificate_ + ": " + error.message());
-  context->use_private_key_file(key_, ssl::context::pem, error);
+  context->use_private_key(boost::asio::buffer(key), ssl::context::pem, error);
   if (error) throw std::runtime_error("cannot use the key " + key_ + ": " + error.message());
   return context;
 }

@@ -5,16 +5,17 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "server/log.hpp"
+#include "system/input_file.hpp"
 
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kShortest = 16, kLongest = 1024;
+constexpr std::size_t kShortest = 16, kLongest = 1024, kLargestFile = 1 << 24;
 
 bool is_comment(std::string_view line) { return line.empty() || line.starts_with('#'); }
 
@@ -66,8 +67,7 @@ Tokens::Digest Tokens::digest_of(std::string_view token) {
 }
 
 std::vector<Tokens::Digest> Tokens::read(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot read the token file " + path);
+  std::istringstream file(read_input_file("cannot read the token file", path, kLargestFile));
   std::vector<Digest> digests;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
@@ -79,7 +79,6 @@ std::vector<Tokens::Digest> Tokens::read(const std::string& path) {
     }
     digests.push_back(digest_of(text));
   }
-  if (file.bad()) throw std::runtime_error("cannot read the token file " + path);
   if (digests.empty()) throw std::runtime_error("there is no token in " + path);
   warn_if_open(path);
   return digests;

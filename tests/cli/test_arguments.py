@@ -20,6 +20,34 @@ class Case(unittest.TestCase):
         return printed
 
 
+class ControlCharacters(Case):
+    """A terminal would obey them; they are shown by their bytes, and a complaint stays one line."""
+
+    NAME = "red\x1b[31m\nnext\x9b1m"
+    SHOWN = r"red\\x1b\[31m\\x0anext\\xc2\\x9b1m"
+
+    def test_in_what_was_given(self):
+        for status, words in ((1, ("trace", "--actions", "-", "--rom", self.NAME)),
+                              (1, ("trace", "--rom", GAME, "--actions", self.NAME)),
+                              (1, ("bench", "--rom", GAME, "--game-file", self.NAME)),
+                              (1, ("roms", self.NAME)),
+                              (2, ("config", "--stdio", "--config", self.NAME)),
+                              (2, ("serve", "--stdio", "--seed", self.NAME)),
+                              (2, ("serve", "--stdio", "--" + self.NAME)),
+                              (2, (self.NAME,))):
+            with self.subTest(words=words):
+                self.refused(status, self.SHOWN, *words)
+
+    def test_in_a_doubt_about_an_image(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, self.NAME + ".bin")
+            with open(path, "wb") as file:
+                file.write(bytes(range(256)) * 16)
+            _, _, errors = run("trace", "--rom", path, "--actions", "-")
+            self.assertEqual(len(errors), 1, errors)
+            self.assertRegex(errors[0], self.SHOWN)
+
+
 class Images(Case):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

@@ -31,6 +31,15 @@ class Config(unittest.TestCase):
         lines = [line.rsplit("  # ", 1) for line in done.stdout.decode().splitlines()]
         return {line.split(" =")[0]: (line.split("=", 1)[1].strip(), source) for line, source in lines}
 
+    def test_threads_are_as_many_as_the_processors_that_may_be_used(self):
+        allowed = os.sched_getaffinity(0)
+        self.addCleanup(os.sched_setaffinity, 0, allowed)
+        for processors in (allowed, {min(allowed)}):
+            os.sched_setaffinity(0, processors)  # a child has it too
+            found = self.settings("--stdio")["threads"]
+            self.assertLessEqual(int(found[0]), len(processors))  # a quota may allow fewer
+            self.assertEqual(found[1], "default")
+
     def test_options_win_over_variables_over_the_file_over_defaults(self):
         path = self.file("max_states = 1\nmax_machines = 2\nmax_sessions = 3\n")
         found = self.settings("--config", path, "--max-states", "9", RACEBEAM_MAX_STATES="8", RACEBEAM_MAX_MACHINES="7")
@@ -61,7 +70,7 @@ class Config(unittest.TestCase):
     def test_numbers_and_texts_that_look_like_them_are_kept_as_they_are(self):
         for option, value in (("--sticky", ".5"), ("--sticky", "1."), ("--sticky", "0.123456789012"), ("--sticky", "1e-5"),
                               ("--rom", "1e5"), ("--rom", ".5"), ("--rom", "-0"), ("--rom", "007"), ("--rom", "nan"),
-                              ("--rom", "1" * 30), ("--rom", "1.50"), ("--rom", "two\nlines\t"), ("--rom", "true"),
+                              ("--rom", "1" * 30), ("--rom", "1.50"), ("--rom", "two\nlines\t"), ("--rom", "\x9b1m L\u00f6we"), ("--rom", "true"),
                               ("--record-limit", str(1 << 60))):
             with self.subTest(option=option, value=value):
                 key = option[2:].replace("-", "_")
@@ -91,7 +100,7 @@ class Config(unittest.TestCase):
         self.refuse("classic = 'perhaps'\n", b"takes true or false, not 'perhaps'")
         self.refuse("listen = ['nowhere']\n", b"listen", b"'nowhere' is not an address")
         self.refuse("", b"RACEBEAM_GRACE", b"'soon' is not a whole number", RACEBEAM_GRACE="soon")
-        self.refuse("", b"this is a folder, not a file", RACEBEAM_CONFIG=self.folder)
+        self.refuse("", b"this is a directory, not a file", RACEBEAM_CONFIG=self.folder)
         self.refuse("", b"nothing.toml", RACEBEAM_CONFIG="nothing.toml")
 
 

@@ -76,6 +76,15 @@ class Roms(unittest.TestCase):
         report = json.loads(answer("roms", self.folder, "--json"))
         return {image["file"]: image for image in report["images"]}, report["missing"]
 
+    def test_control_characters_in_names_are_shown_not_obeyed(self):
+        name = "red\x1b[31m\nnext\x9b1m L\u00f6we.bin"
+        self.put(name, bytes(range(256)) * 16)
+        text = answer("roms", self.folder)
+        self.assertIn("red\\x1b[31m\\x0anext\\xc2\\x9b1m L\u00f6we.bin", text)
+        for shown in (text, answer("roms", self.folder, "--json")):
+            self.assertEqual([c for c in shown if c < " " and c != "\n" or "\x7f" <= c < "\xa0"], [])
+        self.assertIn(name, self.findings()[0])
+
     def test_each_image_gets_its_verdict(self):
         mystery = bytes(range(256)) * 16
         self.put("mystery.bin", mystery)

@@ -91,7 +91,8 @@ TEST_CASE("what a game file leaves out has its default") {
 
 TEST_CASE("an image's cartridge scheme can be asked for, and two dumps always have theirs") {
   CHECK(game_with("[[image]]\nscheme = '3F'").properties_for("any").scheme == "3F");
-  CHECK_THAT(error_in("[[image]]\nscheme = 'F9'"), Contains("my.toml:3: image.scheme") && Contains("F8 swapped"));
+  CHECK_THAT(error_in("[[image]]\nscheme = 'F9'"),
+             Contains("my.toml:3: image.scheme") && Contains("F8 swapped"));
   for (const char* md5 : {"bc24440b59092559a1ec26055fd1270e", "75ee371ccfc4f43e7d9b8f24e1266b55"})
     CHECK(game_with("").properties_for(md5).scheme == "F8 swapped");
   CHECK(game_with("").properties_for("any").scheme.empty());
@@ -179,9 +180,9 @@ TEST_CASE("facts that cannot be are refused") {
 TEST_CASE("a game file that cannot be read is refused") {
   const Scratch scratch;
   CHECK_THROWS_WITH(load_game_file(scratch.path("none.toml")),
-                    Contains("none.toml") && Contains("cannot be opened"));
+                    Contains("none.toml") && Contains("no such file"));
   CHECK_THROWS_WITH(load_game_file(scratch.path("")), Contains("directory"));
-  CHECK_THROWS_WITH(load_game_file(scratch.write("big.toml", std::string(2 << 20, '#'))), Contains("1 MiB"));
+  CHECK_THROWS_WITH(load_game_file(scratch.write("big.toml", std::string(2 << 20, '#'))), Contains("larger than 1048576 bytes"));
   const std::string broken = scratch.write("broken.toml", "title = 'T'\nmodes = 3\n");
   CHECK_THROWS_WITH(load_game_file(broken), Contains(broken + ":2: modes:"));
   CHECK(load_game_file(scratch.write("fine.toml", "title = 'T'\n"))->name == "fine");
@@ -221,8 +222,10 @@ TEST_CASE("mistakes in corrections, sources and wraps are named with their line"
   const std::string rule = "[rule]\n" + kStep;  // lines 2 to 6
   CHECK_THAT(error_in(rule + "[fixed]\nlives = '1'\n"),
              Equals("my.toml:7: fixed.reference: a correction that is more than 'wraps' needs this"));
-  CHECK_THAT(error_in(rule + "[fixed]\nwraps = 9\n"), Contains("my.toml:8: fixed.wraps: must be at least 10"));
-  CHECK_THAT(error_in(rule + "[fixed]\nmodes = [1]\n"), Contains("my.toml:8: fixed.modes: there is no such key"));
+  CHECK_THAT(error_in(rule + "[fixed]\nwraps = 9\n"),
+             Contains("my.toml:8: fixed.wraps: must be at least 10"));
+  CHECK_THAT(error_in(rule + "[fixed]\nmodes = [1]\n"),
+             Contains("my.toml:8: fixed.modes: there is no such key"));
   CHECK_THAT(error_in(rule + "[fixed]\nstep = \"score = x\\nterminal = 0\"\n"),
              Contains("my.toml:8: fixed.step: nothing assigns 'x'"));
   CHECK_THAT(error_in("[fixed]\nwraps = 100\n"), Contains("my.toml:2: fixed: a correction needs a [rule]"));

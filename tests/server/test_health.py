@@ -98,7 +98,7 @@ class Log(unittest.TestCase):
             wire.close()
             server.wait_for("1 requests")
             events = [json.loads(line) for line in server.log()]
-            self.assertEqual([event["event"] for event in events], ["listening", "came", "left"])
+            self.assertEqual([event["event"] for event in events], ["threads", "listening", "came", "left"])
             for event in events:
                 self.assertRegex(event["time"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$")
                 self.assertEqual(event["level"], "info")
@@ -162,10 +162,10 @@ class Log(unittest.TestCase):
         return text
 
     def check_order(self, lines, lost):
-        """Two addresses, then clients who come and leave, in order; where some are missing the log says how many."""
+        """The threads and two addresses, then clients who come and leave, in order; where some are missing the log says how many."""
         notes = [match for match in (re.search(rb"(\d+) lines of the log are lost", line) for line in lines) if match]
         self.assertEqual(sum(int(note.group(1)) for note in notes), lost)
-        self.assertEqual(len(lines) - len(notes), 2 + 2 * 700 - lost)
+        self.assertEqual(len(lines) - len(notes), 3 + 2 * 700 - lost)
         events = [int(match.group(1)) for match in (re.search(rb"client (\d+): ", line) for line in lines) if match]
         self.assertEqual(events, sorted(events))
 

@@ -1,5 +1,6 @@
 """Sockets: addresses that are taken, stale or wrong, several at once, signals, and clients that do not meet."""
 
+import contextlib
 import os
 import resource
 import signal
@@ -53,6 +54,19 @@ class Addresses(unittest.TestCase):
         with listening("unix:s") as server:
             self.refuse("unix:" + server.path("s"), 1, "in use")
             self.assertTrue(play(connect_unix(server.path("s"))).endswith(b"DIE\n"))
+
+    def test_a_live_socket_whose_queue_is_full_is_not_waited_for(self):
+        path = os.path.join(self.folder(), "s")
+        with contextlib.ExitStack() as stack:
+            listener = stack.enter_context(socket.socket(socket.AF_UNIX))
+            listener.bind(path)
+            listener.listen(0)
+            with self.assertRaises(BlockingIOError):
+                while True:
+                    client = stack.enter_context(socket.socket(socket.AF_UNIX))
+                    client.setblocking(False)
+                    client.connect(path)
+            self.refuse("unix:" + path, 1, "in use")
 
     def test_one_address_cannot_be_given_twice(self):
         ended, _, errors = run(*SERVE, "--listen", "unix:s", "--listen", "unix:s", cwd=self.folder())

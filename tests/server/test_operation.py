@@ -259,6 +259,14 @@ class ReadyFile(unittest.TestCase):
         self.assertEqual((status, "cannot write the ready file nowhere/ready" in errors[-1]), (1, True), errors)
 
 
+class Threads(unittest.TestCase):
+    def test_the_log_says_how_many_and_what_limits_them(self):
+        with serve("--threads", "3") as server:
+            server.wait_for("threads that serve: 3, limited by --threads$")
+        with serve() as server:
+            server.wait_for("threads that serve: [0-9]+, limited by the (machine|affinity|control group)$")
+
+
 class Systemd(unittest.TestCase):
     """By its convention, played by the test: sockets from descriptor 3 on, and variables that name this process."""
 

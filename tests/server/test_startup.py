@@ -1,5 +1,6 @@
 """A start that fails says why in one line, with an exit status and nothing on standard output."""
 
+import hashlib
 import os
 import subprocess
 import tempfile
@@ -136,6 +137,23 @@ class Folders(unittest.TestCase):
                 with open(path(name), "wb") as file:
                     file.write(data)
         self.assertEqual(self.games(prepare)[0], "ok count=2 games=beamfall,updraft")
+
+    def test_the_name_of_an_unknown_image_means_nothing_else(self):
+        with open(HOMEBREW, "rb") as image, tempfile.TemporaryDirectory() as folder:
+            data = bytearray(image.read())
+            names = ("inline", "all", hashlib.md5(data).hexdigest())  # the last is that of another image
+            for place, name in enumerate(names):
+                data[place] ^= 1
+                with open(os.path.join(folder, name + ".bin"), "wb") as changed:
+                    changed.write(data)
+            requests = "".join(f"load {name}_\ngames {name}_\n" for name in names) + f"load {names[-1]}\n"
+            status, output, errors = run("serve", "--stdio", "--roms", folder, data=requests.encode())
+        lines = output.decode().splitlines()
+        for name, loaded, described in zip(names, lines[::2], lines[1::2]):
+            self.assertTrue(loaded.startswith(f"ok game={name}_ md5="), loaded)
+            self.assertTrue(described.startswith(f"ok game={name}_ here=1 "), described)
+        self.assertTrue(lines[-1].startswith("ok game=beamfall md5=" + names[-1]), lines[-1])
+        self.assertEqual(status, 0, errors)
 
     def test_the_name_of_an_unknown_image_is_a_word(self):
         def prepare(path):

@@ -1,0 +1,93 @@
+#include "system/input_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+namespace racebeam {
+namespace {
+
+// Where a file was named, and for what.
+struct Named {
+  const std::string& what;
+  const std::string& path;
+
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw InputFileError(what + " " + path + ": " + reason);
+  }
+  [[noreturn]] void fail() const {
+    if (errno == ENOENT) refuse("there is no such file");
+    refuse("the file cannot be read: " + std::generic_category().message(errno));
+  }
+};
+
+struct Kind {
+  mode_t mode;
+  const char* name;
+};
+constexpr std::array kKinds = {Kind{S_IFDIR, "a directory"}, Kind{S_IFIFO, "a pipe"},
+                               Kind{S_IFSOCK, "a socket"}, Kind{S_IFCHR, "a device"},
+                               Kind{S_IFBLK, "a device"}};
+
+void check_kind(const Named& named, const struct stat& found) {
+  for (const Kind& kind : kKinds) {
+    if ((found.st_mode & S_IFMT) == kind.mode)
+      named.refuse("this is " + std::string(kind.name) + ", not a file");
+  }
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const { return number_; }
+  int release() {
+    const int number = number_;
+    number_ = -1;
+    return number;
+  }
+
+ private:
+  int number_;
+};
+
+}  // namespace
+
+// Opening a device may already do something, so it is looked at first. What the name stands for may change
+// meanwhile, so it is opened without waiting, and looked at again.
+int open_input_file(const std::string& what, const std::string& path) {
+  const Named named{what, path};
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) named.fail();
+  check_kind(named, found);
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (file.get() < 0 || ::fstat(file.get(), &found) != 0) named.fail();
+  check_kind(named, found);
+  return file.release();
+}
+
+// The size that the system tells is not asked for: files of /proc have none.
+std::string read_input_file(const std::string& what, const std::string& path, std::size_t most) {
+  const Named named{what, path};
+  const Descriptor file(open_input_file(what, path));
+  std::string text;
+  std::array<char, 1 << 16> piece;
+  while (text.size() <= most) {
+    const ssize_t count = ::read(file.get(), piece.data(), piece.size());
+    if (count < 0) named.fail();
+    if (count == 0) return text;
+    text.append(piece.data(), static_cast<std::size_t>(count));
+  }
+  named.refuse("larger than " + std::to_string(most) + " bytes");
+}
+
+}  // namespace racebeam

@@ -1,0 +1,55 @@
+"""scripts/demo, on the program that was built: its status, and what it leaves behind."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from harness import BINARY, PATIENCE, SOURCE, main
+
+
+class Demo(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root, self.scratch = os.path.join(folder.name, "tree"), os.path.join(folder.name, "scratch")
+        os.mkdir(self.scratch)
+        for name in ("scripts/demo", "clients/shell/play"):
+            os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+            shutil.copy(os.path.join(SOURCE, name), self.path(name))
+        self.script("scripts/build", "exit 0")  # it is built already
+
+    def path(self, name):
+        return os.path.join(self.root, name)
+
+    def script(self, name, *lines):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), "w") as file:
+            file.write("\n".join(["#!/usr/bin/env bash", *lines, ""]))
+        os.chmod(self.path(name), 0o755)
+
+    def run_demo(self, redirection):
+        return subprocess.run(["bash", "-c", f"exec bash '{self.path('scripts/demo')}' {redirection}"],
+                              capture_output=True, timeout=6 * PATIENCE, env={**os.environ, "TMPDIR": self.scratch})
+
+    def test_one_that_works_ends_with_status_0_and_leaves_only_the_picture(self):
+        os.makedirs(self.path("build/release"))
+        os.symlink(BINARY, self.path("build/release/racebeam"))
+        for redirection in ("</dev/null", "<&-"):
+            with self.subTest(redirection=redirection):
+                done = self.run_demo(redirection)
+                self.assertEqual(done.returncode, 0, done)
+                self.assertTrue(os.path.exists(self.path("build/demo.png")))
+                os.remove(self.path("build/demo.png"))
+                self.assertEqual(os.listdir(self.scratch), [])
+
+    def test_one_whose_server_fails_says_so_and_ends_the_player(self):
+        self.script("build/release/racebeam", "exit 7")
+        done = self.run_demo("</dev/null")  # which returns once the player has closed its standard output
+        self.assertEqual(done.returncode, 7, done)
+        self.assertEqual(os.listdir(self.scratch), [])
+
+
+if __name__ == "__main__":
+    main()
