@@ -1,6 +1,7 @@
 // Seeding and resets as in ALE 0.4 to 0.6 (classic-protocol.md, section 6).
 #include <catch2/catch.hpp>
 
+#include "environment/classic_games.hpp"
 #include "environment/classic_power_on.hpp"
 #include "environment/saved.hpp"
 #include "tests/support/counter_image.hpp"
@@ -72,15 +73,36 @@ TEST_CASE("Cartridge RAM is filled once, by a generator with the default seed") 
   CHECK(std::ranges::all_of(ram, [](std::uint8_t byte) { return byte == 7; }));
 }
 
-TEST_CASE("Adventure has no mode program") {
-  const auto text = std::string(test::kSteeredGame) + "[mode]\nsetup = '''\nselect 5\n'''\n";
-  for (const bool is_classic : {true, false}) {
+TEST_CASE("Games that had no modes in ALE 0.6 reset without a mode program, in their default mode") {
+  constexpr int kSelect = 5, kReset = 6, kResetFrames = 4;  // how many frames these were held
+  const auto text = std::string(test::kSteeredGame) + "[mode]\nsetup = '''\nselect 5; soft_reset\n'''\n";
+  const auto held = [&](const std::string& name, bool is_classic, int mode, std::size_t index) {
     Settings settings = classic();
     settings.classic = is_classic;
-    const Environment adventure(test::counter_image(), test::game(text, "adventure"), settings);
-    const Environment other(test::counter_image(), test::game(text, "other"), settings);
-    CHECK(adventure.ram()[5] == (is_classic ? 0 : 5));  // frames with SELECT held
-    CHECK(other.ram()[5] == 5);
+    Environment environment(test::counter_image(), test::game(text, name), settings);
+    environment.set_mode(mode);
+    environment.reset_game();
+    return int{environment.ram()[index]};
+  };
+  for (const ClassicGame& game : kClassicGames) {
+    const std::string name(game.name);
+    CAPTURE(name);
+    CHECK(held(name, true, 0, kSelect) == 0);
+    CHECK(held(name, true, 1, kSelect) == 5);
+    CHECK(held(name, false, 0, kSelect) == 5);
+    CHECK(held(name, false, 0, kReset) == held(name, true, 0, kReset) + kResetFrames);
+  }
+  CHECK(held("other", true, 0, kSelect) == 5);
+}
+
+TEST_CASE("Frogger and King Kong start with an idle frame in ALE 0.6") {
+  for (const ClassicGame& game : kClassicGames) {
+    const Environment now(test::counter_image(), test::game(test::kSteeredGame, std::string(game.name)),
+                          classic());
+    const Environment other(test::counter_image(), test::game(test::kSteeredGame, "other"), classic());
+    const bool has_one = game.name == "frogger" || game.name == "king_kong";
+    CAPTURE(game.name);
+    CHECK(now.ram()[0] == other.ram()[0] + (has_one ? 1 : 0));  // frames
   }
 }
 
