@@ -59,6 +59,56 @@ TEST_CASE("A reset keeps the stored action, unlike that of ALE 0.12") {
   }
 }
 
+// Holds its frame open as long as RESET is held: after a reset, it is not finished.
+std::shared_ptr<const Image> waiting_image() {
+  constexpr std::uint8_t kProgram[] = {
+      0xAD, 0x82, 0x02,  // F000 wait  LDA SWCHB
+      0x4A,              // F003       LSR            RESET
+      0x90, 0xFA,        // F004       BCC wait
+      0xA9, 0x02,        // F006       LDA #2
+      0x85, 0x00,        // F008       STA VSYNC
+      0x85, 0x02,        // F00A       STA WSYNC
+      0x85, 0x02,        // F00C       STA WSYNC
+      0xE6, 0x80,        // F00E       INC $80
+      0xA5, 0x80,        // F010       LDA $80
+      0x85, 0x09,        // F012       STA COLUBK
+      0xA9, 0x00,        // F014       LDA #0
+      0x85, 0x91,        // F016       STA $91        the steered game is not over
+      0x85, 0x00,        // F018       STA VSYNC      the frame closes here
+      0xA2, 0x64,        // F01A       LDX #100       not all of the picture is drawn
+      0x85, 0x02,        // F01C line  STA WSYNC
+      0xCA,              // F01E       DEX
+      0xD0, 0xFB,        // F01F       BNE line
+      0x4C, 0x00, 0xF0,  // F021       JMP wait
+  };
+  std::vector<std::uint8_t> bytes(4096);
+  std::ranges::copy(kProgram, bytes.begin());
+  bytes[0xFFD] = 0xF0;  // the reset vector: $F000
+  return make_image(std::move(bytes), "waiting");
+}
+
+TEST_CASE("How far a frame has come is not part of a state that the classic protocol loads") {
+  Environment environment(waiting_image(), test::game(), classic());
+  const auto progress = [&] {
+    const State machine = environment.save()->values.machine;
+    return std::pair(machine.frame.open, machine.tia.pixel);
+  };
+  const auto unfinished = environment.save();
+  CHECK(progress().first == 1);
+  for (int i = 0; i < 3; ++i) environment.act(0);
+  const auto finished = environment.save();
+  const auto whole = progress();
+  CHECK(whole.first == 0);
+  environment.restore_classic(*unfinished);
+  CHECK(progress() == whole);
+  environment.reset_game();
+  const auto part = progress();
+  CHECK(part.first == 1);
+  CHECK(part.second != whole.second);
+  environment.restore_classic(*finished);
+  CHECK(progress() == part);
+}
+
 TEST_CASE("Cartridge RAM is filled once, by a generator with the default seed") {
   MersenneTwister shared(1), expected;
   const MersenneTwister untouched = shared;
