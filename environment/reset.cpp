@@ -1,5 +1,6 @@
 // The way to the first frame of an episode (spec: environment.md, section 7).
 #include "emulator/scheme.hpp"
+#include "environment/classic_games.hpp"
 #include "environment/impl.hpp"
 #include "games/mode_program.hpp"
 
@@ -9,9 +10,9 @@ namespace {
 constexpr int kBootFrames = 60, kResetFrames = 4;
 constexpr int kNoop = 0;
 
-// Adventure had one mode only in ALE 0.6, and no program for it.
-bool has_mode_program(const Game& game, const Settings& settings) {
-  return !settings.classic || game.name != "adventure";
+// Null where the game resets as in ALE 0.12.
+const ClassicGame* classic_game(const Game& game, const Settings& settings) {
+  return settings.classic ? find_classic_game(game.name) : nullptr;
 }
 
 }  // namespace
@@ -69,9 +70,11 @@ void Environment::Impl::run_reset() {
   run_frames(kNoop, kBootFrames);
   soft_reset();
   rule.reset();
-  if (has_mode_program(*game, settings)) set_up_mode();
+  const ClassicGame* const classic = classic_game(*game, settings);
+  if (classic == nullptr || play.mode != game->default_mode) set_up_mode();
   soft_reset();
   for (const int action : game->starting_actions) run_frames(action, 1);
+  if (classic != nullptr) run_frames(kNoop, classic->idle_frames);
   play.rewards = {};
 }
 

@@ -76,7 +76,8 @@ void Environment::Impl::check_values(const Saved& saved) const {
   check_sound(values.sound);
 }
 
-// The reference copies RAM after frames only, and keeps pictures, sound and sticky actions out of its states.
+// The reference copies RAM after frames only, and keeps pictures, sound and sticky actions out of its states;
+// in 0.6 also how far the present frame has come.
 void Environment::Impl::restore_classic(const Saved& saved) {
   check(saved);
   Play restored = saved.values.play;
@@ -84,7 +85,12 @@ void Environment::Impl::restore_classic(const Saved& saved) {
   restored.ram_is_stale = 1;
   restored.stale_ram = play.stale_ram;
   if (play.ram_is_stale == 0) std::ranges::copy(console.ram(), restored.stale_ram.begin());
-  console.restore(saved.values.machine, saved.cartridge_ram);
+  const State& now = console.state();
+  State machine = saved.values.machine;
+  machine.frame.open = now.frame.open;
+  machine.frame.greyed = now.frame.greyed;
+  machine.tia.pixel = now.tia.pixel;
+  console.restore(machine, saved.cartridge_ram);
   rule.restore(saved.values.tally);
   play = restored;
 }

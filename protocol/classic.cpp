@@ -10,6 +10,8 @@ namespace {
 // One read of the classic server takes at most so much of a line; a longer line is seen as two.
 constexpr std::size_t kLongestFlags = 1023, kLongestAction = 2047;
 
+constexpr float kStrength = 1;  // of turning a paddle
+
 // What player A can ask for beside the 18 actions.
 enum Special { kSaveState = 43, kLoadState = 44, kSystemReset = 45 };
 
@@ -91,7 +93,8 @@ void ClassicSession::take_action(std::string_view line) {
 }
 
 // What is not an action presses nothing where the classic server let it pass: with paddles, and after the
-// end. Player B's is never refused, since old clients send 0 or 45 there and mean "nothing".
+// end. Player B's is never refused, since old clients send 0 or 45 there and mean "nothing". Both paddles
+// turn with full strength.
 void ClassicSession::act(int a, int b) {
   const bool accepted = is_player_a(a) || a == kResetAction || paddles_ || environment_.game_over();
   if (!accepted) {
@@ -100,7 +103,7 @@ void ClassicSession::act(int a, int b) {
                            "; there are 0-17, 40 (nothing), 43 (save), 44 (load) and 45 (reset)");
   }
   const int before = environment_.frame_number();
-  reward_ = environment_.act(is_player_a(a) ? a : 0, is_player_b(b) ? b : kActions);
+  reward_ = environment_.act(is_player_a(a) ? a : 0, is_player_b(b) ? b : kActions, kStrength, kStrength);
   frames_ += environment_.frame_number() - before;
 }
 

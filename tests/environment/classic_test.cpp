@@ -1,6 +1,7 @@
 // Seeding and resets as in ALE 0.4 to 0.6 (classic-protocol.md, section 6).
 #include <catch2/catch.hpp>
 
+#include "environment/classic_games.hpp"
 #include "environment/classic_power_on.hpp"
 #include "environment/saved.hpp"
 #include "tests/support/counter_image.hpp"
@@ -58,6 +59,56 @@ TEST_CASE("A reset keeps the stored action, unlike that of ALE 0.12") {
   }
 }
 
+// Holds its frame open as long as RESET is held: after a reset, it is not finished.
+std::shared_ptr<const Image> waiting_image() {
+  constexpr std::uint8_t kProgram[] = {
+      0xAD, 0x82, 0x02,  // F000 wait  LDA SWCHB
+      0x4A,              // F003       LSR            RESET
+      0x90, 0xFA,        // F004       BCC wait
+      0xA9, 0x02,        // F006       LDA #2
+      0x85, 0x00,        // F008       STA VSYNC
+      0x85, 0x02,        // F00A       STA WSYNC
+      0x85, 0x02,        // F00C       STA WSYNC
+      0xE6, 0x80,        // F00E       INC $80
+      0xA5, 0x80,        // F010       LDA $80
+      0x85, 0x09,        // F012       STA COLUBK
+      0xA9, 0x00,        // F014       LDA #0
+      0x85, 0x91,        // F016       STA $91        the steered game is not over
+      0x85, 0x00,        // F018       STA VSYNC      the frame closes here
+      0xA2, 0x64,        // F01A       LDX #100       not all of the picture is drawn
+      0x85, 0x02,        // F01C line  STA WSYNC
+      0xCA,              // F01E       DEX
+      0xD0, 0xFB,        // F01F       BNE line
+      0x4C, 0x00, 0xF0,  // F021       JMP wait
+  };
+  std::vector<std::uint8_t> bytes(4096);
+  std::ranges::copy(kProgram, bytes.begin());
+  bytes[0xFFD] = 0xF0;  // the reset vector: $F000
+  return make_image(std::move(bytes), "waiting");
+}
+
+TEST_CASE("How far a frame has come is not part of a state that the classic protocol loads") {
+  Environment environment(waiting_image(), test::game(), classic());
+  const auto progress = [&] {
+    const State machine = environment.save()->values.machine;
+    return std::pair(machine.frame.open, machine.tia.pixel);
+  };
+  const auto unfinished = environment.save();
+  CHECK(progress().first == 1);
+  for (int i = 0; i < 3; ++i) environment.act(0);
+  const auto finished = environment.save();
+  const auto whole = progress();
+  CHECK(whole.first == 0);
+  environment.restore_classic(*unfinished);
+  CHECK(progress() == whole);
+  environment.reset_game();
+  const auto part = progress();
+  CHECK(part.first == 1);
+  CHECK(part.second != whole.second);
+  environment.restore_classic(*finished);
+  CHECK(progress() == part);
+}
+
 TEST_CASE("Cartridge RAM is filled once, by a generator with the default seed") {
   MersenneTwister shared(1), expected;
   const MersenneTwister untouched = shared;
@@ -72,15 +123,36 @@ TEST_CASE("Cartridge RAM is filled once, by a generator with the default seed") 
   CHECK(std::ranges::all_of(ram, [](std::uint8_t byte) { return byte == 7; }));
 }
 
-TEST_CASE("Adventure has no mode program") {
-  const auto text = std::string(test::kSteeredGame) + "[mode]\nsetup = '''\nselect 5\n'''\n";
-  for (const bool is_classic : {true, false}) {
+TEST_CASE("Games that had no modes in ALE 0.6 reset without a mode program, in their default mode") {
+  constexpr int kSelect = 5, kReset = 6, kResetFrames = 4;  // how many frames these were held
+  const auto text = std::string(test::kSteeredGame) + "[mode]\nsetup = '''\nselect 5; soft_reset\n'''\n";
+  const auto held = [&](const std::string& name, bool is_classic, int mode, std::size_t index) {
     Settings settings = classic();
     settings.classic = is_classic;
-    const Environment adventure(test::counter_image(), test::game(text, "adventure"), settings);
-    const Environment other(test::counter_image(), test::game(text, "other"), settings);
-    CHECK(adventure.ram()[5] == (is_classic ? 0 : 5));  // frames with SELECT held
-    CHECK(other.ram()[5] == 5);
+    Environment environment(test::counter_image(), test::game(text, name), settings);
+    environment.set_mode(mode);
+    environment.reset_game();
+    return int{environment.ram()[index]};
+  };
+  for (const ClassicGame& game : kClassicGames) {
+    const std::string name(game.name);
+    CAPTURE(name);
+    CHECK(held(name, true, 0, kSelect) == 0);
+    CHECK(held(name, true, 1, kSelect) == 5);
+    CHECK(held(name, false, 0, kSelect) == 5);
+    CHECK(held(name, false, 0, kReset) == held(name, true, 0, kReset) + kResetFrames);
+  }
+  CHECK(held("other", true, 0, kSelect) == 5);
+}
+
+TEST_CASE("Frogger and King Kong start with an idle frame in ALE 0.6") {
+  for (const ClassicGame& game : kClassicGames) {
+    const Environment now(test::counter_image(), test::game(test::kSteeredGame, std::string(game.name)),
+                          classic());
+    const Environment other(test::counter_image(), test::game(test::kSteeredGame, "other"), classic());
+    const bool has_one = game.name == "frogger" || game.name == "king_kong";
+    CAPTURE(game.name);
+    CHECK(now.ram()[0] == other.ram()[0] + (has_one ? 1 : 0));  // frames
   }
 }
 

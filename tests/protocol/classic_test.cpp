@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "environment/saved.hpp"
 #include "games/catalogue.hpp"
 #include "protocol/text.hpp"
+#include "tests/support/counter_image.hpp"
 
 using namespace racebeam;
 using Catch::Matchers::Contains;
@@ -19,9 +21,20 @@ Environment make_machine(Settings settings = {}) {
   return {image, recognise(*image).game, settings};
 }
 
+Environment make_paddle_machine() {
+  Settings settings;
+  settings.classic = true;
+  settings.random_seed = 123;
+  settings.sticky = 0;
+  const std::string paddles = std::string("[[image]]\nleft = \"paddles\"\n");
+  return {test::counter_image(), test::game(test::kSteeredGame + paddles), settings};
+}
+
 struct Client {
   explicit Client(Settings settings = {}, const ClassicOptions& options = {})
-      : machine(make_machine(settings)), session(machine, options) {}
+      : Client(make_machine(settings), options) {}
+  explicit Client(Environment its_machine, const ClassicOptions& options = {})
+      : machine(std::move(its_machine)), session(machine, options) {}
 
   // Sends the text and returns all that comes back.
   std::string say(const std::string& text) {
@@ -189,6 +202,19 @@ TEST_CASE("Player B's action is never refused") {
   for (const std::string b : {"0", "45", "18", "35", "40", "36", "-7", "fire"})
     CHECK(client.say("3," + b + "\n") == "0,0:\n");
   CHECK(client.machine.frame_number() == 8);
+}
+
+TEST_CASE("Both players turn their paddles with strength 1") {
+  Client client(make_paddle_machine());
+  const auto paddles = [&] { return client.machine.save()->values.play.paddles; };
+  client.say("0,0,0,1\n");
+  const PaddleValues middle = paddles();
+  client.say("0,22\n");  // player B's LEFT
+  CHECK(paddles() == PaddleValues{middle[0], middle[1] + 23000});
+  client.say("3,18\n");
+  CHECK(paddles() == PaddleValues{middle[0] - 23000, middle[1] + 23000});
+  client.say("0,21\n");
+  CHECK(paddles() == PaddleValues{middle[0] - 23000, middle[1]});
 }
 
 TEST_CASE("40 runs a frame in which player A presses nothing") {
