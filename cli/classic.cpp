@@ -84,7 +84,7 @@ int run(const std::vector<std::string>& words) {
   mention_ignored(settings);
   const ClassicOptions protocol{settings.truth("run_length_encoding", true),
                                 settings.number("max_num_frames", 0)};
-  const ClassicService service{[&] { return power_on(cartridge, machine); }, protocol};
+  const ClassicService service{[&](Pace* pace) { return power_on(cartridge, machine, pace); }, protocol, nullptr};
   ServerSettings server;
   server.endpoints = {{named ? Address(AlePipes{}) : Address(StandardStreams{}), true}};
   Services services;

@@ -121,8 +121,8 @@ Cartridge open_cartridge(const MachineOptions& options, const Tell& tell) {
   return cartridge;
 }
 
-Environment power_on(const Cartridge& cartridge, const MachineOptions& options) {
-  Environment environment(cartridge.image, cartridge.game, options.settings);
+Environment power_on(const Cartridge& cartridge, const MachineOptions& options, Pace* pace) {
+  Environment environment(cartridge.image, cartridge.game, options.settings, pace);
   if (options.mode) environment.set_mode(*options.mode);
   if (options.difficulty) environment.set_difficulty(*options.difficulty);
   if (options.mode || options.difficulty) environment.reset_game();

@@ -42,7 +42,7 @@ void tell_on_standard_error(const std::string& sentence);
 Cartridge open_cartridge(const MachineOptions& options, const Tell& tell = tell_on_standard_error);
 
 // A machine that is switched on, with mode and difficulty in place.
-Environment power_on(const Cartridge& cartridge, const MachineOptions& options);
+Environment power_on(const Cartridge& cartridge, const MachineOptions& options, Pace* pace = nullptr);
 
 Environment open_environment(const MachineOptions& options);
 

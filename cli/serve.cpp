@@ -58,13 +58,13 @@ makes no sense; 255 a classic client asked for an action that does not exist.)";
 
 ClassicService classic_service(const ServeOptions& options) {
   const auto tell = [](const std::string& sentence) { log_warning(sentence); };
-  const auto power_on_one = [options, cartridge = open_cartridge(options.machine, tell)] {
+  const auto power_on_one = [options, cartridge = open_cartridge(options.machine, tell)](Pace* pace) {
     MachineOptions machine = options.machine;
     machine.settings.classic = true;
     machine.settings.random_seed = resolve_seed(machine.settings.random_seed);
-    return power_on(cartridge, machine);
+    return power_on(cartridge, machine, pace);
   };
-  return {power_on_one, options.protocol};
+  return {power_on_one, options.protocol, nullptr};
 }
 
 LineService line_service(const ServeOptions& options, Workers& workers) {
@@ -109,12 +109,27 @@ void return_large_blocks() {
 #endif
 }
 
+// What the server holds without a session counts, and so does room for what sessions share: resets that were kept, code.
+void limit_memory(Services& services, std::uint64_t most) {
+  if (most == 0) return;
+  constexpr std::uint64_t kShared = 24 << 20;
+  const auto budget = std::make_shared<MemoryBudget>(most);
+  budget->take_anyway(resident_memory() + kShared);
+  if (budget->taken() >= most) {
+    throw std::invalid_argument("--max-memory " + std::to_string(most) + " is too little: the server itself takes " +
+                                std::to_string(budget->taken()) + " bytes");
+  }
+  if (services.classic) std::get<ClassicService>(*services.classic).memory = budget;
+  if (services.line) std::get<LineService>(*services.line).memory = budget;
+}
+
 int serve(const ServeOptions& options) {
   Workers workers(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1,
                   options.server.busy_poll);
   Services services;
   if (serves(options, true)) services.classic = classic_service(options);
   if (serves(options, false)) services.line = line_service(options, workers);
+  limit_memory(services, options.server.max_memory);
   return serve(options.server, services);
 }
 

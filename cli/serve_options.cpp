@@ -111,6 +111,17 @@ void add_limits(CLI::App& command, ServeOptions& options) {
              "Seconds that sessions have to end once the server is told to stop");
 }
 
+void add_memory(CLI::App& command, ServerSettings& server) {
+  server.max_memory = usable_memory().amount / 4 * 3;
+  command
+      .add_option("--max-memory", server.max_memory,
+                  "Bytes that the server may hold for its sessions, also as 512M or 2G (default: three quarters of what "
+                  "it may use); 0: no limit")
+      ->transform(CLI::AsSizeValue(false))
+      ->capture_default_str()
+      ->group("Limits");
+}
+
 void add_operation(CLI::App& command, ServeOptions& options) {
   ServerSettings& server = options.server;
   const std::string group = "Operation";
@@ -204,6 +215,7 @@ void add_serve_options(CLI::App& command, ServeOptions& options) {
   add_transports(command, options);
   add_games(command, options);
   add_limits(command, options);
+  add_memory(command, options.server);
   add_operation(command, options);
 }
 

@@ -103,9 +103,10 @@ void play_branches(Session& session, const BranchRequest& request) {
       append_pair(session.out, "state", name);
       const bool with_random = request.root.with_random;
       kept.emplace_back(name, Place{machine.save(with_random), {}, with_random});
+      session.memory.check(kept.back().second.footprint(), "a state");
     }
   }
-  for (auto& [name, place] : kept) session.states.insert_or_assign(name, std::move(place));
+  for (auto& [name, place] : kept) session.states.put(name, std::move(place));
 }
 
 }  // namespace racebeam

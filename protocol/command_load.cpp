@@ -150,6 +150,7 @@ void run_load(Session& session, Words arguments) {
   std::unique_ptr<Player> player;
   try {
     session.allow_resets(1);
+    session.memory.check(Player::footprint(session.fields) + (arguments[0] == kInline ? kOwnImage : 0), "a machine");
     player = std::make_unique<Player>(cartridge, settings, session.fields, session.pacer);
   } catch (const std::invalid_argument& error) {
     const bool sent = arguments[0] == kInline && !settings.mode && !settings.difficulty;

@@ -44,7 +44,6 @@ std::vector<std::uint8_t> read_mask(const Session& session, Words words) {
 void run_open(Session& session, Words arguments) {
   const std::size_t machines = read_machines(session, arguments[0]);
   const Autoreset autoreset = read_autoreset(arguments.subspan(1));
-  Machines::check_replies(session, session.fields, machines, autoreset);
   session.machines.open(session, machines, autoreset);
 }
 

@@ -51,11 +51,10 @@ void run_observe(Session& session, Words arguments) {
   if (!arguments.empty()) {
     std::vector<Field> fields = parse_fields(arguments);
     check_sound(session, fields);
-    const Machines& machines = session.machines;
-    if (!machines.empty()) machines.check_replies(session, fields, machines.size(), machines.autoreset());
+    session.memory.check(View::footprint(fields), "a view of these fields");
+    session.machines.observe(session, fields);
     session.fields = std::move(fields);
     if (session.player) session.player->observe(session.fields);
-    session.machines.observe(session.fields);
   }
   session.out += "ok fields=";
   for (std::size_t i = 0; i < session.fields.size(); ++i) {
@@ -73,6 +72,7 @@ void run_look(Session& session, Words arguments) {
   std::vector<Field> fields = parse_fields(arguments);
   check_sound(session, fields);
   check_look(fields);
+  session.memory.check(View::footprint(fields) + text_size(fields, player.machine()), "a look at these fields");
   View view(std::move(fields), player.machine().height());
   view.began(player.machine(), player.blends());
   session.out += "ok";

@@ -13,8 +13,7 @@ namespace racebeam {
 namespace {
 
 const Place& find_state(const Session& session, std::string_view name) {
-  const auto found = session.states.find(name);
-  if (found != session.states.end()) return found->second;
+  if (const Place* const found = session.states.find(name)) return *found;
   std::string sentence = "there is no state " + quote(name) + "; there are";
   constexpr int kShown = 20;
   int shown = 0;
@@ -35,9 +34,9 @@ void check_room(const Session& session, std::size_t more) {
 }
 
 void keep(Session& session, std::string_view name, Place place) {
-  const auto found = session.states.find(name);
-  if (found == session.states.end()) check_room(session, 1);
-  session.states.insert_or_assign(std::string(name), std::move(place));
+  if (!session.states.contains(name)) check_room(session, 1);
+  session.memory.check(place.footprint(), "a state");
+  session.states.put(name, std::move(place));
 }
 
 std::string_view state_name(std::string_view word) {
@@ -102,7 +101,7 @@ void run_drop(Session& session, Words arguments) {
     session.states.clear();
   } else {
     for (const std::string_view name : arguments) find_state(session, name);
-    for (const std::string_view name : arguments) session.states.erase(std::string(name));
+    for (const std::string_view name : arguments) session.states.drop(name);
   }
   session.out += "ok";
   append_pair(session.out, "count", static_cast<std::int64_t>(session.states.size()));

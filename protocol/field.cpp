@@ -158,6 +158,19 @@ View::View(std::vector<Field> fields, int height) : fields_(std::move(fields)) {
   }
 }
 
+std::size_t View::footprint(const std::vector<Field>& fields) {
+  constexpr std::size_t kDeflater = std::size_t{300} << 10, kTallScreen = 250 * std::size_t{kScreenWidth};
+  std::size_t bytes = 0;
+  for (const Field& field : fields) {
+    if (field.row->number) continue;
+    const std::size_t stack = static_cast<std::size_t>(field.depth) * kSmallSize;
+    bytes += 3 * kTallScreen + stack;  // the scratch copy, at most
+    if (field.encoding == Encoding::kZlib) bytes += kDeflater;
+    if (field.encoding == Encoding::kDelta) bytes += 3 * kTallScreen + stack;
+  }
+  return bytes;
+}
+
 void View::acted(const Environment& machine, int frames) {
   if (stack_ && frames > 0) stack_->push(machine, frames > 1);
 }

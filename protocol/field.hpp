@@ -57,6 +57,8 @@ class View {
 
   const std::vector<Field>& fields() const { return fields_; }
 
+  static std::size_t footprint(const std::vector<Field>& fields);  // bytes of memory, about
+
   // Called when the machine has run, so that stacks are right.
   void acted(const Environment& machine, int frames);
   // A stack begins anew, with what is there: a new episode, other fields, or a state of unknown past.

@@ -18,9 +18,20 @@ std::span<char> LineReader::space() {
     begin_ = 0;
   }
   if (end_ == 0) shrink();
-  if (end_ == buffer_.size()) buffer_.resize(std::min(std::max(kUsual, 2 * end_), longest_ + kUsual));
+  if (end_ == buffer_.size() && !cut_) buffer_.resize(grown_size());
   return std::span(buffer_).subspan(end_);
 }
+
+std::size_t LineReader::grown_size() const {
+  return std::min(std::max(kUsual, 2 * unread()), longest_ + kUsual);
+}
+
+std::size_t LineReader::growth() const {
+  const bool is_full = unread() == buffer_.size();
+  return is_full && grown_size() > buffer_.size() ? grown_size() - buffer_.size() : 0;
+}
+
+void LineReader::cut_line() { cut_ = true; }
 
 void LineReader::shrink() {
   if (buffer_.size() <= kUsual) return;
@@ -43,7 +54,7 @@ std::optional<LineReader::Line> LineReader::next() {
     return too_long ? Line{Kind::kTooLong, {}} : Line{Kind::kLine, line};
   }
   searched_ = rest.size();
-  if (skipping_ || rest.size() > longest_) {
+  if (skipping_ || rest.size() > longest_ || std::exchange(cut_, false)) {
     begin_ = end_;
     searched_ = 0;
     if (std::exchange(skipping_, true)) return std::nullopt;

@@ -17,6 +17,9 @@ class LineReader {
   void set_longest(std::size_t longest) { longest_ = longest; }
   std::size_t longest() const { return longest_; }
 
+  std::size_t growth() const;  // bytes of memory that space() would take
+  void cut_line();             // there is no memory for the line that is coming in: it is too long
+  std::size_t capacity() const { return buffer_.capacity(); }
   std::span<char> space();        // where the next input goes; empty while a longest line waits unread
   void added(std::size_t count);  // so much was put there
   void end() { ended_ = true; }   // no more will come
@@ -34,12 +37,14 @@ class LineReader {
  private:
   std::size_t unread() const { return end_ - begin_; }
   void shrink();
+  std::size_t grown_size() const;
 
   std::size_t longest_;
   std::string buffer_;
   std::size_t begin_ = 0, end_ = 0;  // of what next() has not given
   std::size_t searched_ = 0;         // bytes from begin_ in which there is no LF
   bool skipping_ = false;            // within a line that was too long
+  bool cut_ = false;                 // there is no memory for the line
   bool ended_ = false;
 };
 

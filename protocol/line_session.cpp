@@ -8,7 +8,7 @@ LineSession::LineSession(const LineService& service, Meter* meter)
     : session_(std::make_unique<Session>(service, meter)) {}
 LineSession::~LineSession() = default;
 
-std::span<char> LineSession::space() { return session_->input.space(); }
+std::span<char> LineSession::space() { return session_->space(); }
 
 void LineSession::received(std::size_t count) {
   session_->input.added(count);

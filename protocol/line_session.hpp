@@ -13,6 +13,7 @@
 
 #include "emulator/translator/translator.hpp"
 #include "protocol/images.hpp"
+#include "protocol/memory.hpp"
 #include "protocol/meter.hpp"
 
 namespace racebeam {
@@ -36,7 +37,7 @@ using Parallel = std::function<void(std::size_t count, const std::function<void(
 // Whether a token is one of those that the server knows. From any thread.
 using Admission = std::function<bool(std::string_view token)>;
 
-// What all sessions of a server share, all of it const.
+// What all sessions of a server share.
 struct LineService {
   std::string version = "0";
   std::shared_ptr<const Images> images;
@@ -46,6 +47,7 @@ struct LineService {
   std::size_t threads = 1;       // that `parallel` has
   Admission admission;           // empty: everyone may play; else whose `hello` gives a token
   CpuKind cpu = CpuKind::kAuto;  // of all machines
+  std::shared_ptr<MemoryBudget> memory;  // of all sessions; null: there is no limit
 };
 
 class Session;

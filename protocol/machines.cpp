@@ -20,7 +20,9 @@ std::optional<Autoreset> autoreset_of(std::string_view name) {
 
 std::string_view name_of(Autoreset autoreset) { return kAutoresets[static_cast<std::size_t>(autoreset)]; }
 
-void Machines::observe(const std::vector<Field>& fields) {
+void Machines::observe(Session& session, const std::vector<Field>& fields) {
+  if (empty()) return;
+  reply_bytes_ = check(session, fields, size(), autoreset_);
   for (const auto& seat : seats_) seat->player->observe(fields);
 }
 
@@ -31,14 +33,25 @@ void Machines::rest() {
   }
 }
 
-void Machines::check_replies(const Session& session, const std::vector<Field>& fields, std::size_t count,
-                             Autoreset autoreset) {
+// Each machine's part of a reply is made by itself before it is put into the whole.
+std::size_t Machines::check(Session& session, const std::vector<Field>& fields, std::size_t count,
+                            Autoreset autoreset) {
   const std::size_t once = text_size(fields, session.player->machine());
-  const std::size_t each = autoreset == Autoreset::kSameStep ? 2 * once : once;
-  session.check_reply(count * each, std::to_string(count) + " machines with these fields");
+  const std::size_t reply = count * (autoreset == Autoreset::kSameStep ? 2 * once : once);
+  session.check_reply(reply, std::to_string(count) + " machines with these fields");
+  session.memory.check(count * (sizeof(Seat) + Player::footprint(fields)) + 2 * reply,
+                       std::to_string(count) + " machines with these fields");
+  return reply;
+}
+
+std::size_t Machines::footprint(const std::vector<Field>& fields) const {
+  std::size_t bytes = size() * (sizeof(Seat) + (empty() ? 0 : Player::footprint(fields)));
+  for (const auto& seat : seats_) bytes += seat->text.capacity();
+  return bytes;
 }
 
 void Machines::open(Session& session, std::size_t count, Autoreset autoreset) {
+  const std::size_t reply_bytes = check(session, session.fields, count, autoreset);
   Seats seats(count);
   for (auto& seat : seats) seat = std::make_unique<Seat>();
   session.allow_resets(count);
@@ -51,6 +64,7 @@ void Machines::open(Session& session, std::size_t count, Autoreset autoreset) {
   });
   seats_.swap(seats);
   autoreset_ = autoreset;
+  reply_bytes_ = reply_bytes;
   session.out += "ok";
   append_pair(session.out, "machines", static_cast<std::int64_t>(count));
   append_pair(session.out, "autoreset", name_of(autoreset));
@@ -60,6 +74,7 @@ void Machines::open(Session& session, std::size_t count, Autoreset autoreset) {
 void Machines::step(Session& session, std::span<const Action> actions) {
   const std::vector<std::uint8_t> resets(size(), autoreset_ != Autoreset::kDisabled);
   check_frames(session, static_cast<std::int64_t>(size()), resets);
+  session.memory.check(reply_bytes_, "the reply");
   work_on_all(session, seats_, [this, actions](Seat& seat, std::size_t number) {
     seat.player->begin_request();
     seat.step(actions[number], autoreset_);
@@ -73,6 +88,7 @@ void Machines::step(Session& session, std::span<const Action> actions) {
 
 void Machines::restart(Session& session, std::span<const std::uint8_t> chosen) {
   check_frames(session, 0, chosen);
+  session.memory.check(reply_bytes_, "the reply");
   work_on_all(session, seats_, [chosen](Seat& seat, std::size_t number) {
     seat.player->begin_request();
     if (chosen[number] != 0) seat.player->reset();

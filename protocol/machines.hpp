@@ -27,12 +27,15 @@ class Machines {
   std::size_t size() const { return seats_.size(); }
   Autoreset autoreset() const { return autoreset_; }
   void close() { seats_.clear(); }
-  void observe(const std::vector<Field>& fields);
-  void rest();  // gives back memory that only saves time
+  void observe(Session& session, const std::vector<Field>& fields);  // throws Refusal, and changes nothing
+  void rest();                                                       // gives back memory that only saves time
+  std::size_t footprint(const std::vector<Field>& fields) const;     // bytes of memory, about
 
   // Throws Refusal when replies about so many, of these fields, are longer than they may be.
-  static void check_replies(const Session& session, const std::vector<Field>& fields, std::size_t count,
-                            Autoreset autoreset);
+  // So many machines with these fields. Throws Refusal when replies about them are longer than they may be,
+  // or when there is no memory for the machines. Returns how many bytes a reply may have.
+  static std::size_t check(Session& session, const std::vector<Field>& fields, std::size_t count,
+                           Autoreset autoreset);
 
   // Each appends its reply to session.out. All throw Refusal; `open` then leaves the machines that were
   // there.
@@ -63,6 +66,7 @@ class Machines {
 
   Seats seats_;
   Autoreset autoreset_ = Autoreset::kNextStep;
+  std::size_t reply_bytes_ = 0;  // that a reply may have
 };
 
 }  // namespace racebeam

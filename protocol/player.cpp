@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "environment/saved.hpp"
+
 namespace racebeam {
 
 Player::Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields,
@@ -16,6 +18,18 @@ Player::Player(const Cartridge& cartridge, const PlaySettings& settings, std::ve
   if (settings.mode || settings.difficulty || settings.noop_max > 0) begin_episode();
   observe(std::move(fields));
   begin_request();
+}
+
+// Measured: 190 to 240 KiB, and 80 more where objects flicker (docs/performance.md).
+std::size_t Player::footprint(const std::vector<Field>& fields) {
+  constexpr std::size_t kMachine = std::size_t{384} << 10;
+  return kMachine + View::footprint(fields);
+}
+
+std::size_t Place::footprint() const {
+  constexpr std::size_t kName = 256;
+  const std::size_t picture = static_cast<std::size_t>(machine->height) * kScreenWidth;
+  return kName + sizeof *machine + machine->cartridge_ram.size() + 2 * picture + stack.size();
 }
 
 void Player::begin_request() {

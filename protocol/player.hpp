@@ -21,6 +21,8 @@ struct Place {
   std::vector<std::uint8_t> stack;
   bool with_random = false;  // the generator of what is random in play is part of it
   bool blends = false;       // as Player::blends()
+
+  std::size_t footprint() const;  // bytes of memory, about; pictures that are shared count
 };
 
 class Player {
@@ -46,6 +48,9 @@ class Player {
 
   Place place(bool with_random) const;
   void go_to(const Place& place);  // throws std::invalid_argument
+
+  // Bytes of memory, about, of a player with these fields.
+  static std::size_t footprint(const std::vector<Field>& fields);
 
   void observe(std::vector<Field> fields);
   View& view() { return view_; }

@@ -18,6 +18,10 @@ constexpr int kFewReplies = 4;
 constexpr int kFramesOfReplies = 64;              // some hundred microseconds
 constexpr std::size_t kBytesOfReplies = 1 << 16;  // some twenty with a screen
 
+constexpr std::size_t kShortLine = 4096;
+constexpr std::size_t kBytesOfWord =
+    48;  // that each word of a request may take, an action and its reward; two bytes at least
+
 const LineLimits& limits(const LineService& service) { return service.limits; }
 
 // Who has not given a token yet has little to say.
@@ -51,7 +55,10 @@ Session::Session(const LineService& with, Meter* counting)
       input(longest_line(with, !with.admission)),
       admitted(!with.admission),
       fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})),
-      meter_(counting) {}
+      memory(with.memory.get()),
+      meter_(counting) {
+  memory.set(footprint());
+}
 
 Session::~Session() { pacer.cancel(); }  // before what its body uses
 
@@ -180,6 +187,7 @@ void Session::take(const LineReader::Line& line) {
 }
 
 void Session::execute(std::string_view line) {
+  if (line.size() > kShortLine) memory.check(kBytesOfWord / 2 * line.size(), "a line of so many words");
   check_bytes(line);
   split(line, words_);
   if (words_.empty()) throw Refusal(Code::kBadLine, "the line is empty; help lists the commands");
@@ -195,6 +203,7 @@ void Session::finish_reply() {
   ++unsent_;
   statistics.bytes_out += static_cast<std::int64_t>(out.size() - reply_);
   done_ = quitting;
+  memory.set(footprint());
   if (meter_) measure();
   began_ = looked_;  // the next, if it is there
 }
@@ -203,6 +212,23 @@ void Session::measure() {
   meter_->request(command_, refused_, looked_ - began_);
   meter_->frames.add(statistics.frames - metered_frames_);
   metered_frames_ = statistics.frames;
+}
+
+// Bytes, about. Of what changes within a request, what is large is checked before it is taken.
+std::size_t Session::footprint() const {
+  constexpr std::size_t kSession = std::size_t{48} << 10;  // with connection, fiber and buffers
+  std::size_t bytes = kSession + out.capacity() + input.capacity() + states.footprint() +
+                      machines.footprint(fields) + actions.capacity() * sizeof(Action) +
+                      words_.capacity() * sizeof(std::string_view);
+  if (player) bytes += Player::footprint(fields);
+  if (cartridge.image && service.images->find(cartridge.image->md5) == nullptr) bytes += kOwnImage;
+  return bytes;
+}
+
+// A line that there is no memory for is too long.
+std::span<char> Session::space() {
+  if (const std::size_t growth = input.growth(); growth > 0 && !memory.grow(growth)) input.cut_line();
+  return input.space();
 }
 
 std::string_view Session::whole_replies() const {
@@ -230,6 +256,7 @@ void Session::rest() {
   if (out.empty()) out.shrink_to_fit();
   std::vector<Action>().swap(actions);
   std::vector<std::string_view>().swap(words_);
+  if (!pacer.in_progress()) memory.set(footprint());
 }
 
 }  // namespace racebeam

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,8 +12,10 @@
 #include "protocol/line_reader.hpp"
 #include "protocol/line_session.hpp"
 #include "protocol/machines.hpp"
+#include "protocol/memory.hpp"
 #include "protocol/pacer.hpp"
 #include "protocol/player.hpp"
+#include "protocol/states.hpp"
 
 namespace racebeam {
 
@@ -23,6 +24,9 @@ class Recording;
 
 // What a machine may run beyond what was asked for: powering on and an ordinary reset take some 130 frames.
 constexpr std::int64_t kFreeResetFrames = 1000;
+
+// An image that a client has sent may be translated to so much code.
+constexpr std::size_t kOwnImage = std::size_t{4} << 20;
 
 struct Statistics {
   std::int64_t requests = 0, errors = 0, acts = 0, frames = 0, episodes = 0, bytes_in = 0, bytes_out = 0;
@@ -47,9 +51,10 @@ class Session {
   PlaySettings settings;
   std::vector<Field> fields;  // chosen by `observe`; stay when another game is loaded
   std::unique_ptr<Player> player;
-  std::map<std::string, Place, std::less<>> states;
+  States states;
   std::unique_ptr<Recording> recording;  // null: none is running
 
+  MemoryShare memory;           // of the server's; what a request is going to take is checked before
   std::vector<Action> actions;  // of a request; kept for their memory
   Machines machines;
 
@@ -62,6 +67,7 @@ class Session {
   void watch();  // the machine, for the recording if there is one
   void run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
 
+  std::span<char> space();
   bool run(std::chrono::microseconds slice);
   Pacer::Clock::duration worked() const { return worked_; }
   std::string_view whole_replies() const;  // not the one that is being worked on: it may yet be refused
@@ -81,6 +87,7 @@ class Session {
   void take(const LineReader::Line& line);
   void execute(std::string_view line);
   void refuse(Code code, std::string_view sentence);
+  std::size_t footprint() const;
   void finish_reply();
   void measure();
   template <typename Step>

@@ -71,22 +71,6 @@ net::awaitable<void> take_leave(Stream& stream, Client& client) {
   throw std::runtime_error("closed: " + client.reason());
 }
 
-template <typename Stream>
-net::awaitable<void> converse(Stream& stream, Client& client, ClassicSession& session) {
-  error_code error;
-  while (!session.ended()) {
-    if (const auto text = session.reply()) {
-      co_await net::async_write(stream, net::buffer(*text), net::redirect_error(use_awaitable, error));
-      client.sent(text->size());
-      client.loop.meter.frames.add(session.take_frames());
-      if (error && !session.ended()) throw std::runtime_error("the client stopped reading");
-    } else {
-      session.received(co_await receive(stream, client, session.space()));
-    }
-    if (client.ending()) throw std::runtime_error("closed: " + client.reason());
-  }
-}
-
 LookAhead look_ahead(Socket& socket) { return LookAhead(&socket); }
 LookAhead look_ahead(TlsStream&) { return LookAhead(nullptr); }
 
@@ -103,6 +87,38 @@ net::awaitable<void> take_turn(Client& client) {
   client.working = true;
   co_await client.loop.turns.wait(client.usage);
   client.working = false;
+}
+
+// Works until the session has a reply or wants input.
+net::awaitable<void> work(Client& client, PacedClassic& session) {
+  Turns& turns = client.loop.turns;
+  Departure departure;
+  for (bool done = false; !done;) {
+    if (!turns.may_work(client.usage)) co_await take_turn(client);
+    done = session.work();
+    turns.worked(client.usage, session.worked());
+    if (!done && departure.has_gone(client.socket))
+      throw std::runtime_error("the client left in the middle of an act");
+    if (!done) co_await take_turn(client);
+    if (client.ending()) throw std::runtime_error("closed: " + client.reason());
+  }
+}
+
+template <typename Stream>
+net::awaitable<void> converse(Stream& stream, Client& client, PacedClassic& session) {
+  error_code error;
+  while (!session.ended()) {
+    co_await work(client, session);
+    if (const auto text = session.reply()) {
+      co_await net::async_write(stream, net::buffer(*text), net::redirect_error(use_awaitable, error));
+      client.sent(text->size());
+      client.loop.meter.frames.add(session.take_frames());
+      if (error && !session.ended()) throw std::runtime_error("the client stopped reading");
+    } else {
+      session.received(co_await receive(stream, client, session.space()));
+    }
+    if (client.ending()) throw std::runtime_error("closed: " + client.reason());
+  }
 }
 
 // Between two slices of a long request, or of many that were sent ahead, the loop's other sessions have their
@@ -188,10 +204,11 @@ class Resting {
 template <typename Stream>
 net::awaitable<void> play(Stream& stream, Client& client, const ClassicService& service) {
   client.admitted = true;
-  Environment machine = service.power_on();
-  log(client.name + ": " + describe(machine), {{"client", client.name}, {"event", "came"}});
-  ClassicSession session(machine, service.options);
-  const Resting resting(client, [&machine] { machine.rest(); });
+  PacedClassic session(service);
+  co_await work(client, session);
+  session.check_machine();
+  log(client.name + ": " + describe(session.machine()), {{"client", client.name}, {"event", "came"}});
+  const Resting resting(client, [&session] { session.rest(); });
   co_await converse(stream, client, session);
 }
 

@@ -25,6 +25,12 @@ net::awaitable<void> pause() {
   co_await timer.async_wait(use_awaitable);
 }
 
+bool has_memory_for_one_more(const Service& service) {
+  constexpr std::uint64_t kSession = 1 << 20;
+  const auto& memory = std::visit([](const auto& kind) -> const auto& { return kind.memory; }, service);
+  return !memory || memory->has(kSession);
+}
+
 template <typename Part>
 void read_again(std::optional<Part>& part, const std::string& what) {
   if (!part) return;
@@ -146,12 +152,14 @@ net::awaitable<void> Door::welcome(Listener& listener) {
 void Door::admit(Socket socket, Loop& loop, const Listener& listener, int number) {
   std::string name = listener.name() + " client " + std::to_string(number);
   auto client = std::make_shared<Client>(std::move(socket), loop, std::move(name));
-  if (metrics_.sessions_open >= settings_.max_sessions) {
+  const bool has_memory = has_memory_for_one_more(service_of(listener));
+  if (metrics_.sessions_open >= settings_.max_sessions || !has_memory) {
     ++metrics_.refused_busy;
-    log_warning(client->name + ": refused, there are " + std::to_string(settings_.max_sessions) +
-                " sessions");
-    client->end(Code::kBusy, "there are " + std::to_string(settings_.max_sessions) +
-                                 " sessions, as many as this server takes; come back later");
+    const std::string why = has_memory ? "there are " + std::to_string(settings_.max_sessions) +
+                                             " sessions, as many as this server takes"
+                                       : "the server's sessions hold all the memory that they may";
+    log_warning(client->name + ": refused, " + why);
+    client->end(Code::kBusy, why + "; try again later");
     const bool understands = !listener.endpoint().classic && !listener.endpoint().tls;
     net::co_spawn(loop.context, turn_away(std::move(client), understands), net::detached);
     return;

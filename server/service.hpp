@@ -1,21 +1,15 @@
 // What a server offers: machines, and how to talk to them.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
 
 #include "environment/environment.hpp"
-#include "protocol/classic.hpp"
 #include "protocol/line_session.hpp"
+#include "protocol/paced_classic.hpp"
 
 namespace racebeam {
-
-struct ClassicService {
-  std::function<Environment()> power_on;  // a machine of its own for each session; called from any thread
-  ClassicOptions options;
-};
 
 using Service = std::variant<ClassicService, LineService>;
 

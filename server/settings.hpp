@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct ServerSettings {
   int threads = 1;                           // that serve sockets
   std::string threads_limited_by;            // why there are no more, for the log
   std::chrono::microseconds busy_poll{100};  // that a thread waits awake for a quick client; 0: never
+  std::uint64_t max_memory = 0;  // bytes that the server may hold; 0: no limit
   int max_sessions = 4096;                   // at a time
   int idle_seconds = 86400;    // without a byte to or from a client, after which it is closed; 0: never
   int handshake_seconds = 10;  // that a client has to finish TLS and to give its token

@@ -82,8 +82,10 @@ class StreamSession::LineConversation final : public Conversation {
 
 class StreamSession::ClassicConversation final : public Conversation {
  public:
-  ClassicConversation(const ClassicService& service, Meter& meter)
-      : meter_(meter), machine_(service.power_on()), session_(machine_, service.options) {}
+  ClassicConversation(const ClassicService& service, Meter& meter) : meter_(meter), session_(service) {
+    while (!session_.work()) continue;
+    session_.check_machine();
+  }
 
   int hold(BlockingPair& streams, const Halt& halt) override {
     try {
@@ -94,19 +96,20 @@ class StreamSession::ClassicConversation final : public Conversation {
     }
   }
 
-  std::string description() const override { return describe(machine_); }
+  std::string description() const override { return describe(session_.machine()); }
 
  private:
   bool converse(BlockingPair& streams, const Halt& halt);  // false: the client stopped reading
 
   Meter& meter_;
-  Environment machine_;
-  ClassicSession session_;
+  PacedClassic session_;
 };
 
 bool StreamSession::ClassicConversation::converse(BlockingPair& streams, const Halt& halt) {
   while (!session_.ended()) {
-    if (const auto text = session_.reply()) {
+    if (!session_.work()) {
+      if (halt.all || streams.reader_left()) return false;
+    } else if (const auto text = session_.reply()) {
       if (!streams.write(*text) && !session_.ended()) return false;
       meter_.bytes_out.add(static_cast<std::int64_t>(text->size()));
       meter_.frames.add(session_.take_frames());

@@ -24,4 +24,7 @@ Allowance usable_processors(const std::string& root = "");
 // Bytes: the least of the physical memory and the control groups' limits.
 Allowance usable_memory(const std::string& root = "");
 
+// Bytes of memory that the process has now.
+std::uint64_t resident_memory();
+
 }  // namespace racebeam

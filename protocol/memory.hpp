@@ -1,0 +1,52 @@
+// A limit for the memory of all sessions together. What they hold is estimated, and estimates are generous;
+// the system's allocator is not asked.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace racebeam {
+
+// Shared by the sessions of a server. From any thread.
+class MemoryBudget {
+ public:
+  static constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
+  explicit MemoryBudget(std::uint64_t most = kNoLimit) : most_(most) {}
+
+  bool take(std::uint64_t bytes);         // false, and nothing is taken, when there is not so much left
+  void take_anyway(std::uint64_t bytes);  // what is there already
+  bool has(std::uint64_t bytes) const { return taken_ <= most_ && bytes <= most_ - taken_; }
+  void give_back(std::uint64_t bytes) { taken_ -= bytes; }
+
+  std::uint64_t taken() const { return taken_; }
+  std::uint64_t most() const { return most_; }
+
+ private:
+  const std::uint64_t most_;
+  std::atomic<std::uint64_t> taken_ = 0;
+};
+
+// What one session has taken of a budget; given back at its end.
+class MemoryShare {
+ public:
+  explicit MemoryShare(MemoryBudget* budget) : budget_(budget) {}  // null: there is no limit
+  ~MemoryShare() { set(0); }
+  MemoryShare(const MemoryShare&) = delete;
+  MemoryShare& operator=(const MemoryShare&) = delete;
+
+  void set(std::size_t bytes);   // what the session holds
+  bool grow(std::size_t bytes);  // false, and nothing is taken, when there is not so much left
+  void check(std::size_t bytes, const std::string& what);  // as grow(). Throws Refusal
+
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  MemoryBudget* budget_;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace racebeam
