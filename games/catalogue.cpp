@@ -5,18 +5,17 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "games/game_file.hpp"
+#include "games/similar.hpp"
 #include "system/input_file.hpp"
 
 namespace racebeam {
 namespace {
 
 constexpr std::size_t kMaxGameFile = 1 << 20;
-constexpr std::size_t kSuggestions = 3;
 
 // The built-in image of a game is recognised by its MD5, which its file doesn't have to list.
 std::shared_ptr<const Game> parsed(std::size_t number) {
@@ -31,27 +30,10 @@ const CatalogueImage* known_image(std::string_view md5) {
   return found != images.end() && found->md5 == md5 ? &*found : nullptr;
 }
 
-// Levenshtein's: how many letters to insert, delete or replace.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 [[noreturn]] void refuse_name(const std::string& name) {
-  std::string near;
-  for (const std::string& similar : similar_games(name))
-    near += (near.empty() ? "; did you mean " : " or ") + similar;
-  throw std::invalid_argument("there is no game '" + name + "'" +
-                              (near.empty() ? "; `racebeam games` lists them" : near + "?"));
+  const std::string near = did_you_mean(name, game_names());
+  throw std::invalid_argument("there is no game '" + name + "';" +
+                              (near.empty() ? " `racebeam games` lists them" : near));
 }
 
 bool describes(const Game& game, const Image& image) {
@@ -116,17 +98,9 @@ std::shared_ptr<const Game> find_game_by_md5(std::string_view md5) {
   return known && known->accepted ? parsed(known->entry) : nullptr;
 }
 
-std::vector<std::string> similar_games(std::string_view name) {
-  std::vector<std::pair<std::size_t, std::string>> near;
-  for (const CatalogueEntry& entry : catalogue()) {
-    const bool begins_alike = name.size() > 2 && entry.name.starts_with(name);
-    const std::size_t distance = begins_alike ? 1 : edit_distance(name, entry.name);
-    if (distance <= std::max<std::size_t>(2, name.size() / 3)) near.emplace_back(distance, entry.name);
-  }
-  std::sort(near.begin(), near.end());
-  near.resize(std::min(near.size(), kSuggestions));
-  std::vector<std::string> names;
-  for (auto& [distance, similar] : near) names.push_back(std::move(similar));
+std::vector<std::string_view> game_names() {
+  std::vector<std::string_view> names;
+  for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
   return names;
 }
 

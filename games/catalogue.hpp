@@ -37,8 +37,7 @@ std::shared_ptr<const Game> find_game(std::string_view name);  // null if there 
 std::shared_ptr<const Game> find_game_by_md5(
     std::string_view md5);  // only accepted images; null if there is none
 
-// The names most like `name`, nearest first; none if nothing is near.
-std::vector<std::string> similar_games(std::string_view name);
+std::vector<std::string_view> game_names();  // of catalogue(), in its order
 
 // A game file of the user's. Throws std::invalid_argument: "FILE:LINE: FIELD: sentence".
 std::shared_ptr<const Game> load_game_file(const std::string& path);

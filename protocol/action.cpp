@@ -3,6 +3,7 @@
 #include <string>
 
 #include "games/actions.hpp"
+#include "games/similar.hpp"
 #include "protocol/words.hpp"
 
 namespace racebeam {
@@ -12,12 +13,14 @@ constexpr int kMostTimes = 1'000'000'000;  // Session::check_frames() limits wha
 
 [[noreturn]] void refuse(std::string_view word, std::string_view why, const AllowedActions& actions) {
   std::string list;
+  std::vector<std::string_view> names;
   for (int action = 0; action < kActions; ++action) {
-    if ((actions.allowed >> action & 1) != 0)
-      ((list += ' ') += std::to_string(action) + '=') += action_name(action);
+    if ((actions.allowed >> action & 1) == 0) continue;
+    ((list += ' ') += std::to_string(action) + '=') += action_name(action);
+    names.push_back(action_name(action));
   }
-  throw Refusal(Code::kBadAction,
-                quote(word) + std::string(why) + "; " + std::string(actions.game) + " takes" + list);
+  throw Refusal(Code::kBadAction, quote(word) + std::string(why) + ';' + did_you_mean(word, names) + ' ' +
+                                      std::string(actions.game) + " takes" + list);
 }
 
 int number_of(std::string_view word, const AllowedActions& actions) {

@@ -13,8 +13,8 @@ namespace {
 constexpr std::array kCommands = {
     Command{"hello", "[token=TOKEN]", "who the server is, and what it allows", "", "hello", 0, 1,
             Needs::kNothing, run_hello},
-    Command{"help", "[COMMAND|settings|presets|fields]", "explain", "", "help act", 0, 1, Needs::kNothing,
-            run_help},
+    Command{"help", "[COMMAND|KEY|settings|presets|fields|encodings|errors|states]", "explain", "",
+            "help act", 0, 1, Needs::kNothing, run_help},
     Command{"games", "[all|GAME]", "games whose image is here; all that there are rules for; one of them", "",
             "games beamfall", 0, 1, Needs::kAdmission, run_games},
     Command{"load", "GAME|MD5|inline [image=BASE64] [as=GAME] [KEY=VALUE...]",
@@ -68,6 +68,8 @@ constexpr std::array kCommands = {
     Command{"quit", "", "end the session", "", "", 0, 0, Needs::kNothing, run_quit},
 };
 
+constexpr std::array kAliases = {Alias{"?", "help"}, Alias{"exit", "quit"}};
+
 std::string count_text(const Command& command) {
   if (command.most == command.least) return std::to_string(command.least);
   const std::string least = std::to_string(command.least);
@@ -85,12 +87,14 @@ std::string usage(const Command& command) {
 
 std::span<const Command> commands() { return kCommands; }
 
+std::span<const Alias> aliases() { return kAliases; }
+
 const Command& find_command(std::string_view name) {
+  const auto alias = std::ranges::find(kAliases, name, &Alias::name);
+  if (alias != kAliases.end()) return find_command(alias->command);
   const auto found = std::ranges::find(kCommands, name, &Command::name);
   if (found != kCommands.end()) return *found;
-  std::string names;
-  for (const Command& command : kCommands) (names += ' ') += command.name;
-  throw Refusal(Code::kUnknownCommand, "there is no command " + quote(name) + "; there are" + names);
+  refuse_name(Code::kUnknownCommand, "command", name, names_of(kCommands));
 }
 
 void check(const Command& command, const Session& session, std::size_t arguments) {

@@ -21,7 +21,7 @@ struct Command {
   std::string_view summary;
   std::string_view hint;     // for `help`: where a person finds the words that it takes; may be empty
   std::string_view example;  // the same: one that works; empty: it is clear without
-  std::size_t least, most;  // arguments
+  std::size_t least, most;   // arguments
   Needs needs;
 
   // Appends "ok" and what follows to session.out, without LF. Throws Refusal. Runs as the body of session.pacer: what takes
@@ -31,7 +31,12 @@ struct Command {
 
 std::span<const Command> commands();
 
-// Throws Refusal, with the names that there are.
+struct Alias {  // what people try
+  std::string_view name, command;
+};
+std::span<const Alias> aliases();
+
+// By its name or an alias. Throws Refusal, with the names that there are.
 const Command& find_command(std::string_view name);
 
 // Throws Refusal when the number of arguments is wrong, or when something else has to come first.

@@ -3,6 +3,7 @@
 #include <random>
 #include <utility>
 
+#include "games/similar.hpp"
 #include "protocol/base64.hpp"
 #include "protocol/command.hpp"
 #include "protocol/play_settings.hpp"
@@ -31,22 +32,21 @@ std::string_view format_name(Format format) {
   return kNames[static_cast<std::size_t>(format)];
 }
 
-[[noreturn]] void refuse_game(std::string_view name) {
+[[noreturn]] void refuse_game(const Images& images, std::string_view name) {
   if (find_game(name)) {
     throw Refusal(Code::kUnknownGame, "the image of " + std::string(name) +
                                           " is not here; games lists those that are; load inline takes one");
   }
-  std::string sentence = "there is no game " + quote(name);
-  const auto similar = similar_games(name);
-  for (std::size_t i = 0; i < similar.size(); ++i)
-    sentence += (i == 0 ? "; did you mean " : " or ") + similar[i];
-  throw Refusal(Code::kUnknownGame, sentence + (similar.empty() ? "; games lists those that are here" : "?"));
+  std::string meant = did_you_mean(name, images.names());
+  if (meant.empty()) meant = did_you_mean(name, game_names());
+  throw Refusal(Code::kUnknownGame, "there is no game " + quote(name) + ';' +
+                                        (meant.empty() ? " games lists those that are here" : meant));
 }
 
 void describe_game(Session& session, std::string_view name) {
   const Cartridge* cartridge = session.service.images->find(name);
   const auto game = cartridge ? cartridge->game : find_game(name);
-  if (!game) refuse_game(name);
+  if (!game) refuse_game(*session.service.images, name);
   std::string& out = session.out;
   out += "ok";
   append_pair(out, "game", game->name);
@@ -101,14 +101,15 @@ Cartridge find_cartridge(const Session& session, std::string_view name, const Lo
   } else {
     if (words.image) throw Refusal(Code::kBadArguments, "image= goes with load inline");
     const Cartridge* found = session.service.images->find(name);
-    if (found == nullptr) refuse_game(name);
+    if (found == nullptr) refuse_game(*session.service.images, name);
     cartridge = *found;
   }
   if (words.as) {
     cartridge.game = find_game(*words.as);
     if (!cartridge.game)
-      throw Refusal(Code::kUnknownGame,
-                    "there are no rules for " + quote(*words.as) + "; games all lists those that there are");
+      throw Refusal(Code::kUnknownGame, "there are no rules for " + quote(*words.as) + ';' +
+                                            did_you_mean(*words.as, game_names()) +
+                                            " games all lists those that there are");
   } else if (name == kInline) {
     cartridge.game = recognise(*cartridge.image).game;
   }
@@ -134,9 +135,7 @@ void run_games(Session& session, Words arguments) {
   if (!arguments.empty() && arguments[0] != "all") return describe_game(session, arguments[0]);
   session.out += "ok";
   if (arguments.empty()) return append_names(session.out, session.service.images->names());
-  std::vector<std::string_view> names;
-  for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
-  append_names(session.out, names);
+  append_names(session.out, game_names());
 }
 
 // All or nothing: a load that is refused leaves the game before it running.

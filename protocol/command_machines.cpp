@@ -11,9 +11,7 @@ namespace {
 Autoreset read_autoreset(Words words) {
   if (words.empty()) return Autoreset::kNextStep;
   const auto value = value_of(words[0], "autoreset", "open");
-  if (const auto autoreset = autoreset_of(value)) return *autoreset;
-  throw Refusal(Code::kBadValue,
-                "autoreset is " + quote(value) + "; it takes next-step, same-step or disabled");
+  return static_cast<Autoreset>(choice_of(value, "autoreset", autoresets()));
 }
 
 std::size_t read_machines(const Session& session, std::string_view word) {

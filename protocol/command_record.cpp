@@ -1,6 +1,9 @@
 // record
 #include "protocol/recording.hpp"
 
+#include <array>
+
+#include "games/similar.hpp"
 #include "protocol/command.hpp"
 #include "protocol/session.hpp"
 
@@ -46,8 +49,12 @@ void start(Session& session, MediaKind kind, std::string_view name) {
 void run_record(Session& session, Words arguments) {
   if (arguments[0] == "stop" && arguments.size() == 1) return stop(session);
   const auto kind = media_kind(arguments[0]);
-  if (!kind || arguments.size() != 2)
-    throw Refusal(Code::kBadArguments, "record takes png, gif, y4m or wav and a name, or stop");
+  if (!kind || arguments.size() != 2) {
+    constexpr std::array<std::string_view, 5> kKinds = {"png", "gif", "y4m", "wav", "stop"};
+    const std::string meant = kind ? "" : did_you_mean(arguments[0], kKinds);
+    throw Refusal(Code::kBadArguments, "record takes png, gif, y4m or wav and a name, or stop" +
+                                           (meant.empty() ? meant : ';' + meant));
+  }
   start(session, *kind, arguments[1]);
 }
 

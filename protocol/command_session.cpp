@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "protocol/command.hpp"
+#include "protocol/help.hpp"
 #include "protocol/play_settings.hpp"
 #include "protocol/recording.hpp"
 #include "protocol/session.hpp"
@@ -16,33 +17,6 @@ void append_names(std::string& out, const Rows& rows, char between) {
     if (!std::exchange(first, false)) out += between;
     out += row.name;
   }
-}
-
-void help_on_settings(std::string& out) {
-  out += "ok settings of load, as KEY=VALUE:";
-  for (const SettingRow& row : setting_rows()) {
-    (((((out += ' ') += row.name) += " (") += row.accepted) += ": ") += row.summary;
-    out += ");";
-  }
-  out.pop_back();
-}
-
-void help_on_presets(std::string& out) {
-  out += "ok presets of load, as preset=NAME:";
-  for (const PresetRow& row : preset_rows()) {
-    (((((out += ' ') += row.name) += " (") += row.source) += ") sets ") += row.words;
-    out += ';';
-  }
-  out.pop_back();
-}
-
-void help_on_fields(std::string& out) {
-  out += "ok fields of observe and look:";
-  for (const FieldRow& row : field_rows()) {
-    ((((out += ' ') += row.name) += " (") += row.summary) += ");";
-  }
-  out += " ends (terminated and truncated). Encodings of bytes, behind a colon: ";
-  append_names(out, encodings(), ' ');
 }
 
 // A client that guesses has few guesses a connection.
@@ -78,20 +52,7 @@ void run_hello(Session& session, Words arguments) {
 }
 
 void run_help(Session& session, Words arguments) {
-  std::string& out = session.out;
-  if (arguments.empty()) {
-    out += "ok commands: ";
-    append_names(out, commands(), ' ');
-    out += "; more with help COMMAND, help settings, help presets, help fields";
-    return;
-  }
-  if (arguments[0] == "settings") return help_on_settings(out);
-  if (arguments[0] == "presets") return help_on_presets(out);
-  if (arguments[0] == "fields") return help_on_fields(out);
-  const Command& command = find_command(arguments[0]);
-  (((out += "ok ") += usage(command)) += ": ") += command.summary;
-  if (!command.hint.empty()) (out += "; ") += command.hint;
-  if (!command.example.empty()) (out += "; example: ") += command.example;
+  append_help(session.out, arguments.empty() ? help() : help_on(arguments[0]), session.columns);
 }
 
 void run_stats(Session& session, Words) {

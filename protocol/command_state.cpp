@@ -1,8 +1,10 @@
 // save, restore, drop, states, export, import, branch
+#include <algorithm>
 #include <utility>
 
 #include "environment/saved.hpp"
 #include "environment/snapshot.hpp"
+#include "games/similar.hpp"
 #include "protocol/base64.hpp"
 #include "protocol/branch.hpp"
 #include "protocol/command.hpp"
@@ -14,16 +16,20 @@ namespace {
 
 const Place& find_state(const Session& session, std::string_view name) {
   if (const Place* const found = session.states.find(name)) return *found;
-  std::string sentence = "there is no state " + quote(name) + "; there are";
-  constexpr int kShown = 20;
-  int shown = 0;
-  for (const auto& [known, place] : session.states) {
-    if (++shown > kShown) break;
-    sentence += ' ' + known;
+  std::vector<std::string_view> names;
+  for (const auto& [known, place] : session.states) names.push_back(known);
+  std::string sentence = "there is no state " + quote(name) + ';';
+  if (const std::string meant = did_you_mean(name, names); !meant.empty()) {
+    (sentence += meant) += " There are";
+  } else {
+    sentence += " there are";
   }
-  throw Refusal(Code::kNoState, sentence + (session.states.empty() ? " none"
-                                            : shown > kShown       ? " and more"
-                                                                   : ""));
+  constexpr std::size_t kShown = 20;
+  for (const std::string_view known : Words(names).first(std::min(kShown, names.size())))
+    (sentence += ' ') += known;
+  throw Refusal(Code::kNoState, sentence + (session.states.empty()  ? " none"
+                                            : names.size() > kShown ? " and more"
+                                                                    : ""));
 }
 
 void check_room(const Session& session, std::size_t more) {

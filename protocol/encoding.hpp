@@ -16,8 +16,9 @@ enum class Encoding { kHex, kRunLength, kDelta, kBase64, kZlib };
 struct EncodingRow {
   Encoding encoding;
   std::string_view name;
+  std::string_view summary;
 };
-std::span<const EncodingRow> encodings();
+std::span<const EncodingRow> encodings();  // in the order of Encoding
 std::optional<Encoding> encoding_of(std::string_view name);
 
 // How long `bytes` bytes are as text. What shrinks, more or less, counts as if it did not: runs and delta as

@@ -65,13 +65,6 @@ constexpr std::array kFields = {
 
 #undef NUMBER
 
-template <typename Rows>
-std::string names_of(const Rows& rows) {
-  std::string names;
-  for (const auto& row : rows) (names += names.empty() ? "" : " ") += row.name;
-  return names;
-}
-
 int parse_depth(std::string_view& name) {
   if (!name.starts_with(kStack)) return 0;
   if (name == kStack) return 1;
@@ -89,16 +82,14 @@ Field parse_field(std::string_view word) {
   const int depth = parse_depth(name);
   const auto row = std::ranges::find(kFields, name, &FieldRow::name);
   if (row == kFields.end()) {
-    throw Refusal(Code::kBadArguments,
-                  "there is no field " + quote(name) + "; there are " + names_of(kFields) + " ends none");
+    auto known = names_of(kFields);
+    known.insert(known.end(), {"ends", "none"});
+    refuse_name(Code::kBadArguments, "field", name, known);
   }
   if (!encoded) return {&*row, row->usual, depth, std::move(written)};
   if (row->number) throw Refusal(Code::kBadArguments, written + " is a number, and has no encoding");
   const auto chosen = encoding_of(encoding);
-  if (!chosen) {
-    throw Refusal(Code::kBadArguments,
-                  "there is no encoding " + quote(encoding) + "; there are " + names_of(encodings()));
-  }
+  if (!chosen) refuse_name(Code::kBadArguments, "encoding", encoding, names_of(encodings()));
   return {&*row, *chosen, depth, std::move(written)};
 }
 

@@ -8,6 +8,7 @@ LineSession::LineSession(const LineService& service, Meter* meter)
     : session_(std::make_unique<Session>(service, meter)) {}
 LineSession::~LineSession() = default;
 
+void LineSession::set_columns(int columns) { session_->columns = columns; }
 std::span<char> LineSession::space() { return session_->space(); }
 
 void LineSession::received(std::size_t count) {

@@ -60,6 +60,9 @@ class LineSession {
   LineSession(const LineSession&) = delete;
   LineSession& operator=(const LineSession&) = delete;
 
+  // A person reads, on a terminal so wide: the replies of `help` have several lines. 0: a program does.
+  void set_columns(int columns);
+
   std::span<char> space();           // where input goes; do not read while it is empty
   void received(std::size_t count);  // so much was put there; 0: the client has closed its end
 

@@ -12,11 +12,7 @@ constexpr std::array<std::string_view, 3> kAutoresets = {"next-step", "same-step
 
 }  // namespace
 
-std::optional<Autoreset> autoreset_of(std::string_view name) {
-  const auto found = std::ranges::find(kAutoresets, name);
-  if (found == kAutoresets.end()) return std::nullopt;
-  return static_cast<Autoreset>(found - kAutoresets.begin());
-}
+std::span<const std::string_view> autoresets() { return kAutoresets; }
 
 std::string_view name_of(Autoreset autoreset) { return kAutoresets[static_cast<std::size_t>(autoreset)]; }
 

@@ -18,7 +18,7 @@ namespace racebeam {
 
 class Session;
 
-std::optional<Autoreset> autoreset_of(std::string_view name);
+std::span<const std::string_view> autoresets();  // their names, as Autoreset counts
 std::string_view name_of(Autoreset autoreset);
 
 class Machines {

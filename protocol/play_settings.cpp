@@ -58,9 +58,7 @@ void set_sticky(PlaySettings& settings, std::string_view value) {
 }
 
 void set_action_set(PlaySettings& settings, std::string_view value) {
-  const auto found = std::ranges::find(kActionSets, value);
-  if (found == kActionSets.end()) refuse("action_set", value, "full, legal or minimal");
-  settings.action_set = static_cast<ActionSet>(found - kActionSets.begin());
+  settings.action_set = static_cast<ActionSet>(choice_of(value, "action_set", kActionSets));
 }
 
 int reward_limit(std::string_view value, std::string_view what, int none) {
@@ -68,19 +66,14 @@ int reward_limit(std::string_view value, std::string_view what, int none) {
 }
 
 void set_rules(PlaySettings& settings, std::string_view value) {
-  const auto found = std::ranges::find(kRules, value);
-  if (found == kRules.end()) refuse("rules", value, "ale-0.12 or fixed");
-  settings.machine.rules = static_cast<Rules>(found - kRules.begin());
+  settings.machine.rules = static_cast<Rules>(choice_of(value, "rules", kRules));
 }
 
 void set_preset(PlaySettings& settings, std::string_view value) {
   if (value == "none") return;
-  const auto found = std::ranges::find(preset_rows(), value, &PresetRow::name);
-  if (found == preset_rows().end()) {
-    std::string names = "none";
-    for (const PresetRow& row : preset_rows()) (names += ", ") += row.name;
-    refuse("preset", value, names);
-  }
+  auto names = names_of(preset_rows());
+  names.push_back("none");
+  const PresetRow* const found = &preset_rows()[choice_of(value, "preset", names)];
   std::vector<std::string_view> words;
   split(found->words, words);
   read_settings(words, settings);
@@ -185,9 +178,7 @@ constexpr std::array kPresets = {
 const SettingRow& setting_row(std::string_view name) {
   const auto found = std::ranges::find(kSettings, name, &SettingRow::name);
   if (found != kSettings.end()) return *found;
-  std::string names;
-  for (const SettingRow& row : kSettings) (names += names.empty() ? "" : " ") += row.name;
-  throw Refusal(Code::kBadArguments, "there is no setting " + quote(name) + "; there are " + names);
+  refuse_name(Code::kBadArguments, "setting", name, names_of(kSettings));
 }
 
 }  // namespace

@@ -138,6 +138,7 @@ bool Session::go_on(Clock::time_point end) {
       done_ = input.ended();
       return false;
     }
+    if (ignores(*line)) return true;
     begin_request();
     guarded([&] { pacer.work(end, [this, line = *line] { guarded([&] { take(line); }); }); });
   }
@@ -175,6 +176,15 @@ void Session::begin_request() {
   pacer.allow_any_frames();
   command_ = commands().size();
   refused_ = false;
+}
+
+// A comment: it has no reply.
+bool Session::ignores(const LineReader::Line& line) {
+  const std::size_t first = line.text.find_first_not_of(' ');
+  if (first == std::string_view::npos || line.text[first] != '#') return false;
+  statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
+  began_ = looked_ = Clock::now();  // of the next request
+  return true;
 }
 
 void Session::take(const LineReader::Line& line) {

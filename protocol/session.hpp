@@ -43,6 +43,7 @@ class Session {
   bool quitting = false;
   bool admitted;         // true once a token was given, or where none is needed
   int wrong_tokens = 0;  // so far
+  int columns = 0;       // of the terminal that a person reads; 0: a program does
   Statistics statistics;
   Pacer pacer;  // a request runs as its body
 
@@ -83,6 +84,7 @@ class Session {
   bool has_enough() const;
   bool pauses() const;
   bool go_on(Clock::time_point end);
+  bool ignores(const LineReader::Line& line);
   void begin_request();
   void take(const LineReader::Line& line);
   void execute(std::string_view line);

@@ -2,12 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+
+#include "games/similar.hpp"
 
 namespace racebeam {
 namespace {
 
 bool is_name_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+}
+
+// What was meant, perhaps, then what is accepted: a sentence that begins with a small letter.
+std::string advice(std::string_view given, Words known, std::string accepted) {
+  const std::string meant = did_you_mean(given, known);
+  if (!meant.empty()) accepted[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(accepted[0])));
+  return meant + ' ' + accepted;
 }
 
 template <typename Number>
@@ -48,6 +58,25 @@ std::string_view value_of(std::string_view word, std::string_view key, std::stri
     return word.substr(key.size() + 1);
   throw Refusal(Code::kBadArguments, quote(word) + " makes no sense here; " + std::string(command) +
                                          " takes " + std::string(key) + "=");
+}
+
+void refuse_name(Code code, std::string_view kind, std::string_view name, Words known) {
+  std::string list = "there are";
+  for (const std::string_view one : known) (list += ' ') += one;
+  throw Refusal(code,
+                "there is no " + std::string(kind) + ' ' + quote(name) + ';' + advice(name, known, list));
+}
+
+std::size_t choice_of(std::string_view value, std::string_view what, Words accepted) {
+  const auto found = std::ranges::find(accepted, value);
+  if (found != accepted.end()) return static_cast<std::size_t>(found - accepted.begin());
+  std::string list = "it takes ";
+  for (const std::string_view& one : accepted) {
+    if (&one != &accepted.front()) list += &one == &accepted.back() ? " or " : ", ";
+    list += one;
+  }
+  throw Refusal(Code::kBadValue,
+                std::string(what) + " is " + quote(value) + ';' + advice(value, accepted, list));
 }
 
 void refuse_twice(std::string_view key) {

@@ -45,6 +45,20 @@ KeyValue key_value(std::string_view word);
 // The value of key=value, where `command` takes no other key. Throws Refusal(kBadArguments).
 std::string_view value_of(std::string_view word, std::string_view key, std::string_view command);
 
+template <typename Rows>
+std::vector<std::string_view> names_of(const Rows& rows) {  // of the rows of a table
+  std::vector<std::string_view> names;
+  for (const auto& row : rows) names.push_back(row.name);
+  return names;
+}
+
+// "there is no KIND 'NAME'; did you mean A? There are A B C"
+[[noreturn]] void refuse_name(Code code, std::string_view kind, std::string_view name, Words known);
+
+// Which of `accepted` `value` is. Throws Refusal(kBadValue): "WHAT is 'VALUE'; did you mean A? It takes A, B
+// or C".
+std::size_t choice_of(std::string_view value, std::string_view what, Words accepted);
+
 [[noreturn]] void refuse_twice(std::string_view key);  // Refusal(kBadArguments)
 
 // The rest of `text` behind its first `mark`, which is cut off with it; "" if there is none.

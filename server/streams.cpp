@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "server/log.hpp"
+#include "server/terminal.hpp"
 
 namespace racebeam {
 
@@ -45,7 +46,10 @@ void make_if_missing(const std::string& path) {
 
 class StreamSession::LineConversation final : public Conversation {
  public:
-  LineConversation(const LineService& service, Meter& meter) : meter_(meter), session_(service, &meter) {}
+  LineConversation(const LineService& service, Meter& meter, int columns)
+      : meter_(meter), session_(service, &meter) {
+    session_.set_columns(columns);
+  }
 
   int hold(BlockingPair& streams, const Halt& halt) override {
     while (!session_.finished()) {
@@ -128,7 +132,9 @@ StreamSession::StreamSession(const Endpoint& endpoint, const Service& service,
     : address_(endpoint.address), name_(to_string(endpoint)), metrics_(metrics), streams_(halt_, busy_poll) {
   Meter& meter = metrics.add_meter();
   if (const auto* line = std::get_if<LineService>(&service)) {
-    conversation_ = std::make_unique<LineConversation>(*line, meter);
+    const bool standard = std::holds_alternative<StandardStreams>(address_);
+    const int columns = standard ? terminal_columns(STDOUT_FILENO) : 0;
+    conversation_ = std::make_unique<LineConversation>(*line, meter, columns);
     ++metrics.sessions_line;
   } else {
     conversation_ = std::make_unique<ClassicConversation>(std::get<ClassicService>(service), meter);

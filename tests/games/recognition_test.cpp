@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "games/catalogue.hpp"
+#include "games/similar.hpp"
 #include "tests/games/scratch.hpp"
 
 using namespace racebeam;
@@ -91,5 +92,18 @@ TEST_CASE("an unknown name is refused with those that are like it") {
   CHECK_THROWS_WITH(recognise(image(kNobody, "x"), "montezuma"), Contains("montezuma_revenge"));
   CHECK_THROWS_WITH(recognise(image(kNobody, "x"), "xyzzyplugh"), Contains("`racebeam games`"));
   CHECK_THROWS_WITH(recognise(image(kNobody, "x"), ""), Contains("no game ''"));
-  CHECK(similar_games("pitfal") == std::vector<std::string>{"pitfall", "pitfall2"});
+}
+
+TEST_CASE("names that are like another are found, the nearest first") {
+  const auto similar = [](std::string_view name) { return similar_names(name, game_names()); };
+  CHECK(similar("pitfal") == std::vector<std::string_view>{"pitfall", "pitfall2"});
+  CHECK(similar("MONTEZUMA") == std::vector<std::string_view>{"montezuma_revenge"});
+  CHECK(similar("pogn") == std::vector<std::string_view>{"pong"});
+  for (const std::string& name :
+       {std::string(), std::string("x"), std::string("zz"), std::string(1 << 20, 'a')})
+    CHECK(similar(name).empty());
+  const std::vector<std::string_view> actions = {"NOOP", "FIRE", "UP", "UPFIRE", "LEFTFIRE"};
+  CHECK(did_you_mean("fire", actions) == " did you mean FIRE?");
+  CHECK(did_you_mean("UPFIR", actions) == " did you mean UPFIRE?");
+  CHECK(did_you_mean("SELECT", actions).empty());
 }

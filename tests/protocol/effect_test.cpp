@@ -83,13 +83,6 @@ void check_complete(const Cases& cases, const Rows& rows) {
   CHECK(found == expected);
 }
 
-template <typename Rows>
-std::vector<std::string_view> names_of(const Rows& rows) {
-  std::vector<std::string_view> names;
-  for (const auto& row : rows) names.push_back(row.name);
-  return names;
-}
-
 // The commands, and "COMMAND WORD" for each word of their arguments.
 std::vector<std::string> commands_and_words() {
   std::vector<std::string> all;
@@ -127,9 +120,13 @@ const Cases kFirst = {
 const Cases kPlaying = {
     {"help", "help", "stats"},
     {"help COMMAND", "help act", "help load"},
-    {"help settings", "help settings", "help"},
-    {"help presets", "help presets", "help"},
-    {"help fields", "help fields", "help"},
+    {"help KEY", "help sticky", "help seed"},
+    {"help settings", "help settings", "help presets"},
+    {"help presets", "help presets", "help fields"},
+    {"help fields", "help fields", "help encodings"},
+    {"help encodings", "help encodings", "help errors"},
+    {"help errors", "help errors", "help states"},
+    {"help states", "help states", "help settings"},
     {"games", "games", "stats"},
     {"games all", "games all", "games"},
     {"games GAME", "games pong", "games boxing"},
@@ -365,6 +362,14 @@ TEST_CASE("Each key of a reply tells something") {
   compare("difficulties", "difficulties", {"default"});
   other.ask("load beamfall as=skiing action_set=full");
   compare("actions", "actions");
+}
+
+TEST_CASE("Each other name of a command is as good as the command") {
+  for (const Alias& alias : aliases()) {
+    const std::string name(alias.name), command(alias.command);
+    CHECK(last_reply(duel_service(), name) == last_reply(duel_service(), command));
+    CHECK(last_reply(duel_service(), "help " + name) == last_reply(duel_service(), "help " + command));
+  }
 }
 
 TEST_CASE("Each error code is told") {

@@ -1,0 +1,31 @@
+// What `help` says: a course in lines, made from the tables.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace racebeam {
+
+struct HelpText {
+  std::string head;
+  std::vector<std::string> entries;
+};
+
+struct HelpTopic {
+  std::string_view name;
+  HelpText (*text)();
+};
+std::span<const HelpTopic> help_topics();
+
+HelpText help();  // what there is
+
+// On a topic, a command, a setting, a field, a preset, an encoding or an error code. Throws Refusal.
+HelpText help_on(std::string_view name);
+
+// On one line. With `columns` above 0: for a terminal so wide, an entry a line, and those that are longer
+// folded.
+void append_help(std::string& out, const HelpText& help, int columns);
+
+}  // namespace racebeam

@@ -1,0 +1,172 @@
+// help, suggestions and comments: what a person meets.
+#include "protocol/help.hpp"
+
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "protocol/command.hpp"
+#include "protocol/encoding.hpp"
+#include "protocol/field.hpp"
+#include "protocol/play_settings.hpp"
+#include "tests/protocol/duel.hpp"
+
+using namespace racebeam;
+using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+using Catch::Matchers::StartsWith;
+using test::code;
+using test::LineClient;
+using test::value;
+
+namespace {
+
+const std::string kLoad = "load beamfall seed=7 sticky=0";
+
+std::string plain(std::string_view text) {
+  std::string plain(text);
+  std::erase(plain, '`');
+  return plain;
+}
+
+// All names that help knows, with what it must say of each.
+std::multimap<std::string, std::string> all_names() {
+  std::multimap<std::string, std::string> names;
+  const auto add = [&names](std::string_view name, std::string_view text) {
+    names.emplace(name, plain(text));
+  };
+  for (const Command& row : commands()) add(row.name, row.summary);
+  for (const SettingRow& row : setting_rows()) {
+    add(row.name, row.summary);
+    add(row.name, row.accepted);
+    add("settings", row.summary);
+  }
+  for (const PresetRow& row : preset_rows()) {
+    add(row.name, row.words);
+    add("presets", row.words);
+  }
+  for (const FieldRow& row : field_rows()) {
+    add(row.name, row.summary);
+    add("fields", row.summary);
+  }
+  for (const EncodingRow& row : encodings()) {
+    add(row.name, row.summary);
+    add("encodings", row.summary);
+  }
+  for (const CodeRow& row : codes()) {
+    add(row.name, row.meaning);
+    add("errors", row.meaning);
+  }
+  for (const Command& row : commands()) {
+    if (row.arguments.starts_with("NAME")) add("states", row.summary);
+  }
+  return names;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+std::string without_blanks(std::string text) {
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\n' || c == ';'; });
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("help explains each name of each table, on one line") {
+  LineClient client;
+  for (const auto& [name, text] : all_names()) {
+    INFO(name);
+    if (name == "settings" && text == "the settings in effect")
+      continue;  // the topic comes before the command
+    const std::string reply = client.say("help " + name + "\n");
+    CHECK_THAT(reply, StartsWith("ok ") && Contains(text));
+    CHECK(std::ranges::count(reply, '\n') == 1);
+    CHECK_THAT(reply, !Contains("`") && !Contains(":;") && !Contains("::"));
+  }
+}
+
+TEST_CASE("help says what it has help on") {
+  LineClient client;
+  const std::string reply = client.ask("help");
+  for (const HelpTopic& topic : help_topics()) CHECK_THAT(reply, Contains(" " + std::string(topic.name)));
+  CHECK_THAT(client.ask("help stiky"),
+             StartsWith("error bad-arguments there is no help on 'stiky'; did you mean sticky?"));
+  CHECK_THAT(client.ask("help xyzzy"), EndsWith("; help without a word says what there is"));
+}
+
+TEST_CASE("For a person help is folded to the width of the terminal, and says the same") {
+  LineClient program;
+  for (const int columns : {40, 80, 132}) {
+    LineClient person;
+    person.session.set_columns(columns);
+    for (const auto& [name, text] : all_names()) {
+      const std::string request = "help " + name, reply = person.ask(request);
+      CHECK(without_blanks(reply) == without_blanks(program.ask(request)));
+      for (const std::string& line : lines_of(reply)) {
+        INFO(line);
+        const bool one_word = line.find(' ', line.find_first_not_of(' ')) == std::string::npos;
+        CHECK((line.size() <= static_cast<std::size_t>(columns) || one_word));
+      }
+    }
+    CHECK(lines_of(person.ask("help settings")).size() > setting_rows().size());
+    CHECK(lines_of(person.ask(kLoad)).size() == 1);
+  }
+}
+
+TEST_CASE("What is nearly right is asked about, whatever it is") {
+  LineClient client;
+  client.say(kLoad + "\nsave start\nopen 2\n");
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"atc RIGHT", "; did you mean act? There are hello"},
+      {"LOAD beamfall", "; did you mean load?"},
+      {"load beamfal", "; did you mean beamfall?"},
+      {"load beamfall as=pogn", "; did you mean pong?"},
+      {"load beamfall stiky=0", "; did you mean sticky? There are preset"},
+      {"load beamfall preset=dqn", "; did you mean dqn2015? It takes paper2013"},
+      {"load beamfall rules=fix", "; did you mean fixed? It takes ale-0.12 or fixed"},
+      {"load beamfall action_set=minimum", "; did you mean minimal? It takes full, legal or minimal"},
+      {"observe rewrd", "; did you mean reward"},
+      {"observe screen:zip", "; did you mean zlib? There are hex"},
+      {"act RIHGT", "; did you mean RIGHT? beamfall takes 0=NOOP"},
+      {"act fire", "; did you mean FIRE?"},
+      {"act NOOP/lefft", "; did you mean LEFT"},
+      {"branch start UP,DWON", "; did you mean DOWN"},
+      {"step FIER", "; did you mean FIRE?"},
+      {"restore strat", "; did you mean start? There are start"},
+      {"open 2 autoreset=samestep", "; did you mean same-step? It takes next-step"},
+      {"help setings", "; did you mean settings"},
+      {"record giff a", " did you mean gif?"}};
+  for (const auto& [request, question] : cases) {
+    INFO(request);
+    CHECK_THAT(client.ask(request), StartsWith("error ") && Contains(question));
+  }
+}
+
+TEST_CASE("What is like nothing gets the list of what there is") {
+  LineClient client;
+  client.ask(kLoad);
+  CHECK_THAT(client.ask("xyzzy"), Contains("there is no command 'xyzzy'; there are hello help"));
+  CHECK_THAT(client.ask("load plughplugh"), EndsWith("; games lists those that are here"));
+  CHECK(client.ask("restore a") == "error no-state there is no state 'a'; there are none");
+}
+
+TEST_CASE("Lines that begin with # are comments, and have no reply") {
+  LineClient client;
+  CHECK(client.say("# a script\n  # indented\n#\n" + kLoad +
+                   "\n# gr\xC3\xBC\xC3\x9F\r\nobserve frame\nact NOOP\n") ==
+        client.say(kLoad + "\nobserve frame\nact NOOP\n"));
+  CHECK(value(client.ask("stats"), "requests") == "7");
+  CHECK(value(client.ask("stats"), "errors") == "0");
+  CHECK(code(client.ask("act # NOOP")) == "bad-action");
+  std::string comments;
+  for (int line = 0; line < 2000; ++line) comments += "# and on\n";
+  CHECK(client.say(comments).empty());
+  CHECK(client.say(comments + "act NOOP\n" + comments + "act NOOP\n") == "ok frame=2\nok frame=3\n");
+}

@@ -1,0 +1,58 @@
+"""A person on a terminal: help is folded to its width; a program gets one line."""
+
+import errno
+import fcntl
+import os
+import pty
+import struct
+import subprocess
+import termios
+import unittest
+
+from harness import BINARY, PATIENCE, main
+
+COLUMNS = 60
+
+
+def said_on_a_terminal(requests):
+    """All that `racebeam serve --stdio` writes to a terminal of COLUMNS columns."""
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, COLUMNS, 0, 0))
+    server = subprocess.Popen([BINARY, "serve", "--stdio"], stdin=subprocess.PIPE, stdout=theirs, stderr=subprocess.DEVNULL)
+    os.close(theirs)
+    server.stdin.write(requests)
+    server.stdin.close()
+    heard = b""
+    try:
+        while piece := os.read(ours, 65536):
+            heard += piece
+    except OSError as error:  # the way in which a terminal ends
+        if error.errno != errno.EIO:
+            raise
+    os.close(ours)
+    server.wait(PATIENCE)
+    return heard.decode().replace("\r\n", "\n")
+
+
+def said_to_a_program(requests):
+    return subprocess.run([BINARY, "serve", "--stdio"], input=requests, capture_output=True, timeout=PATIENCE).stdout.decode()
+
+
+class Terminal(unittest.TestCase):
+    def test_help_fits_the_terminal_of_a_person(self):
+        for topic in ("", "settings", "presets", "fields", "encodings", "errors", "states", "load", "sticky"):
+            with self.subTest(topic=topic):
+                request = f"help {topic}\nexit\n".encode()
+                folded = said_on_a_terminal(request)
+                self.assertLessEqual(max(map(len, folded.splitlines())), COLUMNS)
+                whole = said_to_a_program(request)
+                self.assertEqual(whole.count("\n"), 2)
+                self.assertEqual(folded.replace(";", "").split(), whole.replace(";", "").split())
+
+    def test_other_replies_are_one_line_on_a_terminal_too(self):
+        requests = b"load beamfall seed=7\nsettings\nact FIRE\nexit\n"
+        self.assertEqual(said_on_a_terminal(requests), said_to_a_program(requests))
+
+
+if __name__ == "__main__":
+    main()
