@@ -1,10 +1,13 @@
 #include "cli/classic.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <iostream>
 
 #include "cli/classic_settings.hpp"
 #include "cli/options.hpp"
+#include "cli/png_file.hpp"
 #include "games/catalogue.hpp"
 #include "server/log.hpp"
 #include "server/server.hpp"
@@ -24,12 +27,14 @@ constexpr auto kUsage = R"(racebeam classic -game_controller fifo|fifo_named [-k
   -max_num_frames N                      frames after which the session ends (0: none)
   -max_num_frames_per_episode N          frames after which an episode ends (0: none)
   -color_averaging true|false            blend each picture with the one before it (false)
+  -record_screen_dir FOLDER              write 000000.png and on there: the screen before each frame
   -config FILE                           lines of key = value, which win over the command line
 
-Other keys are ignored. ale.cfg in the working directory is read first. The image's name tells the game.)";
+Other keys are ignored. ale.cfg in the working directory is read first. The image's name tells the game, such
+as pong.bin; an image under another name is known by its MD5. A program called ale or racebeam-ale is this one.)";
 
 // What these did needs a window or a sound card.
-constexpr const char* kIgnored[] = {"display_screen", "sound", "record_screen_dir", "record_sound_filename"};
+constexpr const char* kIgnored[] = {"display_screen", "sound", "record_sound_filename"};
 
 void mention_ignored(const ClassicSettings& settings) {
   for (const char* key : kIgnored) {
@@ -42,7 +47,7 @@ MachineOptions machine_options(const ClassicSettings& settings) {
   MachineOptions options;
   options.rom = settings.image();
   options.settings.classic = true;
-  options.settings.random_seed = resolve_seed(static_cast<std::uint32_t>(settings.number("random_seed", 0)));
+  options.settings.random_seed = resolve_seed(settings.seed("random_seed"));
   options.settings.frame_skip = std::max(1, settings.number("frame_skip", 1));
   options.settings.sticky = std::clamp(settings.real("repeat_action_probability", 0.25F), 0.0F, 1.0F);
   options.settings.max_episode_frames = std::max(0, settings.number("max_num_frames_per_episode", 0));
@@ -50,12 +55,15 @@ MachineOptions machine_options(const ClassicSettings& settings) {
   return options;
 }
 
-// By the file's stem alone, whatever the image.
+// By the file's stem, whatever the image; where no game is called so, by the image's MD5.
 Cartridge open_by_name(const MachineOptions& machine) {
   const auto image = load_image(machine.rom);
-  const auto game = find_game(image->stem);
+  auto game = find_game(image->stem);
+  if (!game) game = find_game_by_md5(image->md5);
   if (!game)
-    throw std::invalid_argument("no game is called '" + image->stem + "', as " + machine.rom + " is");
+    throw std::invalid_argument("no game is called '" + image->stem + "', as " + machine.rom +
+                                " is, and its MD5, " + image->md5 +
+                                ", is not known; name the file as its game");
   const Cartridge cartridge{image, game};
   power_on(cartridge, machine);  // what does not work should show before anything else is said
   if (!game->accepts(image->md5)) log("the MD5 of " + machine.rom + " is not one known for " + game->name);
@@ -72,8 +80,49 @@ bool check_controller(const std::string& name) {
   return name == "fifo_named";
 }
 
+// The screens of one session, numbered from 000000.png on, as ALE 0.6 writes them: a file that is there is
+// written over, and a folder that cannot be written to costs the pictures, but not the session.
+class ScreenFolder {
+ public:
+  explicit ScreenFolder(std::string path) : path_(std::move(path)) {}
+
+  void add(const Environment& machine) {
+    if (failed_) return;
+    std::array<char, 24> name{};
+    std::snprintf(name.data(), name.size(), "/%06d.png", number_++);
+    machine.screen_rgb(rgb_);
+    try {
+      write_png(path_ + name.data(), rgb_);
+    } catch (const std::exception& error) {
+      log(std::string(error.what()) + "; no further screen is recorded");
+      failed_ = true;
+    }
+  }
+
+ private:
+  std::string path_;
+  std::vector<std::uint8_t> rgb_;
+  int number_ = 0;
+  bool failed_ = false;
+};
+
+ClassicOptions protocol_options(const ClassicSettings& settings) {
+  ClassicOptions options{.run_length = settings.truth("run_length_encoding", true),
+                         .max_num_frames = settings.number("max_num_frames", 0)};
+  const std::string folder = settings.text("record_screen_dir");
+  if (!folder.empty())
+    options.record = [screens = ScreenFolder(folder)](const Environment& machine) mutable {
+      screens.add(machine);
+    };
+  return options;
+}
+
 int run(const std::vector<std::string>& words) {
-  if (ClassicSettings::asks_for_help(words)) {
+  if (ClassicSettings::asks_for("--help", words)) {
+    std::cout << kUsage << "\n";
+    return 0;
+  }
+  if (ClassicSettings::asks_for("-help", words)) {  // as the classic server
     std::cerr << kUsage << "\n";
     return kExitFailure;
   }
@@ -82,8 +131,7 @@ int run(const std::vector<std::string>& words) {
   const MachineOptions machine = machine_options(settings);
   const Cartridge cartridge = open_by_name(machine);
   mention_ignored(settings);
-  const ClassicOptions protocol{settings.truth("run_length_encoding", true),
-                                settings.number("max_num_frames", 0)};
+  const ClassicOptions protocol = protocol_options(settings);
   const ClassicService service{[&](Pace* pace) { return power_on(cartridge, machine, pace); }, protocol, nullptr};
   ServerSettings server;
   server.endpoints = {{named ? Address(AlePipes{}) : Address(StandardStreams{}), true}};

@@ -1,11 +1,13 @@
 #include "cli/classic_settings.hpp"
 
-#include <cstdlib>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
-#include "protocol/text.hpp"
 #include "server/log.hpp"
 #include "system/input_file.hpp"
 
@@ -22,6 +24,29 @@ std::string trimmed(const std::string& text) {
 
 bool is_key(const std::string& word) { return word.starts_with('-'); }
 
+// The number that all of `text` is.
+template <typename Number>
+std::optional<Number> parse_whole(const std::string& text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc{} && rest == end ? std::optional(number) : std::nullopt;
+}
+
+[[noreturn]] void refuse(const std::string& key, const std::string& value, const std::string& accepted) {
+  throw std::invalid_argument("-" + key + " is '" + value + "'; it takes " + accepted);
+}
+
+// `more`: what is accepted beside a whole number.
+template <typename Number>
+Number whole_number(const std::string& key, const std::string& value, const std::string& more) {
+  using Limits = std::numeric_limits<Number>;
+  if (const auto number = parse_whole<Number>(value)) return *number;
+  refuse(
+      key, value,
+      "a whole number from " + std::to_string(Limits::min()) + " to " + std::to_string(Limits::max()) + more);
+}
+
 }  // namespace
 
 ClassicSettings::ClassicSettings(const std::vector<std::string>& words) {
@@ -31,9 +56,9 @@ ClassicSettings::ClassicSettings(const std::vector<std::string>& words) {
   if (!config.empty()) read_file(config);
 }
 
-bool ClassicSettings::asks_for_help(const std::vector<std::string>& words) {
+bool ClassicSettings::asks_for(const std::string& word, const std::vector<std::string>& words) {
   for (std::size_t at = 0; at < words.size() && is_key(words[at]); at += 2) {
-    if (words[at] == "-help" || words[at] == "--help") return true;
+    if (words[at] == word) return true;
   }
   return false;
 }
@@ -70,12 +95,20 @@ std::string ClassicSettings::text(const std::string& key) const {
 
 int ClassicSettings::number(const std::string& key, int otherwise) const {
   const std::string value = text(key);
-  return value.empty() ? otherwise : parse_integer(value);
+  return value.empty() ? otherwise : whole_number<int>(key, value, "");
+}
+
+std::uint32_t ClassicSettings::seed(const std::string& key) const {
+  const std::string value = text(key);
+  return value.empty() || value == "time" ? 0 : whole_number<std::uint32_t>(key, value, ", or time");
 }
 
 float ClassicSettings::real(const std::string& key, float otherwise) const {
   const std::string value = text(key);
-  return value.empty() ? otherwise : std::strtof(value.c_str(), nullptr);
+  if (value.empty()) return otherwise;
+  const auto number = parse_whole<float>(value);
+  if (number && !std::isnan(*number)) return *number;
+  refuse(key, value, "a number, such as 0.25");
 }
 
 bool ClassicSettings::truth(const std::string& key, bool otherwise) const {

@@ -1,6 +1,7 @@
 // The command line and the configuration files of ALE 0.4-0.6 (spec: classic-protocol.md, section 7).
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,12 +14,15 @@ class ClassicSettings {
   // std::invalid_argument if there is no image.
   explicit ClassicSettings(const std::vector<std::string>& words);
 
-  static bool asks_for_help(const std::vector<std::string>& words);
+  // `word` among the keys: -help or --help.
+  static bool asks_for(const std::string& word, const std::vector<std::string>& words);
 
   const std::string& image() const { return image_; }
 
   std::string text(const std::string& key) const;  // empty if it is not set
+  // Throw std::invalid_argument, naming the key and what it takes.
   int number(const std::string& key, int otherwise) const;
+  std::uint32_t seed(const std::string& key) const;  // 0 if it is not set, or the word time
   float real(const std::string& key, float otherwise) const;
   bool truth(const std::string& key, bool otherwise) const;
 

@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <vector>
 
 #include "cli/bench.hpp"
 #include "cli/classic.hpp"
@@ -39,6 +41,18 @@ std::string subcommand_names(const CLI::App& app) {
     names += (names.empty() ? "" : ", ") + command->get_name();
   }
   return names;
+}
+
+// Tools of the time of ALE 0.6 call a program of that name.
+bool is_called_ale(const std::filesystem::path& called) {
+  return called.filename() == "ale" || called.filename() == "racebeam-ale";
+}
+
+// The words of the command line; those of ALE, when called by its name, are the subcommand's.
+std::vector<const char*> words_of(int argc, char** argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc > 0 && is_called_ale(argv[0])) words.insert(words.begin() + 1, "classic");
+  return words;
 }
 
 // What is wrong with the command line, and where to read more.
@@ -83,7 +97,8 @@ int main(int argc, char** argv) {
   racebeam::add_roms(app);
   racebeam::add_png(app);
   try {
-    app.parse(argc, argv);  // runs the subcommand
+    const std::vector<const char*> words = words_of(argc, argv);
+    app.parse(static_cast<int>(words.size()), words.data());  // runs the subcommand
     return 0;
   } catch (const CLI::RuntimeError& ended) {  // how a subcommand sets the exit status
     return ended.get_exit_code();

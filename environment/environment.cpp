@@ -20,8 +20,9 @@ PaddleLimits paddle_limits(const Settings& settings, const Game& game) {
   return limits;
 }
 
-std::shared_ptr<const Game> by_rules(const std::shared_ptr<const Game>& game, Rules rules) {
-  return rules == Rules::kFixed && game->fixed ? game->fixed : game;
+std::shared_ptr<const Game> by_settings(std::shared_ptr<const Game> game, const Settings& settings) {
+  if (settings.classic && game->classic) game = game->classic;
+  return settings.rules == Rules::kFixed && game->fixed ? game->fixed : game;
 }
 
 void refuse_unless(bool good, const std::string& sentence) {
@@ -65,7 +66,7 @@ std::size_t ram_index(int index) {
 Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_ptr<const Game> game_given,
                         const Settings& settings_given, Pace* pace)
     : image(std::move(image_given)),
-      game(by_rules(game_given, settings_given.rules)),
+      game(by_settings(game_given, settings_given)),
       settings(checked(settings_given, *game)),
       identity(*image, *game),
       properties(game->properties_for(image->md5)),
@@ -206,6 +207,9 @@ bool Environment::same_state(const Environment& other) const {
 
 void Environment::restore(const Saved& saved) { impl_->restore(saved); }
 void Environment::check(const Saved& saved) const { impl_->check_values(saved); }
+std::shared_ptr<const Environment::Saved> Environment::save_classic() const {
+  return impl_->save_without_pictures();
+}
 void Environment::restore_classic(const Saved& saved) { impl_->restore_classic(saved); }
 
 }  // namespace racebeam

@@ -116,6 +116,9 @@ class Environment {
   // this image and game but comes from elsewhere. What passes may play nonsense, but does no harm.
   void check(const Saved& saved) const;
 
+  // The classic server's SAVE_STATE: a state without pictures, some 2 KB, that restore_classic() alone takes.
+  std::shared_ptr<const Saved> save_classic() const;
+
   // The classic server's LOAD_STATE: like restore, but screen and RAM answered stay those from before it
   // until the next frame, and stored sticky actions stay (classic-protocol.md, section 4).
   void restore_classic(const Saved& saved);

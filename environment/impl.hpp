@@ -75,6 +75,7 @@ struct Environment::Impl {
 
   // save.cpp
   std::shared_ptr<const Saved> save(bool with_random) const;
+  std::shared_ptr<Saved> save_without_pictures() const;
   void check(const Saved& saved) const;  // of this image, game and console?
   void check_values(const Saved& saved) const;
   void restore(const Saved& saved);

@@ -1,6 +1,5 @@
 // The way to the first frame of an episode (spec: environment.md, section 7).
 #include "emulator/scheme.hpp"
-#include "environment/classic_games.hpp"
 #include "environment/impl.hpp"
 #include "games/mode_program.hpp"
 
@@ -9,11 +8,6 @@ namespace {
 
 constexpr int kBootFrames = 60, kResetFrames = 4;
 constexpr int kNoop = 0;
-
-// Null where the game resets as in ALE 0.12.
-const ClassicGame* classic_game(const Game& game, const Settings& settings) {
-  return settings.classic ? find_classic_game(game.name) : nullptr;
-}
 
 }  // namespace
 
@@ -70,11 +64,9 @@ void Environment::Impl::run_reset() {
   run_frames(kNoop, kBootFrames);
   soft_reset();
   rule.reset();
-  const ClassicGame* const classic = classic_game(*game, settings);
-  if (classic == nullptr || play.mode != game->default_mode) set_up_mode();
+  set_up_mode();
   soft_reset();
   for (const int action : game->starting_actions) run_frames(action, 1);
-  if (classic != nullptr) run_frames(kNoop, classic->idle_frames);
   play.rewards = {};
 }
 

@@ -36,14 +36,19 @@ void check_identity(const Identity& saved, const Identity& running) {
   }
 }
 
-std::shared_ptr<const Environment::Saved> Environment::Impl::save(bool with_random) const {
+std::shared_ptr<Environment::Saved> Environment::Impl::save_without_pictures() const {
   auto saved = std::make_shared<Saved>();
   saved->identity = identity;
   saved->values = {console.state(), play, rule.tally(), console.sound(), audio};
   saved->cartridge_ram.assign(console.cartridge_ram().begin(), console.cartridge_ram().end());
   saved->properties = properties;
-  saved->pictures = console.pictures();
   saved->height = console.height();
+  return saved;
+}
+
+std::shared_ptr<const Environment::Saved> Environment::Impl::save(bool with_random) const {
+  auto saved = save_without_pictures();
+  saved->pictures = console.pictures();
   if (with_random) saved->random = random;
   return saved;
 }

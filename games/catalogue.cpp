@@ -41,13 +41,19 @@ bool describes(const Game& game, const Image& image) {
                              [&](const GameImage& one) { return one.md5.empty() || one.md5 == image.md5; });
 }
 
+Game with_image(Game game, const GameImage& image) {
+  game.images.push_back(image);
+  for (std::shared_ptr<const Game>* const variant : {&game.fixed, &game.classic})
+    if (*variant) *variant = std::make_shared<const Game>(with_image(**variant, image));
+  return game;
+}
+
 // Whatever plays by the game's rule, the console is told what is known about the image (spec: console.md).
 std::shared_ptr<const Game> with_properties_of(const Image& image, std::shared_ptr<const Game> game) {
   const CatalogueImage* const known = known_image(image.md5);
   if (known == nullptr || describes(*game, image)) return game;
-  Game more = *game;
-  more.images.push_back({image.md5, parsed(known->entry)->properties_for(image.md5), false});
-  return std::make_shared<const Game>(std::move(more));
+  const Properties properties = parsed(known->entry)->properties_for(image.md5);
+  return std::make_shared<const Game>(with_image(*game, {image.md5, properties, false}));
 }
 
 Recognition given(const std::shared_ptr<const Game>& game, RecognisedBy how, const Image& image) {

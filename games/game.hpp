@@ -48,6 +48,9 @@ struct Game {
   RuleSource rule_source = RuleSource::kAle012;
   ModeProgram mode_program;
 
+  // The same game as ALE 0.6 had it, for classic sessions; null where it was no different.
+  std::shared_ptr<const Game> classic;
+
   // The same game with the corrected rule; null where nothing is known to be wrong. `correction` is set with it.
   std::shared_ptr<const Game> fixed;
   bool is_fixed = false;  // this is such a game itself

@@ -204,21 +204,47 @@ void read_fixed(const TomlSource& source, const toml::table& rule, const toml::t
   game.fixed = std::make_shared<const Game>(std::move(fixed));
 }
 
-// [rule], [fixed] and [mode]
+// ALE 0.6
+
+Game facts_of_classic(const Section& section, const toml::table& table, Game game) {
+  if (table.contains("start")) game.starting_actions = read_starting_actions(section, "start");
+  if (section.flag("single_mode").value_or(false)) {
+    game.modes = {game.default_mode};
+    game.two_player_modes.clear();
+    game.mode_program = {};
+  }
+  return game;
+}
+
+void read_classic(const TomlSource& source, const toml::table& rule, const toml::table& table, const Section* mode,
+                  Game& game) {
+  const Section section(source, table, "classic"), merged(source, table, "classic", &rule);
+  section.allow({"start", "single_mode", "step", "reset", "keep", "terminal", "lives"});
+  Game ruled = game;
+  read_rule(merged, source, mode, ruled);
+  Game classic = facts_of_classic(section, table, std::move(ruled));
+  if (game.fixed) classic.fixed = std::make_shared<const Game>(facts_of_classic(section, table, *game.fixed));
+  game.classic = std::make_shared<const Game>(std::move(classic));
+}
+
+// [rule], [fixed], [classic] and [mode]
 void read_rules(const TomlSource& source, const Section& section, Game& game) {
   const toml::table* const rule = section.table("rule");
   const toml::table* const fixed = section.table("fixed");
+  const toml::table* const classic = section.table("classic");
   const toml::table* const mode = section.table("mode");
   std::optional<Section> setup;
   if (mode) setup.emplace(source, *mode, "mode").allow({"setup"});
   if (!rule && mode) section.refuse(*mode, "mode", "a mode program needs a [rule] beside it");
   if (!rule && fixed) section.refuse(*fixed, "fixed", "a correction needs a [rule] beside it");
+  if (!rule && classic) section.refuse(*classic, "classic", "what was different needs a [rule] beside it");
   if (!rule) return;
   const Section rule_section(source, *rule, "rule");
   rule_section.allow({"step", "reset", "keep", "terminal", "lives", "wraps", "source"});
   game.rule_source = static_cast<RuleSource>(rule_section.choice("source", {"ale-0.12", "racebeam"}).value_or(0));
   read_rule(rule_section, source, setup ? &*setup : nullptr, game);
   if (fixed) read_fixed(source, *rule, *fixed, setup ? &*setup : nullptr, game);
+  if (classic) read_classic(source, *rule, *classic, setup ? &*setup : nullptr, game);
 }
 
 }  // namespace
@@ -228,7 +254,7 @@ Game parse_game(std::string_view text, const std::string& name, const std::strin
   const toml::table table = parse_toml(source);
   const Section section(source, table, "");
   section.allow({"title", "legal", "minimal", "start", "modes", "two_player_modes", "default_mode",
-                 "difficulties", "paddle_max", "image", "rule", "fixed", "mode"});
+                 "difficulties", "paddle_max", "image", "rule", "fixed", "classic", "mode"});
   Game game;
   game.name = name;
   read_facts(source, section, table, game);

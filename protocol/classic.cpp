@@ -1,5 +1,6 @@
 #include "protocol/classic.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "protocol/text.hpp"
@@ -63,9 +64,10 @@ std::string_view ClassicSession::answer(std::string_view line) {
 }
 
 // A last line without LF is carried out, but its answer is not sent. The classic server then runs one more
-// act, which nobody can see.
+// act, which only a recording shows.
 std::string_view ClassicSession::last_words() {
   if (!input_.rest().empty()) answer(input_.rest());
+  if (options_.record) recorded_act(0, kActions);
   return die();
 }
 
@@ -85,7 +87,7 @@ void ClassicSession::take_action(std::string_view line) {
   const auto [a, b] = actions;
   reward_ = 0;
   switch (a) {
-    case kSaveState: saved_.push_back(environment_.save()); break;
+    case kSaveState: save_state(); break;
     case kLoadState: load_state(); break;
     case kSystemReset: environment_.reset_game(); break;
     default: act(a, b);
@@ -103,13 +105,37 @@ void ClassicSession::act(int a, int b) {
                            "; there are 0-17, 40 (nothing), 43 (save), 44 (load) and 45 (reset)");
   }
   const int before = environment_.frame_number();
-  reward_ = environment_.act(is_player_a(a) ? a : 0, is_player_b(b) ? b : kActions, kStrength, kStrength);
+  reward_ = recorded_act(is_player_a(a) ? a : 0, is_player_b(b) ? b : kActions);
   frames_ += environment_.frame_number() - before;
+}
+
+// The screen is recorded before each frame of the act, and again for those that the end of the episode leaves
+// out.
+int ClassicSession::recorded_act(int a, int b) {
+  if (!options_.record) return environment_.act(a, b, kStrength, kStrength);
+  int missing = std::max(environment_.settings().frame_skip, 1);
+  const auto record = [&] {
+    if (missing-- > 0) options_.record(environment_);
+  };
+  record();
+  environment_.watch(record);
+  const int reward = environment_.act(a, b, kStrength, kStrength);
+  environment_.watch(nullptr);
+  while (missing > 0) record();
+  return reward;
+}
+
+// The stack keeps the newest states.
+void ClassicSession::save_state() {
+  if (saved_.size() == kMostClassicStates) saved_.pop_front();
+  saved_.push_back(environment_.save_classic());
 }
 
 void ClassicSession::load_state() {
   if (saved_.empty()) {
-    throw ClassicError(kMalformedStatus, "the client loads a state (44), but has not saved one (43)");
+    throw ClassicError(kMalformedStatus,
+                       "the client loads a state (44), but none is left of those it saved (43); the newest " +
+                           std::to_string(kMostClassicStates) + " are kept");
   }
   environment_.restore_classic(*saved_.back());
   saved_.pop_back();

@@ -2,6 +2,8 @@
 // It has never heard of files and sockets: bytes go in, lines of text come out.
 #pragma once
 
+#include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,7 +11,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "environment/environment.hpp"
 #include "protocol/lines.hpp"
@@ -32,7 +33,12 @@ constexpr int kUnknownActionStatus = 255;  // as the classic server
 struct ClassicOptions {
   bool run_length = true;  // how a screen is written
   int max_num_frames = 0;  // frames since the start after which DIE is sent; 0: no limit
+  // Called before each frame of an act, run or not, to record the screen; empty: nothing is recorded.
+  std::function<void(const Environment&)> record = {};
 };
+
+// A save at each action of an episode of 18,000 frames with a frame skip of 5 fits; see CLASSIC.md.
+constexpr std::size_t kMostClassicStates = 4096;
 
 class ClassicSession {
  public:
@@ -42,6 +48,9 @@ class ClassicSession {
   // Throws ClassicError.
   std::optional<std::string_view> reply();
   bool ended() const { return stage_ == Stage::kEnded; }  // once what reply() has given is sent
+
+  std::size_t saved_states() const { return saved_.size(); }
+  void forget_oldest_state() { saved_.pop_front(); }  // there is one
 
   int take_frames() { return std::exchange(frames_, 0); }  // that were run since it was asked last
 
@@ -57,6 +66,8 @@ class ClassicSession {
   void take_flags(std::string_view line);
   void take_action(std::string_view line);
   void act(int a, int b);
+  int recorded_act(int a, int b);
+  void save_state();
   void load_state();
   std::string_view data_line();
   std::string_view die();
@@ -70,7 +81,7 @@ class ClassicSession {
   bool send_screen_ = false, send_ram_ = false, send_episode_ = false;
   int reward_ = 0;  // of the last action
   int frames_ = 0;  // see take_frames()
-  std::vector<std::shared_ptr<const Environment::Saved>> saved_;
+  std::deque<std::shared_ptr<const Environment::Saved>> saved_;
   std::string text_;  // what was answered last; kept for its memory
 };
 

@@ -23,8 +23,20 @@ void PacedClassic::answer() {
     if (!machine_) machine_.emplace(service_.power_on(&pacer_));
     if (!session_) session_.emplace(*machine_, service_.options);
     reply_ = session_->reply();
+    account();
   } catch (const std::exception&) {
     failure_ = std::current_exception();
+  }
+}
+
+// A client that saves more than there is memory for loses its oldest state, since the protocol has no errors.
+void PacedClassic::account() {
+  constexpr std::size_t kState = std::size_t{96} << 10;
+  const std::size_t bytes = Player::footprint({}) + session_->saved_states() * kState;
+  if (bytes <= memory_.bytes()) {
+    memory_.set(bytes);
+  } else if (!memory_.grow(bytes - memory_.bytes())) {
+    session_->forget_oldest_state();
   }
 }
 

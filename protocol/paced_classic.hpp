@@ -51,6 +51,7 @@ class PacedClassic {
 
  private:
   void answer();
+  void account();
 
   const ClassicService& service_;
   MemoryShare memory_;

@@ -1,7 +1,6 @@
 // Seeding and resets as in ALE 0.4 to 0.6 (classic-protocol.md, section 6).
 #include <catch2/catch.hpp>
 
-#include "environment/classic_games.hpp"
 #include "environment/classic_power_on.hpp"
 #include "environment/saved.hpp"
 #include "tests/support/counter_image.hpp"
@@ -123,36 +122,28 @@ TEST_CASE("Cartridge RAM is filled once, by a generator with the default seed") 
   CHECK(std::ranges::all_of(ram, [](std::uint8_t byte) { return byte == 7; }));
 }
 
-TEST_CASE("Games that had no modes in ALE 0.6 reset without a mode program, in their default mode") {
+TEST_CASE("A classic session plays the game that ALE 0.6 had, with corrected rules if it is told to") {
   constexpr int kSelect = 5, kReset = 6, kResetFrames = 4;  // how many frames these were held
-  const auto text = std::string(test::kSteeredGame) + "[mode]\nsetup = '''\nselect 5; soft_reset\n'''\n";
-  const auto held = [&](const std::string& name, bool is_classic, int mode, std::size_t index) {
+  constexpr auto kVariants =
+      "[classic]\nsingle_mode = true\nstart = ['UP', 'NOOP']\nlives = '7'\n"
+      "[fixed]\nlives = '9'\nreference = 'r'\ncorrection = 'c'\nevidence = 'e'\n"
+      "[mode]\nsetup = '''\nselect 5; soft_reset\n'''\n";
+  const auto game = test::game(std::string(test::kSteeredGame) + kVariants);
+  const auto machine = [&](bool is_classic, Rules rules) {
     Settings settings = classic();
     settings.classic = is_classic;
-    Environment environment(test::counter_image(), test::game(text, name), settings);
-    environment.set_mode(mode);
-    environment.reset_game();
-    return int{environment.ram()[index]};
+    settings.rules = rules;
+    return Environment(test::counter_image(), game, settings);
   };
-  for (const ClassicGame& game : kClassicGames) {
-    const std::string name(game.name);
-    CAPTURE(name);
-    CHECK(held(name, true, 0, kSelect) == 0);
-    CHECK(held(name, true, 1, kSelect) == 5);
-    CHECK(held(name, false, 0, kSelect) == 5);
-    CHECK(held(name, false, 0, kReset) == held(name, true, 0, kReset) + kResetFrames);
-  }
-  CHECK(held("other", true, 0, kSelect) == 5);
-}
-
-TEST_CASE("Frogger and King Kong start with an idle frame in ALE 0.6") {
-  for (const ClassicGame& game : kClassicGames) {
-    const Environment now(test::counter_image(), test::game(test::kSteeredGame, std::string(game.name)),
-                          classic());
-    const Environment other(test::counter_image(), test::game(test::kSteeredGame, "other"), classic());
-    const bool has_one = game.name == "frogger" || game.name == "king_kong";
-    CAPTURE(game.name);
-    CHECK(now.ram()[0] == other.ram()[0] + (has_one ? 1 : 0));  // frames
+  const Environment now = machine(false, Rules::kAle012);
+  CHECK(now.ram()[kSelect] == 5);
+  for (const Rules rules : {Rules::kAle012, Rules::kFixed}) {
+    Environment old = machine(true, rules);
+    CHECK(old.ram()[kSelect] == 0);
+    CHECK(old.ram()[kReset] == now.ram()[kReset] - kResetFrames);
+    CHECK(old.lives() == (rules == Rules::kFixed ? 9 : 7));
+    CHECK(old.game().starting_actions == std::vector<int>{2, 0});
+    CHECK_THROWS_WITH(old.set_mode(1), "steered has no mode 1; it offers 0");
   }
 }
 

@@ -211,6 +211,27 @@ TEST_CASE("[fixed] replaces keys of [rule] and keeps the others") {
   CHECK_FALSE(game_with("[rule]\n" + kStep).fixed);
 }
 
+TEST_CASE("[classic] replaces keys of [rule], starting actions and modes, and leaves corrections to [fixed]") {
+  const Game game = game_with("modes = [5, 2]\nstart = ['FIRE']\n[rule]\nlives = '7'\n" + kStep +
+                              "[fixed]\nlives = '9'\nreference = 'r'\ncorrection = 'c'\nevidence = 'e'\n"
+                              "[classic]\nsingle_mode = true\nstart = ['NOOP 2']\nlives = '8'\n"
+                              "[mode]\nsetup = 'soft_reset'\n");
+  REQUIRE(game.classic);
+  REQUIRE(game.classic->fixed);
+  CHECK(Rule(game).lives() == 7);
+  CHECK(Rule(*game.classic).lives() == 8);
+  CHECK(Rule(*game.classic->fixed).lives() == 9);
+  for (const Game* const old : {game.classic.get(), game.classic->fixed.get()}) {
+    CHECK(old->modes == std::vector<int>{5});
+    CHECK(old->mode_program.statements.empty());
+    CHECK(old->starting_actions == std::vector<int>{0, 0});
+  }
+  CHECK(game.modes == std::vector<int>{5, 2});
+  CHECK(game.mode_program.statements.size() == 1);
+  CHECK(game.starting_actions == std::vector<int>{1});
+  CHECK_FALSE(game_with("[rule]\n" + kStep).classic);
+}
+
 TEST_CASE("modes for two players are offered beside the others") {
   const Game game = game_with("modes = [5, 2]\ntwo_player_modes = [1, '5-6']\n");
   CHECK(game.modes == std::vector<int>{5, 2});
@@ -229,6 +250,9 @@ TEST_CASE("mistakes in corrections, sources and wraps are named with their line"
   CHECK_THAT(error_in(rule + "[fixed]\nstep = \"score = x\\nterminal = 0\"\n"),
              Contains("my.toml:8: fixed.step: nothing assigns 'x'"));
   CHECK_THAT(error_in("[fixed]\nwraps = 100\n"), Contains("my.toml:2: fixed: a correction needs a [rule]"));
+  CHECK_THAT(error_in(rule + "[classic]\nmodes = [1]\n"), Contains("my.toml:8: classic.modes: there is no such key"));
+  CHECK_THAT(error_in("[classic]\nsingle_mode = true\n"),
+             Contains("my.toml:2: classic: what was different needs a [rule] beside it"));
   CHECK_THAT(error_in("[rule]\nsource = 'xitari'\n" + kStep),
              Contains("my.toml:3: rule.source: 'xitari' is not known; there are ale-0.12 and racebeam"));
   CHECK_THAT(error_in("[rule]\nstep = 'reward = wrap(1, ram[0x80])'\n"),

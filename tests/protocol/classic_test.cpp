@@ -147,7 +147,36 @@ TEST_CASE("Saved states are a stack that a reset leaves alone") {
   CHECK(client.machine.frame_number() == 3);
   client.say("44,18\n");
   CHECK(client.machine.frame_number() == 1);
-  CHECK_THAT(refusal(client, "44,18\n", kMalformedStatus), Contains("has not saved one"));
+  CHECK_THAT(refusal(client, "44,18\n", kMalformedStatus), Contains("none is left of those it saved"));
+}
+
+TEST_CASE("The stack keeps the newest 4096 states") {
+  Client client;
+  client.say("0,0,0,0\n");
+  for (std::size_t i = 0; i < kMostClassicStates + 2; ++i) client.say("43,18\n3,18\n");
+  for (std::size_t i = kMostClassicStates + 2; i-- > 2;) {
+    client.say("44,18\n");
+    if (client.machine.frame_number() != static_cast<int>(i)) FAIL("not the state of frame " << i);
+  }
+  CHECK_THAT(refusal(client, "44,18\n", kMalformedStatus), Contains("the newest 4096 are kept"));
+}
+
+TEST_CASE("A saved state holds no pictures") {
+  Client client;
+  client.say("1,0,0,0\n3,18\n");
+  const auto pictures = client.machine.save_classic()->pictures;
+  CHECK_FALSE(pictures.current);
+  CHECK_FALSE(pictures.previous);
+}
+
+TEST_CASE("The screen is recorded before each frame of an act, and for frames that the end leaves out") {
+  std::vector<int> frames;
+  const auto record = [&](const Environment& machine) { frames.push_back(machine.frame_number()); };
+  Client client({.frame_skip = 3, .max_episode_frames = 7}, {.record = record});
+  client.say_and_close("0,0,0,0\n3,18\n43,18\n3,18\n44,18\n3,18\n3,18\n3,18\n45,18\n3,18\n");
+  // Two acts; a third, from the state of the first; one that ends the episode, and one after its end; a
+  // reset, an act; and the one at the end of input.
+  CHECK(frames == std::vector{0, 1, 2, 3, 4, 5, 3, 4, 5, 6, 7, 7, 7, 7, 7, 7, 8, 9, 10, 11, 12});
 }
 
 TEST_CASE("After loading, screen and RAM are those from before until a frame has run") {

@@ -2,10 +2,11 @@
 
 import os
 import shutil
+import subprocess
 import tempfile
 import unittest
 
-from harness import GAME, SOURCE, Server, main, open_pipes, run
+from harness import BINARY, GAME, PATIENCE, SOURCE, Server, main, open_pipes, run
 
 IMAGE = os.path.join(SOURCE, "games", "homebrew", GAME.split(":")[1] + ".bin")
 FIFO = ("-game_controller", "fifo", "-random_seed", "1", "-repeat_action_probability", "0")
@@ -50,10 +51,56 @@ class Classic(unittest.TestCase):
         self.assertEqual(self.frames("-max_num_frames", "5", GAME, "-max_num_frames", "7", "serve"), 5)
 
     def test_options_for_windows_and_sound_are_mentioned(self):
-        options = ("-display_screen", "true", "-record_screen_dir", "shots", "-sound", "false")
+        options = ("-display_screen", "true", "-record_sound_filename", "it.wav", "-sound", "false")
         errors = self.play(*FIFO, *options, GAME)[1]
         self.assertEqual([line for line in errors if "ignored" in line],
-                         ["racebeam: -display_screen is ignored", "racebeam: -record_screen_dir is ignored"])
+                         ["racebeam: -display_screen is ignored", "racebeam: -record_sound_filename is ignored"])
+
+    def test_screens_are_recorded_as_numbered_pictures(self):
+        os.mkdir(os.path.join(self.folder, "shots"))
+        options = ("-record_screen_dir", "shots", "-frame_skip", "3")
+        plain = self.play(*FIFO, *options[2:], GAME, data=b"1,0,0,1\n0,18\n3,18\n")[0]
+        self.assertEqual(self.play(*FIFO, *options, GAME, data=b"1,0,0,1\n0,18\n3,18\n")[0], plain)
+        # Two acts, and the one at the end of input.
+        self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "shots"))), [f"{n:06}.png" for n in range(9)])
+        for number, line in ((0, 1), (3, 2), (6, 3)):  # before an act: what the line before it showed
+            screen = plain.split(b"\n")[line]
+            run("png", "line.png", data=screen + b"\n", cwd=self.folder)
+            with open(os.path.join(self.folder, "line.png"), "rb") as expected, \
+                    open(os.path.join(self.folder, f"shots/{number:06}.png"), "rb") as recorded:
+                self.assertEqual(expected.read(), recorded.read(), number)
+
+    def test_a_folder_that_cannot_be_written_to_costs_the_pictures_alone(self):
+        output, errors = self.play(*FIFO, "-record_screen_dir", "nowhere", GAME)
+        self.assertEqual(output, self.play(*FIFO, GAME)[0])
+        self.assertEqual(len([line for line in errors if "no further screen is recorded" in line]), 1, errors)
+
+    def test_an_image_of_a_known_MD5_plays_under_any_name(self):
+        shutil.copy(IMAGE, os.path.join(self.folder, "rom.bin"))
+        self.assertEqual(self.play(*FIFO, "rom.bin"), self.play(*FIFO, GAME))
+
+    def test_numbers_that_make_no_sense_are_refused(self):
+        whole = f"it takes a whole number from 0 to {2**32 - 1}, or time"
+        for key, value, hint in (
+                ("random_seed", "-5", f"-random_seed is '-5'; {whole}"), ("random_seed", "now", whole),
+                ("frame_skip", "x", f"-frame_skip is 'x'; it takes a whole number from {-2**31} to {2**31 - 1}"), ("frame_skip", "2.5", "'2.5'"),
+                ("max_num_frames", "1e3", "'1e3'"), ("max_num_frames_per_episode", "99999999999", "'99999999999'"),
+                ("repeat_action_probability", "often", "-repeat_action_probability is 'often'; it takes a number")):
+            with self.subTest(key=key, value=value):
+                self.refuse("-game_controller", "fifo", "-" + key, value, GAME, hint=hint)
+        self.put("ale.cfg", "frame_skip = many\n")
+        self.refuse(*FIFO, GAME, hint="-frame_skip is 'many'")
+        self.assertEqual(self.play("-game_controller", "fifo", "-random_seed", "time", "-frame_skip", "1", GAME)[0][:8], b"160-210\n")
+
+    def test_a_program_called_ale_is_this_one(self):
+        expected = self.play(*FIFO, GAME)[0]
+        for name in ("ale", "racebeam-ale"):
+            link = os.path.join(self.folder, name)
+            os.symlink(BINARY, link)
+            done = subprocess.run([link, *FIFO, GAME], input=PLAY, capture_output=True, timeout=PATIENCE)
+            self.assertEqual((done.returncode, done.stdout), (0, expected), done.stderr)
+        beside = os.path.join(os.path.dirname(BINARY), "racebeam-ale")
+        self.assertEqual(os.path.realpath(beside), os.path.realpath(BINARY))
 
     def test_the_game_is_recognised_by_the_name_in_any_case(self):
         shutil.copy(IMAGE, os.path.join(self.folder, "BeamFall.A26"))
@@ -67,13 +114,14 @@ class Classic(unittest.TestCase):
         self.assertIn("racebeam: pong, seed 1, on standard input and output", errors)
 
     def test_an_unknown_name_is_refused(self):
-        shutil.copy(IMAGE, os.path.join(self.folder, "unheard_of.bin"))
-        self.refuse(*FIFO, "unheard_of.bin", hint="unheard_of")
+        with open(os.path.join(self.folder, "unheard_of.bin"), "wb") as image:
+            image.write(b"\xea" * 4096)
+        self.refuse(*FIFO, "unheard_of.bin", hint="no game is called 'unheard_of'")
 
     def test_limits_and_frame_skip(self):
         self.assertEqual(self.frames("-max_num_frames", "5", GAME), 5)
         self.assertEqual(self.frames("-max_num_frames", "5", "-frame_skip", "4", GAME), 2)
-        for skip in ("0", "-3", "fast"):
+        for skip in ("0", "-3"):
             self.assertEqual(self.frames("-max_num_frames", "5", "-frame_skip", skip, GAME), 5)
         self.assertEqual(self.play(*FIFO, "-max_num_frames_per_episode", "3", GAME)[0].count(b"1,0:\n"), 18)
 
@@ -93,6 +141,11 @@ class Classic(unittest.TestCase):
 
     def test_a_configuration_that_is_not_there_is_done_without(self):
         self.assertEqual(self.frames("-config", "nothing", "-max_num_frames", "5", GAME), 5)
+
+    def test_help_with_two_hyphens_goes_to_standard_output(self):
+        status, output, errors = run("classic", "--help", cwd=self.folder)
+        self.assertEqual((status, errors), (0, []))
+        self.assertIn(b"-record_screen_dir FOLDER", output)
 
     def test_help_goes_to_standard_error_with_status_1(self):
         status, output, errors = run("classic", "-help", cwd=self.folder)

@@ -1,0 +1,28 @@
+"""`racebeam classic` says what ALE 0.6.0 said, in one session of each game that it had."""
+
+import os
+import sys
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+
+from images import SKIPPED, folder, image, images
+from kept import digest, read
+from session import BINARY, play
+
+RUNS = [(run, wanted) for run, wanted in read() if run.game in images()]
+
+
+class Kept(unittest.TestCase):
+    def test_sessions_are_those_of_ale_0_6(self):
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            answers = pool.map(lambda kept: play([BINARY, "classic"], kept[0], image(kept[0].game)), RUNS)
+            for (run, wanted), answer in zip(RUNS, answers):
+                with self.subTest(run=run.name):
+                    self.assertEqual(digest(answer), wanted, answer.errors)
+
+
+if __name__ == "__main__":
+    if not RUNS:
+        print(f"skipped: there are no cartridge images in {folder()}")
+        sys.exit(SKIPPED)
+    unittest.main(verbosity=2)

@@ -1,0 +1,76 @@
+"""The tool finds what is different, and nothing else. Its reference here is racebeam itself, as it is or set differently."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from session import BINARY
+
+TOOL = pathlib.Path(__file__).parent
+IMAGE = TOOL.parents[1] / "games/homebrew/beamfall.bin"
+
+
+class Tool(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        shutil.copy(IMAGE, self.folder)
+
+    def reference(self, command):
+        path = self.folder / "reference"
+        path.write_text(f"#!/bin/sh\n{command}\n")
+        path.chmod(0o755)
+        return path
+
+    def compare(self, command, *options):
+        """Status and output of the tool, beside a reference that runs `command`."""
+        done = subprocess.run(
+            [sys.executable, "-B", TOOL, "--reference", self.reference(command), "--lines", "200", *options],
+            env={**os.environ, "RACEBEAM_ROMS": str(self.folder), "RACEBEAM_BINARY": BINARY}, capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+    def test_the_same_server_is_identical(self):
+        status, output = self.compare(f"exec '{BINARY}' classic \"$@\"", "--seed", "1", "--seeds", "6")
+        self.assertEqual(status, 0, output)
+        self.assertIn("6 of 6 runs identical, of 1 games", output)
+
+    def test_a_difference_is_told_with_the_line_and_its_run_can_be_played_again(self):
+        (self.folder / "other").write_text("repeat_action_probability = 0.9\n")
+        command = f"exec '{BINARY}' classic -config '{self.folder}/other' \"$@\""
+        for options in (("--seed", "1", "--seeds", "2"), ("--run", "beamfall:sticky=0.0,seed=5,lines=200")):
+            status, output = self.compare(command, *options)
+            self.assertEqual(status, 1, output)
+            self.assertRegex(output, r"beamfall:\S+seed=\d+,lines=200: line \d+, after '\d+,\d+': RAM [89A-F]")
+
+    def test_a_game_that_the_reference_does_not_know_is_not_a_difference(self):
+        status, output = self.compare("exit 1", "--seed", "1")
+        self.assertEqual(status, 1)  # nothing was compared
+        self.assertIn("1 games that the reference does not know: beamfall", output)
+        self.assertIn("0 of 0 runs identical", output)
+
+    def test_what_is_kept_is_what_the_reference_said(self):
+        from kept import digest, read
+        from session import play
+        self.compare(f"exec '{BINARY}' classic \"$@\"", "--seed", "1", "--seeds", "2", "--keep", str(self.folder / "kept"))
+        runs = read(self.folder / "kept")
+        self.assertEqual(len(runs), 2)
+        for run, wanted in runs:
+            self.assertEqual(digest(play([BINARY, "classic"], run, str(IMAGE))), wanted)
+
+    def test_nonsense_is_named(self):
+        for options, hint in ((("--run", "beamfall:depth=3"), "'depth'"), (("--run", "beamfall:skip=x"), "'x'"),
+                              (("--games", "unheard_of"), "'unheard_of'")):
+            status, output = self.compare("exit 1", *options)
+            self.assertEqual(status, 2, output)
+            self.assertIn(hint, output.splitlines()[-1])
+        status, output = self.compare("exit 1", "--reference", "/nowhere/ale")
+        self.assertEqual((status, "'/nowhere/ale' is not a program" in output), (2, True), output)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
