@@ -173,11 +173,7 @@ class Log(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             ready = os.path.join(folder, "ready")
             with serve("--log-level", "warning", "--ready-file", ready, "--max-sessions", "1") as server:
-                deadline = time.monotonic() + PATIENCE
-                while not os.path.exists(ready) and time.monotonic() < deadline:
-                    time.sleep(0.01)
-                with open(ready) as file:
-                    port = int(file.read().rsplit(":", 1)[1])
+                port = int(server.addresses(ready)[0].rsplit(":", 1)[1])
                 wires = [connect_tcp(port) for _ in range(2)]
                 wires[1].rest()
                 server.wait_for("client 2: refused")
