@@ -12,6 +12,7 @@
 #include "cli/serve_options.hpp"
 #include "emulator/translator/translator.hpp"
 #include "server/log.hpp"
+#include "server/ready_file.hpp"
 #include "server/server.hpp"
 #include "server/workers.hpp"
 #include "system/resources.hpp"
@@ -136,6 +137,7 @@ int serve(const ServeOptions& options) {
 int serve(ServeOptions& options, CLI::App& command) {
   return_large_blocks();
   const std::vector<Setting> settings = complete(command);
+  remove_stale_ready_file(options.server.ready_file);  // before anything that may be slow, or fail
   finish(options, settings);
   set_up_log(options.log_level, options.log_format);
   options.server.threads_limited_by = limit_of_threads(settings);

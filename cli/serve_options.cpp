@@ -143,7 +143,7 @@ void add_operation(CLI::App& command, ServeOptions& options) {
       ->group(group);
   command
       .add_option("--ready-file", server.ready_file,
-                  "Gets the addresses, one a line, once all are served; removed at the end")
+                  "Gets the addresses, one a line after # lines, once all are served; removed at the end")
       ->type_name("FILE")
       ->group(group);
   command.add_option("--http", server.http, "Health and metrics: /healthz, /readyz, /metrics")

@@ -1,5 +1,6 @@
 #include "server/http.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
@@ -21,7 +22,7 @@ using namespace std::chrono_literals;
 using Request = http::request<http::string_body>;
 using Response = http::response<http::string_body>;
 
-constexpr int kMostConnections = 64;
+constexpr std::size_t kMostConnections = 64;
 constexpr std::uint64_t kLargestBody = 1024;
 constexpr auto kPrometheusText = "text/plain; version=0.0.4; charset=utf-8";
 
@@ -52,26 +53,6 @@ Response answer(const Request& request, const HttpPages& pages) {
   return response;
 }
 
-// One after the other, until the client closes, is silent for too long, or sends what is no HTTP.
-net::awaitable<void> serve(tcp::socket socket, const HttpPages& pages) {
-  boost::beast::tcp_stream stream(std::move(socket));
-  boost::beast::flat_buffer buffer;
-  error_code error;
-  for (bool keep_alive = true; keep_alive;) {
-    stream.expires_after(30s);
-    http::request_parser<http::string_body> parser;
-    parser.body_limit(kLargestBody);
-    co_await http::async_read(stream, buffer, parser, net::redirect_error(use_awaitable, error));
-    if (error) break;
-    Response response = answer(parser.get(), pages);
-    keep_alive = response.keep_alive();
-    http::response_serializer<http::string_body> serializer(response);
-    co_await http::async_write(stream, serializer, net::redirect_error(use_awaitable, error));
-    if (error) break;
-  }
-  stream.socket().shutdown(tcp::socket::shutdown_both, error);
-}
-
 }  // namespace
 
 Http::Http(net::io_context& loop, const TcpAddress& address, HttpPages pages)
@@ -99,11 +80,41 @@ net::awaitable<void> Http::welcome() {
       co_await pause.async_wait(use_awaitable);
       continue;
     }
-    if (connections_ >= kMostConnections) continue;
-    ++connections_;
-    net::co_spawn(acceptor_.get_executor(), serve(std::move(socket), pages_),
-                  [this](const std::exception_ptr&) { --connections_; });
+    make_room();
+    connections_.push_back(std::make_shared<boost::beast::tcp_stream>(std::move(socket)));
+    const Connection connection = connections_.back();
+    net::co_spawn(acceptor_.get_executor(), serve(connection),
+                  [this, connection](const std::exception_ptr&) { connections_.remove(connection); });
   }
+}
+
+// Connections that ask for nothing must not keep out those that do.
+void Http::make_room() {
+  if (connections_.size() < kMostConnections) return;
+  connections_.front()->close();  // which ends what it waits for
+  connections_.pop_front();
+}
+
+// One request after the other, until the client closes, is silent for too long, or sends what is no HTTP.
+net::awaitable<void> Http::serve(Connection connection) {
+  boost::beast::tcp_stream& stream = *connection;
+  boost::beast::flat_buffer buffer;
+  error_code error;
+  for (bool keep_alive = true; keep_alive;) {
+    stream.expires_after(30s);
+    http::request_parser<http::string_body> parser;
+    parser.body_limit(kLargestBody);
+    co_await http::async_read(stream, buffer, parser, net::redirect_error(use_awaitable, error));
+    const auto place = std::ranges::find(connections_, connection);
+    if (error || place == connections_.end()) break;
+    connections_.splice(connections_.end(), connections_, place);
+    Response response = answer(parser.get(), pages_);
+    keep_alive = response.keep_alive();
+    http::response_serializer<http::string_body> serializer(response);
+    co_await http::async_write(stream, serializer, net::redirect_error(use_awaitable, error));
+    if (error) break;
+  }
+  stream.socket().shutdown(tcp::socket::shutdown_both, error);
 }
 
 }  // namespace racebeam

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <functional>
+#include <list>
+#include <memory>
 #include <string>
 #include <utility>  // Asio 1.74 forgets it
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
 
 #include "server/address.hpp"
 
@@ -28,12 +31,16 @@ class Http {
   const std::string& name() const { return name_; }  // http://HOST:PORT
 
  private:
+  using Connection = std::shared_ptr<boost::beast::tcp_stream>;
+
   boost::asio::awaitable<void> welcome();
+  void make_room();  // for one more connection
+  boost::asio::awaitable<void> serve(Connection connection);
 
   boost::asio::ip::tcp::acceptor acceptor_;
   HttpPages pages_;
   std::string name_;
-  int connections_ = 0;
+  std::list<Connection> connections_;  // the one whose latest request, or coming, is longest ago is the first
 };
 
 }  // namespace racebeam

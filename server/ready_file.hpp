@@ -1,5 +1,7 @@
 // Tells those who wait for a server where it listens: a file with an address a line, there whole or not at
-// all.
+// all. Its first line says what it is. A file that does not begin so is never touched. The server holds a
+// lock (flock) on its file for as long as it lives: that of a server that died is told from that of a live
+// one.
 #pragma once
 
 #include <string>
@@ -9,19 +11,23 @@
 
 namespace racebeam {
 
+// Removes what a server that died has left: those who wait must not find that one's addresses. That of a live
+// server stays. Throws std::runtime_error for what is no ready file. An empty path names none.
+void remove_stale_ready_file(const std::string& path);
+
 class ReadyFile {
  public:
-  // Removes what a server before has left: who waits for the file must not find that one's. Throws
-  // std::runtime_error when it can't.
-  explicit ReadyFile(std::string path);
-  ~ReadyFile();  // removes it, unless it is a successor's: nobody listens any more
+  // Writes it; takes the place of a live server's. Throws std::runtime_error for a file that is not one of
+  // ours, or when it can't be written.
+  ReadyFile(const std::string& path, const std::vector<std::string>& addresses);
+  ~ReadyFile();  // removes it, unless it is a successor's
   ReadyFile(const ReadyFile&) = delete;
   ReadyFile& operator=(const ReadyFile&) = delete;
 
-  void write(const std::vector<std::string>& addresses);  // throws std::runtime_error
-
  private:
-  std::string path_;
+  void write(const std::string& path, const std::string& text);
+
+  int lock_;  // the file's descriptor, which has the lock
   OwnFile file_;
 };
 

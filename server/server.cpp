@@ -78,8 +78,6 @@ Server::Server(const ServerSettings& settings, const Services& services)
     const HttpPages pages{[this] { return ready_.load(); }, [this] { return metrics_.text(); }};
     http_ = std::make_unique<Http>(first_, parse_host_and_port(settings.http), pages);
   }
-  if (!settings.ready_file.empty())
-    ready_file_.emplace(settings.ready_file);  // once nothing else can be refused
 }
 
 void Server::announce() {
@@ -89,6 +87,13 @@ void Server::announce() {
         {{"event", "threads"}});
   }
   door_.open();
+  std::vector<std::string> names = door_.names();
+  for (const StreamSession& stream : streams_) names.push_back(stream.name());
+  if (http_) {
+    log("health and metrics on " + http_->name(), {{"event", "listening"}, {"address", http_->name()}});
+    names.push_back(http_->name());
+  }
+  if (!settings_.ready_file.empty()) ready_file_.emplace(settings_.ready_file, names);  // may be refused
   for (StreamSession& stream : streams_) {
     stream.start([this] {
       net::post(first_, [this] {
@@ -96,13 +101,6 @@ void Server::announce() {
       });
     });
   }
-  std::vector<std::string> names = door_.names();
-  for (const StreamSession& stream : streams_) names.push_back(stream.name());
-  if (http_) {
-    log("health and metrics on " + http_->name(), {{"event", "listening"}, {"address", http_->name()}});
-    names.push_back(http_->name());
-  }
-  if (ready_file_) ready_file_->write(names);
   notify_manager("READY=1");
 }
 
@@ -131,6 +129,7 @@ net::awaitable<void> Server::obey() {
 // Sessions on streams have no grace: who stops the server is the one who talks to it.
 net::awaitable<void> Server::wind_down() {
   ready_ = false;
+  ready_file_.reset();  // its addresses are dead from now on
   notify_manager("STOPPING=1");
   door_.close();
   log("told to stop: " + std::to_string(metrics_.sessions_open) + " sessions have " +

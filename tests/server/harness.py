@@ -103,12 +103,12 @@ class Server:
         raise AssertionError(f"'{pattern}' is not in the log: {self.log()}")
 
     def addresses(self, ready_file):
-        """What --ready-file says, as soon as it is there."""
+        """The addresses of --ready-file, as soon as it is there."""
         deadline = time.monotonic() + PATIENCE
         while not os.path.exists(self.path(ready_file)) and time.monotonic() < deadline:
             time.sleep(0.005)
         with open(self.path(ready_file)) as file:
-            return file.read().splitlines()
+            return [line for line in file.read().splitlines() if not line.startswith("#")]
 
     def port(self):
         return int(self.wait_for(r"listening on tcp://127\.0\.0\.1:(\d+)$").group(1))

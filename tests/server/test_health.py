@@ -1,5 +1,6 @@
 """What a server tells those who run it: health, metrics, the log."""
 
+import contextlib
 import fcntl
 import json
 import os
@@ -72,6 +73,38 @@ class Http(unittest.TestCase):
             buckets = [value for key, value in found.items() if "_bucket" in key]
             self.assertEqual(buckets, sorted(buckets))
             wire.close()
+
+    def test_silent_connections_make_room_the_oldest_first(self):
+        with serve("--http", "127.0.0.1:0") as server, contextlib.ExitStack() as stack:
+            address = self.address(server)
+
+            def connect():
+                wire = connect_tcp(int(address.rsplit(":", 1)[1]))
+                stack.callback(wire.close)
+                return wire
+
+            def is_healthy(wire):
+                wire.send(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n")
+                while (line := wire.line()) != b"\r\n":
+                    self.assertRegex(line, b"^HTTP/1.1 200 OK|: ")
+                return wire.line() == b"ok\n"
+
+            busy = connect()
+            silent = [connect() for _ in range(63)]
+            slow = silent[1]
+            slow.send(b"GET /healthz HTTP/1.1\r\n")  # half a request holds no place either
+            self.assertTrue(is_healthy(busy))  # from now on it is the latest
+            for _ in range(2):
+                self.assertEqual(get(address + "/healthz"), (200, "ok\n"))
+            extra = [connect() for _ in range(10)]
+            self.assertTrue(all(is_healthy(wire) for wire in extra))
+            self.assertTrue(is_healthy(busy))
+            self.assertEqual(silent[0].rest(), b"")
+            self.assertEqual(slow.rest(), b"")
+            self.assertTrue(is_healthy(silent[-1]))
+            crowd = [connect() for _ in range(1000)]
+            self.assertEqual(get(address + "/healthz"), (200, "ok\n"))
+            self.assertTrue(is_healthy(crowd[-1]))
 
     def test_what_is_no_HTTP_harms_nobody(self):
         with serve("--http", "127.0.0.1:0") as server:
@@ -173,11 +206,7 @@ class Log(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             ready = os.path.join(folder, "ready")
             with serve("--log-level", "warning", "--ready-file", ready, "--max-sessions", "1") as server:
-                deadline = time.monotonic() + PATIENCE
-                while not os.path.exists(ready) and time.monotonic() < deadline:
-                    time.sleep(0.01)
-                with open(ready) as file:
-                    port = int(file.read().rsplit(":", 1)[1])
+                port = int(server.addresses(ready)[0].rsplit(":", 1)[1])
                 wires = [connect_tcp(port) for _ in range(2)]
                 wires[1].rest()
                 server.wait_for("client 2: refused")

@@ -52,11 +52,12 @@ Cost drive_racebeam(LineChannel& channel, const Job& job, pid_t server, Lines* r
   return drive(channel, job, server, replies);
 }
 
+// The first address.
 std::string wait_for(const std::string& ready_file) {
   for (int tries = 0; tries < 2000; ++tries) {
     std::ifstream file(ready_file);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!text.empty()) return text;
+    for (std::string line; std::getline(file, line);)
+      if (!line.starts_with('#')) return line;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   throw std::runtime_error("the server does not start");
