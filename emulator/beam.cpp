@@ -96,13 +96,18 @@ void Beam::draw_beyond(std::int32_t clock) {
   } while (tia_.cursor < clock);
 }
 
+// The cursor's row, of which it is at pixel `first`. Null without pixels: then the picture may have no rows.
+RACEBEAM_INLINE std::uint8_t* Beam::row_of(int first) {
+  return draws_pixels() ? picture_->pixels().data() + (tia_.pixel - first) : nullptr;
+}
+
 // Most spans: from the cursor to a clock that is on the same line, and visible.
 void Beam::draw_in_line(std::int32_t clock) {
   const int first = std::max(kLinePixels - tia_.left, 0);
   tia_.left -= clock - tia_.cursor;
   tia_.cursor = clock;
   const int last = kLinePixels - tia_.left;
-  std::uint8_t* row = picture_->pixels().data() + tia_.pixel - first;
+  std::uint8_t* const row = row_of(first);
   if (tia_.pixel >= forgotten_) forget_row();
   draw_visible(row, first, last);
   if (tia_.comb_armed && first < kCombEnd - kBlankClocks) blank_comb(row, first, last);
@@ -152,7 +157,7 @@ void Beam::draw_span(int begin, int clocks) {
   const int visible = std::min(std::max(begin, kBlankClocks), end_clock);
   const int first = std::max(visible - kBlankClocks, 0);
   const int last = std::max(end_clock - kBlankClocks, first);
-  std::uint8_t* row = picture_->pixels().data() + tia_.pixel - first;
+  std::uint8_t* const row = row_of(first);
   if (tia_.pixel >= forgotten_) forget_row();
   if (last > first) draw_visible(row, first, last);
   if (tia_.comb_armed && visible < kCombEnd) blank_comb(row, visible, end_clock, first, last);

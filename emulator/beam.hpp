@@ -151,6 +151,7 @@ class Beam {
   std::size_t rows_needed() const;
   void find_window();
   void draw_span(int begin, int clocks);
+  std::uint8_t* row_of(int first);
   void draw_visible(std::uint8_t* row, int first, int last);
   void collide(int first, int last);
   void spill(std::uint8_t* row, int first, int last);

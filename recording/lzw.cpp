@@ -10,6 +10,13 @@ void Lzw::append(std::vector<std::uint8_t>& out, std::span<const std::uint8_t> p
   pending_ = 0;
   clear();
   put(kClear);
+  if (!pixels.empty()) compress(pixels);
+  put(kEnd);
+  if (pending_ > 0) packed_.push_back(static_cast<std::uint8_t>(bits_));
+  append_blocks(out);
+}
+
+void Lzw::compress(std::span<const std::uint8_t> pixels) {
   std::uint32_t prefix = pixels[0];
   for (const std::uint8_t pixel : pixels.subspan(1)) {
     std::uint32_t& code = slot(prefix << 8 | pixel);
@@ -28,8 +35,9 @@ void Lzw::append(std::vector<std::uint8_t>& out, std::span<const std::uint8_t> p
     code = next_++;
   }
   put(prefix);
-  put(kEnd);
-  if (pending_ > 0) packed_.push_back(static_cast<std::uint8_t>(bits_));
+}
+
+void Lzw::append_blocks(std::vector<std::uint8_t>& out) const {
   out.push_back(8);
   for (std::size_t at = 0; at < packed_.size();) {
     const std::size_t size = std::min<std::size_t>(255, packed_.size() - at);

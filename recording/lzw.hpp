@@ -17,6 +17,8 @@ class Lzw {
   static constexpr std::uint32_t kClear = 256, kEnd = 257, kFirst = 258, kCodes = 4096;
   static constexpr std::size_t kSlots = 8192;
 
+  void compress(std::span<const std::uint8_t> pixels);  // at least one
+  void append_blocks(std::vector<std::uint8_t>& out) const;
   void clear();
   void put(std::uint32_t code);
   std::uint32_t& slot(std::uint32_t key);

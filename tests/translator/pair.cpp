@@ -46,6 +46,8 @@ std::array<std::uint8_t, kSamplesPerBlock> samples_of(Console& console) {
   return samples;
 }
 
+}  // namespace
+
 std::string difference(Console& interpreted, Console& translated) {
   using StateBytes = std::array<std::uint8_t, sizeof(State)>;
   const auto bytes = [](const Console& console) {
@@ -60,8 +62,6 @@ std::string difference(Console& interpreted, Console& translated) {
   if (found.empty()) found = first_difference("sound", samples_of(interpreted), samples_of(translated));
   return found;
 }
-
-}  // namespace
 
 std::string difference_in_program(std::uint32_t seed, int steps) {
   Program program = make_program(seed);

@@ -4,7 +4,15 @@
 #include <cstdint>
 #include <string>
 
+namespace racebeam {
+class Console;
+}
+
 namespace racebeam::test {
+
+// What differs between two machines: state, cartridge RAM, pictures, sound. Empty if nothing does. It makes a block of
+// sound on both.
+std::string difference(Console& interpreted, Console& translated);
 
 // Runs the program of a seed on both, `steps` steps, with states saved and restored on the way, and compares
 // everything after each: state, cartridge RAM, pictures, sound. Empty if all is the same, else what differs.

@@ -1,0 +1,84 @@
+// A session of the classic protocol. The first byte is the options, the rest what a client sends.
+#include "fuzz/target.hpp"
+#include "games/catalogue.hpp"
+#include "protocol/classic.hpp"
+
+namespace racebeam::fuzz {
+namespace {
+
+enum Option : unsigned {
+  kRunLength = 1,
+  kFewFrames = 2,
+  kEpisodes = 4,
+  kSticky = 8,
+  kAveraging = 16,
+  kUpdraft = 32
+};
+
+Cartridge cartridge_of(const char* where) {
+  const auto image = load_image(where);
+  return {image, recognise(*image).game};
+}
+
+Environment make_machine(unsigned options) {
+  static const Cartridge beamfall = cartridge_of("builtin:beamfall"),
+                         updraft = cartridge_of("builtin:updraft");
+  Settings settings;
+  settings.classic = true;
+  settings.random_seed = 1;
+  settings.sticky = (options & kSticky) != 0 ? 0.25F : 0;
+  settings.max_episode_frames = (options & kEpisodes) != 0 ? 20 : 0;
+  settings.color_averaging = (options & kAveraging) != 0;
+  const Cartridge& cartridge = (options & kUpdraft) != 0 ? updraft : beamfall;
+  return {cartridge.image, cartridge.game, settings};
+}
+
+// All that the session says to the text, in pieces of at most `piece` bytes; an error that ends it comes
+// last.
+std::string conversation(unsigned options, std::string_view text, std::size_t piece) {
+  Environment machine = make_machine(options);
+  ClassicSession session(machine, {.run_length = (options & kRunLength) != 0,
+                                   .max_num_frames = (options & kFewFrames) != 0 ? 30 : 0});
+  std::string said;
+  const auto listen = [&] {
+    while (!session.ended()) {
+      const auto reply = session.reply();
+      if (!reply) return;
+      require(reply->ends_with('\n'), "what the server says is lines");
+      require(is_printable(reply->substr(0, reply->size() - 1)), "lines are printable");
+      said += *reply;
+    }
+  };
+  try {
+    for (listen(); !text.empty() && !session.ended(); listen()) {
+      const std::span<char> space = session.space();
+      const std::size_t count = std::min({space.size(), text.size(), piece});
+      require(count > 0, "a session that waits has space");
+      std::copy_n(text.begin(), count, space.begin());
+      session.received(count);
+      text.remove_prefix(count);
+    }
+    if (!session.ended()) {
+      session.received(0);
+      listen();
+      require(session.ended(), "a session whose input has ended ends");
+    }
+  } catch (const ClassicError& error) {
+    require(*error.what() != '\0' && is_printable(error.what()), "an error says something");
+    said += error.what();
+  }
+  return said;
+}
+
+}  // namespace
+
+void run(Bytes input) {
+  Reader reader(input);
+  const unsigned options = reader.byte();
+  const std::string_view text = text_of(reader.rest());
+  const std::string said = conversation(options, text, 4096);
+  require(said == conversation(options, text, 1 + options % 7),
+          "answers do not depend on the pieces of the input");
+}
+
+}  // namespace racebeam::fuzz

@@ -1,0 +1,89 @@
+// A file of settings for `racebeam serve --config`: what is accepted is printed by `racebeam config`, and
+// that is read again as it was.
+#include "cli/config.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "fuzz/target.hpp"
+
+namespace racebeam::fuzz {
+namespace {
+
+// A file without a name in any folder.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string_view text) : descriptor_(::memfd_create("config", MFD_CLOEXEC)) {
+    if (descriptor_ < 0 ||
+        ::write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+      throw std::runtime_error("cannot make a file in memory");
+  }
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+class CapturedOutput {
+ public:
+  CapturedOutput() : before_(std::cout.rdbuf(text_.rdbuf())) {}
+  ~CapturedOutput() { std::cout.rdbuf(before_); }
+  CapturedOutput(const CapturedOutput&) = delete;
+  CapturedOutput& operator=(const CapturedOutput&) = delete;
+
+  std::string text() const { return text_.str(); }
+
+ private:
+  std::ostringstream text_;
+  std::streambuf* before_;
+};
+
+// What `racebeam config` prints for the file; nothing if it refuses it.
+std::optional<std::string> printed(std::string_view file) {
+  const MemoryFile config(file);
+  const CapturedOutput output;
+  CLI::App app;
+  add_config(app);
+  try {
+    app.parse(std::vector<std::string>{config.path(), "--config", "config"});  // CLI11 wants them backwards
+  } catch (const CLI::Error& error) {
+    require(*error.what() != '\0', "an error says something");
+    return std::nullopt;
+  }
+  return output.text();
+}
+
+// The settings without where they come from.
+std::string settings_in(const std::string& text) {
+  std::istringstream lines(text);
+  std::string settings;
+  for (std::string line; std::getline(lines, line);) {
+    line.resize(line.rfind("  # "));
+    line.resize(line.find_last_not_of(' ') + 1);
+    settings += line + "\n";
+  }
+  return settings;
+}
+
+}  // namespace
+
+void run(Bytes input) {
+  const auto first = printed(text_of(input));
+  if (!first) return;
+  const auto second = printed(*first);
+  require(second.has_value(), "what `racebeam config` prints is accepted", *first);
+  require(settings_in(*first) == settings_in(*second), "what `racebeam config` prints is read as it was",
+          *first + *second);
+}
+
+}  // namespace racebeam::fuzz

@@ -1,0 +1,22 @@
+// A target under libFuzzer (preset `fuzz`). At the end it says how much it was given, which libFuzzer does
+// not.
+#include <cstdio>
+#include <cstdlib>
+
+#include "fuzz/target.hpp"
+
+namespace {
+
+std::size_t inputs = 0, bytes = 0;
+
+void tell() { std::fprintf(stderr, "fuzz: %zu inputs, %zu bytes\n", inputs, bytes); }
+
+}  // namespace
+
+// Names and types are libFuzzer's.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (inputs++ == 0) std::atexit(tell);
+  bytes += size;
+  racebeam::fuzz::run({data, size});
+  return 0;
+}

@@ -1,0 +1,144 @@
+// A session of the line protocol: the input is what a client sends.
+#include "protocol/line_session.hpp"
+
+#include <vector>
+
+#include "fuzz/folder.hpp"
+#include "fuzz/target.hpp"
+
+namespace racebeam::fuzz {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+// Small enough for an execution to be quick.
+LineService make_service(const std::string& record_folder) {
+  LineService service;
+  service.version = "fuzz";
+  service.images = std::make_shared<const Images>();
+  service.limits.line = 4096;
+  service.limits.output = 4096;
+  service.limits.reply = 1 << 20;
+  service.limits.machines = 3;
+  service.limits.states = 4;
+  service.limits.request_frames = 200;
+  service.limits.recording = 1 << 20;
+  service.record_folder = record_folder;
+  return service;
+}
+
+Lines lines_of(std::string_view text) {
+  Lines lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+// `load` without a seed, or with 0, draws one: the same input would not give the same replies.
+std::string with_seed(std::string line) {
+  const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+  if (!std::string_view(line).substr(first).starts_with("load ")) return line;
+  constexpr std::string_view kKey = " seed=";
+  const std::size_t seed = line.find(kKey);
+  if (seed == std::string::npos) return line.insert(line.find_last_not_of('\r') + 1, " seed=1");
+  const std::size_t value = seed + kKey.size();
+  if (value < line.size() && (line[value] == '0' || line[value] == '-')) line.insert(value, 1, '1');
+  return line;
+}
+
+class Client {
+ public:
+  Client() : service_(make_service(folder_.path())), session_(service_) {}
+
+  // Sends the text in pieces of at most `piece` bytes; all replies, each ended by LF.
+  std::string say(std::string_view text, std::size_t piece) {
+    std::string replies;
+    while (!text.empty() && !session_.finished()) {
+      const std::span<char> space = session_.space();
+      const std::size_t count = std::min({space.size(), text.size(), piece});
+      std::copy_n(text.begin(), count, space.begin());
+      if (count > 0) session_.received(count);
+      text.remove_prefix(count);
+      replies += listen();
+    }
+    return replies;
+  }
+
+  std::string close() {
+    session_.received(0);
+    const std::string replies = listen();
+    require(session_.finished(), "a session whose input has ended ends");
+    return replies;
+  }
+
+ private:
+  std::string listen() {
+    std::string replies;
+    bool more = true;
+    while (more) {
+      more = session_.run();
+      replies += session_.output();
+      session_.sent(session_.output().size());
+    }
+    return replies;
+  }
+
+  ScratchFolder folder_;
+  LineService service_;
+  LineSession session_;
+};
+
+bool is_reply(std::string_view reply) {
+  const bool begins = reply == "ok" || reply.starts_with("ok ") || reply.starts_with("error ");
+  return begins && is_printable(reply);
+}
+
+// What counts requests differs when some are left out.
+std::string comparable(const std::string& request, const std::string& reply) {
+  return request.find("stats") != std::string::npos ? "" : reply;
+}
+
+// What was refused has left no trace: without it, all others get the replies that they got.
+void check_refusals(const Lines& requests, const Lines& replies) {
+  Client client;
+  for (std::size_t n = 0; n < replies.size(); ++n) {
+    if (replies[n].starts_with("error ")) continue;
+    Lines again = lines_of(client.say(requests[n] + "\n", requests[n].size() + 1));
+    require(again.size() == 1, "one line is answered by one line", requests[n]);
+    require(comparable(requests[n], again[0]) == comparable(requests[n], replies[n]),
+            "a request that was refused leaves no trace", requests[n] + "\n" + replies[n] + "\n" + again[0]);
+  }
+}
+
+}  // namespace
+
+void run(Bytes input) {
+  Lines requests = lines_of(text_of(input));
+  std::string text;
+  for (std::string& request : requests) text += (request = with_seed(request)) + "\n";
+  if (!text.empty() && text_of(input).back() != '\n') text.pop_back();
+
+  Client client;
+  const std::size_t piece = input.empty() ? 1 : 1 + input.size() * 7919 % 997;
+  std::string all = client.say(text, piece);
+  all += client.close();
+  const Lines replies = lines_of(all);
+
+  require(replies.size() <= requests.size(), "no line gets two replies");
+  for (std::size_t n = 0; n < replies.size(); ++n)
+    require(is_reply(replies[n]), "a reply is `ok` or an error, and printable",
+            requests[n] + "\n" + replies[n]);
+  if (replies.size() < requests.size()) {
+    const bool has_quit = !replies.empty() && replies.back() == "ok" &&
+                          requests[replies.size() - 1].find("quit") != std::string::npos;
+    require(has_quit, "every line gets a reply, until quit", text);
+  }
+  const bool half = !text.empty() && text.back() != '\n' && replies.size() == requests.size();
+  if (half) require(replies.back().starts_with("error "), "half a line is not carried out", replies.back());
+  check_refusals(requests, replies);
+}
+
+}  // namespace racebeam::fuzz
