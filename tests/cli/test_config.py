@@ -40,6 +40,15 @@ class Config(unittest.TestCase):
             self.assertLessEqual(int(found[0]), len(processors))  # a quota may allow fewer
             self.assertEqual(found[1], "default")
 
+    def test_memory_is_given_in_bytes_or_with_a_unit(self):
+        for given, bytes_of in (("123456789", 123456789), ("512M", 512 << 20), ("2G", 2 << 30), ("64 kb", 64 << 10)):
+            self.assertEqual(self.settings("--stdio", "--max-memory", given)["max_memory"], (str(bytes_of), "command line"))
+        usual = int(self.settings("--stdio")["max_memory"][0])
+        physical = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+        self.assertLessEqual(usual, physical * 3 // 4)
+        self.assertGreater(usual, 1 << 26)
+        self.assertEqual(self.run_racebeam("config", "--stdio", "--max-memory", "much").returncode, 2)
+
     def test_options_win_over_variables_over_the_file_over_defaults(self):
         path = self.file("max_states = 1\nmax_machines = 2\nmax_sessions = 3\n")
         found = self.settings("--config", path, "--max-states", "9", RACEBEAM_MAX_STATES="8", RACEBEAM_MAX_MACHINES="7")

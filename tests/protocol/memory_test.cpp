@@ -1,0 +1,115 @@
+#include "protocol/memory.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/protocol/line_client.hpp"
+
+using namespace racebeam;
+using namespace racebeam::test;
+
+namespace {
+
+constexpr std::uint64_t kMiB = 1 << 20;
+
+LineService service_with(std::uint64_t bytes) {
+  LineService service = line_service();
+  service.memory = std::make_shared<MemoryBudget>(bytes);
+  return service;
+}
+
+}  // namespace
+
+TEST_CASE("A budget gives what it has, and no more") {
+  MemoryBudget budget(100);
+  CHECK(budget.take(60));
+  CHECK_FALSE(budget.take(41));
+  CHECK(budget.take(40));
+  CHECK_FALSE(budget.take(1));
+  budget.give_back(50);
+  CHECK(budget.has(50));
+  CHECK_FALSE(budget.has(51));
+  budget.take_anyway(70);
+  CHECK_FALSE(budget.has(0));
+}
+
+TEST_CASE("A share is given back when its owner ends") {
+  MemoryBudget budget(100);
+  {
+    MemoryShare share(&budget);
+    share.set(30);
+    CHECK(share.grow(20));
+    CHECK_FALSE(share.grow(51));
+    CHECK_THROWS_AS(share.check(51, "it"), Refusal);
+    CHECK(budget.taken() == 50);
+  }
+  CHECK(budget.taken() == 0);
+}
+
+TEST_CASE("What would go beyond the memory of all is refused, and the session goes on") {
+  const LineService service = service_with(8 * kMiB);
+  LineClient client(service), other(service);
+  CHECK(code(client.ask("load beamfall")) == "");
+  CHECK(code(client.ask("open 200")) == "limit");
+  CHECK(code(client.ask("step NOOP")) == "no-machines");
+  CHECK(code(client.ask("open 4")) == "");
+  CHECK(code(client.ask("observe grey84x16:zlib rgb:delta")) == "limit");
+  CHECK(client.ask("observe") == "ok fields=reward,terminated,truncated,lives");
+  CHECK(code(client.ask("step NOOP")) == "");
+  int saved = 0;
+  while (saved < 200 && code(client.ask("save s" + std::to_string(saved))).empty()) ++saved;
+  CHECK(saved > 10);
+  CHECK(saved < 100);
+  CHECK(code(client.ask("branch s0 keep=leaf 0 1 2")) == "limit");
+  CHECK_FALSE(client.ask("states").ends_with("leaf0"));
+  CHECK(code(client.ask("act FIRE")) == "");
+  CHECK(code(other.ask("load beamfall")) == "limit");
+  CHECK(code(client.ask("drop all")) == "");
+  CHECK(code(other.ask("load beamfall")) == "");
+}
+
+TEST_CASE("An image that a client sends is charged with the code that it may be translated to") {
+  const LineService service = service_with(4 * kMiB);
+  LineClient client(service);
+  CHECK(code(client.ask("load beamfall")) == "");
+  CHECK(code(client.ask("load inline image=" + std::string(5464, 'A'))) == "limit");
+}
+
+TEST_CASE("A line that there is no memory for is too long") {
+  const LineService service = service_with(kMiB);
+  LineClient client(service);
+  const std::string long_line(900'000, 'x');
+  CHECK(code(client.ask(long_line)) == "line-too-long");
+  CHECK(client.ask("games").starts_with("ok"));
+  LineClient rich(service_with(64 * kMiB));
+  CHECK(code(rich.ask(long_line)) == "unknown-command");
+}
+
+TEST_CASE("A line of very many words is refused where there is no memory for them") {
+  const LineService service = service_with(4 * kMiB);
+  LineClient client(service);
+  client.ask("load beamfall");
+  std::string line = "act";
+  for (int n = 0; n < 100'000; ++n) line += " 0";
+  CHECK(code(client.ask(line)) == "limit");
+  CHECK(code(client.ask("act 0")) == "");
+}
+
+TEST_CASE("All memory comes back") {
+  const LineService service = service_with(64 * kMiB);
+  {
+    LineClient client(service);
+    client.ask("load beamfall");
+    client.ask("observe screen:hex rgb:zlib");
+    client.ask("open 20");
+    client.ask("step NOOP");
+    for (int n = 0; n < 20; ++n) client.ask("save s" + std::to_string(n));
+    const std::uint64_t busy = service.memory->taken();
+    client.ask("close");
+    client.ask("drop all");
+    client.ask("observe none");
+    client.session.rest();
+    CHECK(service.memory->taken() < busy / 4);
+    CHECK(service.memory->taken() < kMiB);
+  }
+  CHECK(service.memory->taken() == 0);
+}
