@@ -11,6 +11,7 @@
 
 #include "cli/serve_options.hpp"
 #include "emulator/translator/translator.hpp"
+#include "recording/recorder.hpp"
 #include "server/log.hpp"
 #include "server/ready_file.hpp"
 #include "server/server.hpp"
@@ -79,7 +80,7 @@ LineService line_service(const ServeOptions& options, Workers& workers) {
   service.version = RACEBEAM_VERSION;
   service.images = images;
   service.limits = options.limits;
-  service.record_folder = options.record_folder;
+  if (!options.record_folder.empty()) service.recorder = std::make_shared<Recorder>(options.record_folder);
   service.threads = static_cast<std::size_t>(options.server.threads);
   service.cpu = options.machine.settings.cpu;
   service.parallel = [&workers](std::size_t count, const std::function<void(std::size_t)>& task) {

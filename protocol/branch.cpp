@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "environment/branch.hpp"
-#include "protocol/recording.hpp"
 #include "protocol/session.hpp"
+#include "protocol/session_recording.hpp"
 
 namespace racebeam {
 namespace {
@@ -17,7 +17,7 @@ class Loan {
   }
   ~Loan() {
     session_.player->go_to(undisturbed_);
-    session_.watch();
+    if (session_.recording) session_.recording->watch();
   }
   Loan(const Loan&) = delete;
   Loan& operator=(const Loan&) = delete;

@@ -62,8 +62,9 @@ constexpr std::array kCommands = {
     Command{"restart", "[MASK]", "reset machines: those with 1 in a mask such as 0110; without, all", "",
             "restart 0110", 0, 1, Needs::kMachines, run_restart},
     Command{"close", "", "give the machines back", "", "", 0, 0, Needs::kMachines, run_close},
-    Command{"record", "png|gif|y4m|wav NAME | stop", "write frames or sound below the server's folder", "",
-            "record gif first", 1, 2, Needs::kGame, run_record},
+    Command{"record", "png|gif|y4m|wav[,...] NAME [machine=N] | stop",
+            "write frames, sound or both below the server's folder",
+            "machine= takes one of open, 0 the first", "record gif first", 1, 3, Needs::kGame, run_record},
     Command{"stats", "", "what this session has done", "", "", 0, 0, Needs::kAdmission, run_stats},
     Command{"quit", "", "end the session", "", "", 0, 0, Needs::kNothing, run_quit},
 };

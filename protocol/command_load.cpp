@@ -7,8 +7,8 @@
 #include "protocol/base64.hpp"
 #include "protocol/command.hpp"
 #include "protocol/play_settings.hpp"
-#include "protocol/recording.hpp"
 #include "protocol/session.hpp"
+#include "protocol/session_recording.hpp"
 
 namespace racebeam {
 namespace {

@@ -2,7 +2,6 @@
 #include <limits>
 
 #include "protocol/command.hpp"
-#include "protocol/recording.hpp"
 #include "protocol/session.hpp"
 
 namespace racebeam {
@@ -66,6 +65,7 @@ void run_restart(Session& session, Words arguments) {
 }
 
 void run_close(Session& session, Words) {
+  session.stop_recording_machines();
   session.machines.close();
   session.out += "ok";
 }

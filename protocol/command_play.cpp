@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "protocol/command.hpp"
-#include "protocol/recording.hpp"
 #include "protocol/session.hpp"
 
 namespace racebeam {
@@ -96,6 +95,7 @@ void run_act(Session& session, Words arguments) {
   play(player, actions);
   session.count(player.outcome());
   session.out += "ok";
+  session.append_cut();
   player.append_view(session.out);
 }
 

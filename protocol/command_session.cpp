@@ -4,7 +4,6 @@
 #include "protocol/command.hpp"
 #include "protocol/help.hpp"
 #include "protocol/play_settings.hpp"
-#include "protocol/recording.hpp"
 #include "protocol/session.hpp"
 
 namespace racebeam {
@@ -43,7 +42,7 @@ void run_hello(Session& session, Words arguments) {
   append_pair(out, "max_reply", static_cast<std::int64_t>(limits.reply));
   append_pair(out, "max_idle", limits.idle_seconds);
   append_pair(out, "threads", static_cast<std::int64_t>(session.service.threads));
-  append_pair(out, "recording", session.service.record_folder.empty() ? 0 : 1);
+  append_pair(out, "recording", session.service.recorder ? 1 : 0);
   append_pair(out, "admitted", session.admitted ? 1 : 0);
   append_pair(out, "encodings", "");
   append_names(out, encodings(), ',');

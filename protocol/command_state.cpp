@@ -8,7 +8,6 @@
 #include "protocol/base64.hpp"
 #include "protocol/branch.hpp"
 #include "protocol/command.hpp"
-#include "protocol/recording.hpp"
 #include "protocol/session.hpp"
 
 namespace racebeam {

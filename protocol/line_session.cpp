@@ -1,6 +1,5 @@
 #include "protocol/line_session.hpp"
 
-#include "protocol/recording.hpp"
 #include "protocol/session.hpp"
 
 namespace racebeam {
@@ -19,6 +18,8 @@ void LineSession::received(std::size_t count) {
 bool LineSession::run(std::chrono::microseconds slice) { return session_->run(slice); }
 
 std::chrono::steady_clock::duration LineSession::worked() const { return session_->worked(); }
+
+bool LineSession::waits() const { return session_->waits(); }
 
 bool LineSession::wants_more() const { return session_->wants_more(); }
 

@@ -18,6 +18,8 @@
 
 namespace racebeam {
 
+class Recorder;
+
 // What one client may use. `hello` tells.
 struct LineLimits {
   std::size_t line = 1 << 20;               // bytes of a request; an image of the largest size fits as base64
@@ -37,16 +39,16 @@ using Parallel = std::function<void(std::size_t count, const std::function<void(
 // Whether a token is one of those that the server knows. From any thread.
 using Admission = std::function<bool(std::string_view token)>;
 
-// What all sessions of a server share.
+// What all sessions of a server share, all of it const, or made for many threads.
 struct LineService {
   std::string version = "0";
   std::shared_ptr<const Images> images;
   LineLimits limits;
-  std::string record_folder;     // recordings go below it; empty: there are none
-  Parallel parallel;             // empty: one after the other
-  std::size_t threads = 1;       // that `parallel` has
-  Admission admission;           // empty: everyone may play; else whose `hello` gives a token
-  CpuKind cpu = CpuKind::kAuto;  // of all machines
+  std::shared_ptr<Recorder> recorder;  // null: nothing is recorded
+  Parallel parallel;                   // empty: one after the other
+  std::size_t threads = 1;             // that `parallel` has
+  Admission admission;                 // empty: everyone may play; else whose `hello` gives a token
+  CpuKind cpu = CpuKind::kAuto;        // of all machines
   std::shared_ptr<MemoryBudget> memory;  // of all sessions; null: there is no limit
 };
 
@@ -76,6 +78,9 @@ class LineSession {
   // Replies to requests that were sent ahead are there, and few such requests are left: if more have come by
   // now, hand them in and run() again; else send the output.
   bool wants_more() const;
+
+  // What it records has no room for another frame: run() does nothing until it has. Others have their turn.
+  bool waits() const;
 
   std::string_view output() const;  // to be sent; good until run() or sent()
   void sent(std::size_t count);     // so much of it is on its way

@@ -58,6 +58,7 @@ void Machines::open(Session& session, std::size_t count, Autoreset autoreset) {
     seat.player->begin_request();
     seat.tell();
   });
+  session.stop_recording_machines();
   seats_.swap(seats);
   autoreset_ = autoreset;
   reply_bytes_ = reply_bytes;
@@ -78,6 +79,7 @@ void Machines::step(Session& session, std::span<const Action> actions) {
   });
   session.out += "ok";
   append_pair(session.out, "machines", static_cast<std::int64_t>(size()));
+  session.append_cut();
   append_texts(session);
   for (const auto& seat : seats_) session.count(seat->player->outcome());
 }

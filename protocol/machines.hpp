@@ -25,6 +25,7 @@ class Machines {
  public:
   bool empty() const { return seats_.empty(); }
   std::size_t size() const { return seats_.size(); }
+  Player& player(std::size_t number) { return *seats_[number]->player; }
   Autoreset autoreset() const { return autoreset_; }
   void close() { seats_.clear(); }
   void observe(Session& session, const std::vector<Field>& fields);  // throws Refusal, and changes nothing

@@ -31,6 +31,7 @@ class Player {
   // `pacer` throws, which outlives the player.
   Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields, Pacer& pacer);
 
+  Pacer& pacer() { return pacer_; }
   Environment& machine() { return machine_; }
   const Environment& machine() const { return machine_; }
   AllowedActions allowed() const { return {machine_.game().name, allowed_}; }

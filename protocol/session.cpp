@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "protocol/command.hpp"
-#include "protocol/recording.hpp"
+#include "protocol/session_recording.hpp"
 
 namespace racebeam {
 namespace {
@@ -93,9 +93,12 @@ void Session::count(const Outcome& outcome) {
   statistics.episodes += outcome.frames > 0 && (outcome.terminated || outcome.truncated);
 }
 
-void Session::watch() {
-  if (!recording) return player->machine().watch({});
-  player->machine().watch([this] { recording->add(player->machine()); });
+void Session::append_cut() {
+  if (recording) recording->append_cut(out);
+}
+
+void Session::stop_recording_machines() {
+  if (recording && !recording->shows(*player)) recording.reset();
 }
 
 void Session::run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const {
@@ -107,7 +110,8 @@ bool Session::run(std::chrono::microseconds slice) {
   const auto begin = looked_ = Clock::now(), end = begin + slice;
   if (!pacer.in_progress()) began_ = begin;
   bool more = true;
-  for (bool late = false; more && !late && !done_ && !pauses(); late = looked_ >= end) more = go_on(end);
+  for (bool late = false; more && !late && !done_ && !pauses() && !waits(); late = looked_ >= end)
+    more = go_on(end);
   worked_ = looked_ - begin;
   return more && !done_;
 }
@@ -127,6 +131,8 @@ bool Session::wants_more() const {
   return !pacer.in_progress() && !done_ && unsent_ > 1 && !has_enough() &&
          input.lines(kLastRequests + 1) <= kLastRequests;
 }
+
+bool Session::waits() const { return pacer.in_progress() && recording && recording->is_behind(); }
 
 // A request, or a part of one; false when there is nothing to do before something comes in.
 bool Session::go_on(Clock::time_point end) {
@@ -231,6 +237,7 @@ std::size_t Session::footprint() const {
                       machines.footprint(fields) + actions.capacity() * sizeof(Action) +
                       words_.capacity() * sizeof(std::string_view);
   if (player) bytes += Player::footprint(fields);
+  if (recording) bytes += recording->recording().memory();
   if (cartridge.image && service.images->find(cartridge.image->md5) == nullptr) bytes += kOwnImage;
   return bytes;
 }

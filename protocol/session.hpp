@@ -20,7 +20,7 @@
 namespace racebeam {
 
 struct Command;
-class Recording;
+class SessionRecording;
 
 // What a machine may run beyond what was asked for: powering on and an ordinary reset take some 130 frames.
 constexpr std::int64_t kFreeResetFrames = 1000;
@@ -53,7 +53,7 @@ class Session {
   std::vector<Field> fields;  // chosen by `observe`; stay when another game is loaded
   std::unique_ptr<Player> player;
   States states;
-  std::unique_ptr<Recording> recording;  // null: none is running
+  std::unique_ptr<SessionRecording> recording;  // null: none was begun, or it was stopped
 
   MemoryShare memory;           // of the server's; what a request is going to take is checked before
   std::vector<Action> actions;  // of a request; kept for their memory
@@ -65,7 +65,8 @@ class Session {
   void check_reply(std::size_t bytes, const std::string& about) const;  // throws Refusal when it is too long
   void admit();                                                         // a token was right
   void count(const Outcome& outcome);                                   // into the statistics
-  void watch();  // the machine, for the recording if there is one
+  void append_cut();               // to a reply, when the recording has ended too early
+  void stop_recording_machines();  // those of `open` will go
   void run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
 
   std::span<char> space();
@@ -74,6 +75,7 @@ class Session {
   std::string_view whole_replies() const;  // not the one that is being worked on: it may yet be refused
   void sent(std::size_t count);            // of them
   bool wants_more() const;                 // see LineSession
+  bool waits() const;                      // the same
   bool finished() const { return done_; }
   void cancel();
   void rest();

@@ -27,7 +27,7 @@ void put_text(Bytes& out, std::string_view text) {
 class Gif final : public Media {
  public:
   Gif(const std::string& path, const Footage& footage, DiskBudget& budget)
-      : file_(path, budget), height_(footage.height), rate_(footage.rate) {
+      : file_(path, budget, ";"), height_(footage.height), rate_(footage.rate) {
     Bytes head;
     put_text(head, "GIF89a");
     put_word(head, kPictureWidth);
@@ -56,10 +56,7 @@ class Gif final : public Media {
 
   void sound(std::span<const std::uint8_t>) override {}
 
-  void keep() override {
-    file_.write(";");
-    file_.keep();
-  }
+  void keep() override { file_.keep(); }
 
  private:
   static constexpr int kEvery = 2;

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBlock = 1 << 16;
-
 [[noreturn]] void fail(const std::string& what, const std::string& path) {
   const std::string reason = std::generic_category().message(errno);
   throw std::runtime_error("cannot " + what + " " + fs::path(path).filename().string() + ": " + reason);
@@ -31,11 +29,13 @@ std::string temporary_name(const std::string& path) {
   return (whole.parent_path() / name).string();
 }
 
-void write_all(int descriptor, std::string_view bytes, const std::string& path) {
+void write_all(int descriptor, std::size_t place, std::string_view bytes, const std::string& path) {
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    const ssize_t written = ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(place));
     if (written < 0 && errno != EINTR) fail("write", path);
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+    if (written <= 0) continue;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    place += static_cast<std::size_t>(written);
   }
 }
 
@@ -65,13 +65,14 @@ std::string_view text_of(std::span<const std::uint8_t> bytes) {
 
 void DiskBudget::take(std::size_t bytes) {
   if (bytes > most_ - taken_)
-    throw std::runtime_error("the recording has reached its limit of " + std::to_string(most_) + " bytes");
+    throw BudgetSpent("the recording has reached its limit of " + std::to_string(most_) + " bytes");
   taken_ += bytes;
 }
 
-KeptFile::KeptFile(std::string path, DiskBudget& budget)
-    : path_(std::move(path)), temporary_(temporary_name(path_)), budget_(budget) {
+KeptFile::KeptFile(std::string path, DiskBudget& budget, std::string tail)
+    : path_(std::move(path)), temporary_(temporary_name(path_)), budget_(budget), tail_(std::move(tail)) {
   refuse_existing(path_);
+  budget_.take(tail_.size());
   descriptor_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
   if (descriptor_ < 0) fail("make", path_);
   ::fchmod(descriptor_, 0644);
@@ -87,24 +88,24 @@ void KeptFile::write(std::span<const std::uint8_t> bytes) { write(text_of(bytes)
 
 void KeptFile::write(std::string_view text) {
   budget_.take(text.size());
-  waiting_ += text;
-  if (waiting_.size() >= kBlock) flush();
-}
-
-void KeptFile::flush() {
-  write_all(descriptor_, waiting_, path_);
-  waiting_.clear();
+  try {
+    write_all(descriptor_, size_ + text.size(), tail_, path_);
+    write_all(descriptor_, size_, text, path_);
+  } catch (...) {
+    budget_.give_back(text.size());
+    throw;
+  }
+  size_ += text.size();
 }
 
 void KeptFile::overwrite(std::size_t place, std::span<const std::uint8_t> bytes) {
-  flush();
-  if (::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place)) !=
-      static_cast<ssize_t>(bytes.size()))
-    fail("write", path_);
+  write_all(descriptor_, place, text_of(bytes), path_);
 }
 
+// What was written in part goes. The tail lies where it was before: that needs no room.
 void KeptFile::keep() {
-  flush();
+  write_all(descriptor_, size_, tail_, path_);
+  if (::ftruncate(descriptor_, static_cast<off_t>(size_ + tail_.size())) != 0) fail("write", path_);
   if (::fsync(descriptor_) != 0) fail("sync", path_);
   rename_anew(temporary_, path_);
   ::close(descriptor_);
@@ -127,11 +128,13 @@ void KeptFolder::add(const std::string& name, std::span<const std::uint8_t> byte
   budget_.take(bytes.size());
   const std::string file = temporary_ + "/" + name;
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (descriptor < 0) fail("make", file);
   try {
-    write_all(descriptor, text_of(bytes), file);
+    if (descriptor < 0) fail("make", file);
+    write_all(descriptor, 0, text_of(bytes), file);
   } catch (...) {
+    budget_.give_back(bytes.size());
     ::close(descriptor);
+    ::unlink(file.c_str());
     throw;
   }
   ::close(descriptor);

@@ -27,10 +27,13 @@ class Media {
  public:
   virtual ~Media() = default;
 
-  // All throw std::runtime_error when the disk refuses or the budget is used up.
+  // Both throw BudgetSpent, or std::runtime_error when the disk refuses; then nothing of this frame is there,
+  // and what came before it can still be kept.
   virtual void frame(std::span<const std::uint8_t> pixels) = 0;  // height x 160 palette indices
   virtual void sound(std::span<const std::uint8_t> samples) = 0;
-  virtual void keep() = 0;  // the end: makes it visible under its name
+
+  // The end: makes it visible under its name. Throws std::runtime_error.
+  virtual void keep() = 0;
 };
 
 enum class MediaKind { kPng, kGif, kY4m, kWav };

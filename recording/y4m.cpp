@@ -18,6 +18,8 @@ Yuv yuv_of(const Rgb& color) {
   return {rounded(y), rounded(u), rounded(v)};
 }
 
+constexpr std::string_view kFrameHead = "FRAME\n";
+
 class Y4m final : public Media {
  public:
   Y4m(const std::string& path, const Footage& footage, DiskBudget& budget) : file_(path, budget) {
@@ -27,11 +29,10 @@ class Y4m final : public Media {
   }
 
   void frame(std::span<const std::uint8_t> pixels) override {
-    planes_.clear();
+    planes_.assign(kFrameHead.begin(), kFrameHead.end());
     for (std::size_t plane = 0; plane < 3; ++plane) {
       for (const std::uint8_t pixel : pixels) planes_.insert(planes_.end(), 2, colors_[pixel][plane]);
     }
-    file_.write("FRAME\n");
     file_.write(planes_);
   }
 
@@ -41,7 +42,7 @@ class Y4m final : public Media {
  private:
   KeptFile file_;
   std::array<Yuv, 256> colors_;
-  std::vector<std::uint8_t> planes_;
+  std::vector<std::uint8_t> planes_;  // of a frame, with its head
 };
 
 }  // namespace

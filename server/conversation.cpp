@@ -121,6 +121,14 @@ net::awaitable<void> converse(Stream& stream, Client& client, PacedClassic& sess
   }
 }
 
+// As long as a recording needs for a few frames, of which its queue has more.
+net::awaitable<void> await_recording(Client& client) {
+  net::steady_timer timer(client.socket.get_executor(), 1ms);
+  client.working = true;
+  co_await timer.async_wait(use_awaitable);
+  client.working = false;
+}
+
 // Between two slices of a long request, or of many that were sent ahead, the loop's other sessions have their
 // turn. Of the latter a slice has some parts, each of which ends with replies that are sent.
 template <typename Stream>
@@ -149,7 +157,7 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
         throw std::runtime_error("the client left in the middle of a request");
       if (!text.empty() && ++parts < kMostParts) continue;
       parts = 0;
-      co_await take_turn(client);
+      co_await (session.waits() ? await_recording(client) : take_turn(client));
       if (client.ending()) co_await take_leave(stream, client);
       continue;
     }

@@ -6,6 +6,7 @@
 #include <list>
 #include <memory>
 
+#include "recording/recorder.hpp"
 #include "server/door.hpp"
 #include "server/http.hpp"
 #include "server/log.hpp"
@@ -21,6 +22,10 @@ using boost::system::error_code;
 using net::use_awaitable;
 using namespace std::chrono_literals;
 
+// After the grace: to take leave, to send what is under way, to keep what is recorded. With the last moment
+// of the Recorder no more than a second.
+constexpr auto kFarewell = 700ms, kLastBytes = 100ms, kLastFrames = 50ms;
+
 // A descriptor a session: as many as we may have.
 void raise_descriptor_limit() {
   rlimit limit{};
@@ -34,6 +39,10 @@ net::awaitable<void> pause() {
   co_await timer.async_wait(use_awaitable);
 }
 
+std::shared_ptr<Recorder> recorder_of(const Services& services) {
+  return services.line ? std::get<LineService>(*services.line).recorder : nullptr;
+}
+
 class Server {
  public:
   Server(const ServerSettings& settings, const Services& services);
@@ -43,6 +52,8 @@ class Server {
   void announce();
   net::awaitable<void> obey();       // signals
   net::awaitable<void> wind_down();  // grace, then the end
+  net::awaitable<void> end_with_recordings();
+  bool sessions_ended() const;
   bool all_ended() const;
   void stop_streams(bool at_once);
   bool streams_ended() const;
@@ -56,6 +67,7 @@ class Server {
   Watch watch_;
   std::optional<ReadyFile> ready_file_;
   Door door_;
+  std::shared_ptr<Recorder> recorder_;  // null: nothing is recorded
   std::list<StreamSession> streams_;
   std::unique_ptr<Http> http_;
   bool told_to_stop_ = false, patient_ = true;
@@ -68,7 +80,8 @@ Server::Server(const ServerSettings& settings, const Services& services)
       first_(loops_.first().context),
       signals_(first_, SIGTERM, SIGINT, SIGHUP),
       watch_(settings, loops_, metrics_),
-      door_(settings, services, loops_, metrics_) {
+      door_(settings, services, loops_, metrics_),
+      recorder_(recorder_of(services)) {
   for (const Endpoint& endpoint : settings.endpoints) {
     if (!is_stream(endpoint.address)) continue;
     streams_.emplace_back(endpoint, endpoint.classic ? *services.classic : *services.line, settings.busy_poll,
@@ -97,7 +110,7 @@ void Server::announce() {
   for (StreamSession& stream : streams_) {
     stream.start([this] {
       net::post(first_, [this] {
-        if (all_ended() && !told_to_stop_) loops_.stop();
+        if (sessions_ended() && !told_to_stop_) net::co_spawn(first_, end_with_recordings(), net::detached);
       });
     });
   }
@@ -126,6 +139,12 @@ net::awaitable<void> Server::obey() {
   }
 }
 
+// Without an order to stop they have as long as they need.
+net::awaitable<void> Server::end_with_recordings() {
+  while (!all_ended()) co_await pause();
+  if (!told_to_stop_) loops_.stop();
+}
+
 // Sessions on streams have no grace: who stops the server is the one who talks to it.
 net::awaitable<void> Server::wind_down() {
   ready_ = false;
@@ -138,15 +157,17 @@ net::awaitable<void> Server::wind_down() {
   const auto grace = Clock::now() + std::chrono::seconds(settings_.grace_seconds);
   for (; !all_ended() && patient_ && Clock::now() < grace; co_await pause()) stop_streams(false);
   watch_.end_all();
-  const auto farewell = Clock::now() + 700ms;
+  const auto farewell = Clock::now() + kFarewell;
   for (; !all_ended() && Clock::now() < farewell; co_await pause()) stop_streams(true);
   // Connections that are being closed: what was sent last is on its way.
-  const auto last = Clock::now() + 100ms;
+  const auto last = Clock::now() + kLastBytes;
   while (loops_.sessions() > 0 && Clock::now() < last) co_await pause();
   loops_.stop();
 }
 
-bool Server::all_ended() const {
+bool Server::all_ended() const { return sessions_ended() && (!recorder_ || recorder_->idle()); }
+
+bool Server::sessions_ended() const {
   return streams_ended() && (told_to_stop_ || door_.empty()) && metrics_.sessions_open == 0;
 }
 
@@ -172,7 +193,10 @@ int serve(const ServerSettings& settings, const Services& services) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of who writes it
   raise_descriptor_limit();
-  return Server(settings, services).run();
+  const int status = Server(settings, services).run();
+  // Sessions that did not end in time are gone by now, but what they recorded is not yet kept.
+  if (const auto recorder = recorder_of(services)) recorder->end(kLastFrames);
+  return status;
 }
 
 }  // namespace racebeam

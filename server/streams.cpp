@@ -14,6 +14,8 @@
 
 namespace racebeam {
 
+using namespace std::chrono_literals;
+
 constexpr int kClientGone = 1;  // exit status: it stopped reading in the middle
 
 // The session, made before its streams are opened.
@@ -54,6 +56,7 @@ class StreamSession::LineConversation final : public Conversation {
   int hold(BlockingPair& streams, const Halt& halt) override {
     while (!session_.finished()) {
       const bool more = session_.run();
+      if (session_.waits()) std::this_thread::sleep_for(1ms);
       if (session_.wants_more() && read_at_once(streams)) continue;
       const std::string_view text = session_.output();
       if (!streams.write(text)) return client_gone(halt);

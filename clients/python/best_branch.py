@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A planner in a page: best_branch.py RACEBEAM [GAME]. Tries each action for a while from where the game is, plays what paid best."""
+"""A planner in a page: tries each action for a while from where the game is, plays what paid best."""
+import argparse
 import sys
 
 from racebeam import Session
@@ -7,9 +8,16 @@ from racebeam import Session
 DEPTH = 20    # acts that a branch looks ahead
 STEPS = 60    # acts that are played
 
-racebeam, game = sys.argv[1], (sys.argv[2:] or ["beamfall"])[0]
-with Session.start(racebeam) as session:
-    session.load(game, seed=1, sticky=0, frame_skip=4)
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("racebeam", help="the program, such as build/release/racebeam")
+parser.add_argument("game", nargs="?", default="beamfall", help="a game that it has an image of (default: beamfall)")
+if len(sys.argv) == 1:
+    parser.print_help(sys.stderr)
+    sys.exit(2)
+options = parser.parse_args()
+
+with Session.start(options.racebeam) as session:
+    session.load(options.game, seed=1, sticky=0, frame_skip=4)
     session.observe("reward", "ends")
     actions = list(session.actions().values())
     score = 0

@@ -295,8 +295,9 @@ class Session:
     def close(self):
         self.ask("close")
 
-    def record(self, kind, name):
-        return self.values("record", kind, name)
+    def record(self, kinds, name, machine=None):
+        """`kinds`: one, or several as in "y4m,wav"; `machine`: one of those of open(), 0 the first."""
+        return self.values("record", kinds, name, **({} if machine is None else {"machine": machine}))
 
     def stop_recording(self):
         return self.values("record", "stop")

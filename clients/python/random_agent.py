@@ -1,12 +1,21 @@
 #!/usr/bin/env python3
-"""Plays one game at random: random_agent.py RACEBEAM ROM [SEED], for instance `build/release/racebeam builtin:beamfall`."""
+"""Plays one game at random over the classic protocol."""
+import argparse
 import random
 import subprocess
 import sys
 
-racebeam, rom, *seed = sys.argv[1:]
-generator = random.Random(int(seed[0]) if seed else 1)
-server = subprocess.Popen([racebeam, "serve", "--classic", "--stdio", "--rom", rom, "--seed", "1"],
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("racebeam", help="the program, such as build/release/racebeam")
+parser.add_argument("rom", help="a cartridge image, or builtin:beamfall")
+parser.add_argument("seed", nargs="?", type=int, default=1, help="of the actions (default: 1)")
+if len(sys.argv) == 1:
+    parser.print_help(sys.stderr)
+    sys.exit(2)
+options = parser.parse_args()
+
+generator = random.Random(options.seed)
+server = subprocess.Popen([options.racebeam, "serve", "--classic", "--stdio", "--rom", options.rom, "--seed", "1"],
                           stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 

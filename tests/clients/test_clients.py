@@ -174,6 +174,16 @@ class Examples(unittest.TestCase):
         self.check("python/best_branch.py", BINARY, says=r"^score \d+ after \d+ frames, \d+ frames run$")
         self.check("shell/play-lines", BINARY, says=r"^Score \d+ in \d+ frames\.$")
 
+    def test_without_arguments_they_say_how_they_are_used(self):
+        for path in ("python/random_agent.py", "python/best_branch.py", "shell/play-lines", "shell/play"):
+            for words in ([], ["--help"]):
+                with self.subTest(path=path, words=words):
+                    done = subprocess.run([os.path.join(SOURCE, "clients", path), *words], capture_output=True, timeout=PATIENCE)
+                    said = (done.stdout + done.stderr).decode()
+                    self.assertTrue(said.startswith("usage: " + os.path.basename(path)), said)
+                    self.assertNotIn("Traceback", said)
+                    self.assertIn(done.returncode, (0,) if words else (0, 2))
+
 
 if __name__ == "__main__":
     main()

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "protocol/command.hpp"
+#include "recording/recorder.hpp"
 #include "tests/games/scratch.hpp"
 #include "tests/protocol/line_client.hpp"
 
@@ -96,7 +97,7 @@ TEST_CASE("Commands say what they need") {
 TEST_CASE("The examples of help are carried out") {
   LineService service = line_service();
   const Scratch folder;
-  service.record_folder = folder.path("");
+  service.recorder = std::make_shared<Recorder>(folder.path(""));
   LineClient client(service);
   for (const Command& command : commands()) {
     if (command.example.empty()) continue;

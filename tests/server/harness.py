@@ -61,16 +61,16 @@ def run(*words, data=b"", cwd=None):
 
 class Server:
     """A racebeam process. It works in a new folder, which vanishes at the end, or in the one that is given; its standard
-    error is the log, or the descriptor that is given."""
+    error is the log, or the descriptor that is given. `environment`: variables beside those of the test."""
 
-    def __init__(self, *words, streams=False, folder=None, errors=None):
+    def __init__(self, *words, streams=False, folder=None, errors=None, **environment):
         self.own_folder = tempfile.TemporaryDirectory()
         self.folder = folder or self.own_folder.name
         self.errors = open(os.path.join(self.own_folder.name, "stderr"), "w+b")
         pipe = subprocess.PIPE if streams else subprocess.DEVNULL
         self.process = subprocess.Popen(
             [BINARY, *words], stdin=pipe, stdout=pipe, stderr=errors or self.errors, cwd=self.folder, bufsize=0,
-            env={name: value for name, value in os.environ.items() if name != "RACEBEAM_ROMS"})
+            env={name: value for name, value in os.environ.items() if name != "RACEBEAM_ROMS"} | environment)
 
     def __enter__(self):
         return self

@@ -1,7 +1,6 @@
 """What those who run a server rely on: limits, the end, the ready file, systemd's sockets."""
 
 import os
-import resource
 import signal
 import socket
 import subprocess
@@ -75,26 +74,6 @@ class Limits(unittest.TestCase):
         self.assertIn(b"max_line=300 max_machines=2 max_states=1 max_request_frames=50 max_reply=2000000", lines[0])
         codes = [line.split()[1] if line.startswith(b"error") else b"ok" for line in lines]
         self.assertEqual(codes, [b"ok", b"ok", b"bad-value", b"ok", b"limit", b"limit", b"ok", b"line-too-long"])
-
-    def test_a_recording_ends_at_its_limit(self):
-        with tempfile.TemporaryDirectory() as folder:
-            requests = b"load beamfall sticky=0\nrecord y4m film\nact NOOP*60\nrecord stop\nact NOOP\n"
-            lines = run("serve", "--stdio", "--record-dir", folder, "--record-limit", "1000000",
-                        data=requests)[1].splitlines()
-            self.assertIn(b"error recording the recording has reached its limit of 1000000 bytes", lines[3])
-            self.assertTrue(lines[4].startswith(b"ok "))
-            self.assertEqual(os.listdir(folder), [])
-
-    def test_a_file_that_may_not_grow_is_an_error_of_its_recording(self):
-        with tempfile.TemporaryDirectory() as folder:
-            requests = b"load beamfall sticky=0\nrecord y4m film\nact NOOP*60\nrecord stop\nact NOOP\n"
-            done = subprocess.run([BINARY, "serve", "--stdio", "--record-dir", folder], input=requests,
-                                  capture_output=True, timeout=PATIENCE,
-                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000000, 1000000)))
-            lines = done.stdout.splitlines()
-            self.assertIn(b"error recording cannot write film.y4m: File too large", lines[3])
-            self.assertTrue(lines[4].startswith(b"ok "))
-            self.assertEqual((done.returncode, os.listdir(folder)), (0, []))
 
     def test_nothing_that_is_there_is_replaced(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,0 +1,73 @@
+#include "recording/recorder.hpp"
+
+#include <thread>
+#include <utility>  // Asio 1.74 forgets it
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/strand.hpp>
+#include <boost/asio/thread_pool.hpp>
+
+namespace racebeam {
+namespace {
+
+namespace net = boost::asio;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kThreads = 2;  // so that a file that is being synced does not hold up all others
+constexpr auto kLastMoment = 100ms;  // to remove what was given up
+
+int frame_rate(Format format) { return format == Format::kPal || format == Format::kSecam ? 50 : 60; }
+
+Footage footage_of(const Environment& machine) {
+  return {static_cast<std::size_t>(machine.height()), palette(machine.format()),
+          frame_rate(machine.format())};
+}
+
+}  // namespace
+
+class Recorder::Threads : public net::thread_pool {
+ public:
+  Threads() : net::thread_pool(kThreads) {}
+
+  Recording::Post strand() {  // jobs in their order
+    return
+        [strand = net::make_strand(*this)](std::function<void()> job) { net::post(strand, std::move(job)); };
+  }
+};
+
+Recorder::Recorder(std::string folder) : folder_(std::move(folder)), threads_(std::make_unique<Threads>()) {}
+
+// A thread that hangs in the disk can't be ended, nor waited for: it is left to the end of the process.
+Recorder::~Recorder() {
+  if (*given_up_ && !idle()) {
+    static_cast<void>(threads_.release());
+  } else {
+    threads_->join();
+  }
+}
+
+std::shared_ptr<Recording> Recorder::begin(std::vector<MediaKind> kinds, const std::string& name,
+                                           std::size_t most_bytes, const Environment& machine) {
+  Order order{std::move(kinds), folder_, name, most_bytes, footage_of(machine)};
+  auto claim = std::make_unique<Claim>(claims_, order.file_names());
+  const auto recording =
+      std::make_shared<Recording>(std::move(order), std::move(claim), threads_->strand(), given_up_);
+  recording->begin();
+  return {recording.get(), [recording](Recording* one) { one->finish(); }};
+}
+
+bool Recorder::wait(std::chrono::milliseconds patience) const {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!idle() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(1ms);
+  return idle();
+}
+
+void Recorder::end(std::chrono::milliseconds patience) {
+  if (wait(patience)) return;
+  *given_up_ = true;
+  wait(kLastMoment);
+}
+
+bool Recorder::idle() const { return claims_->empty(); }
+
+}  // namespace racebeam

@@ -1,0 +1,127 @@
+// record
+#include <catch2/catch.hpp>
+
+#include "recording/recorder.hpp"
+#include "tests/games/scratch.hpp"
+#include "tests/protocol/line_client.hpp"
+#include "tests/recording/film.hpp"
+
+using namespace racebeam;
+using Catch::Matchers::Contains;
+using test::code;
+using test::value;
+
+namespace {
+
+const std::string kLoad = "load beamfall seed=7 sticky=0.25 frame_skip=2";
+
+struct Studio {
+  explicit Studio(std::size_t most_bytes = 1 << 30) : client(service(most_bytes)) { client.ask(kLoad); }
+
+  LineService service(std::size_t most_bytes) const {
+    LineService made = test::line_service();
+    made.limits.recording = most_bytes;
+    made.recorder = std::make_shared<Recorder>(folder.path(""));
+    return made;
+  }
+
+  std::string ask(const std::string& request) { return client.ask(request); }
+  std::string file(const std::string& name) const { return test::read(folder.path(name)); }
+
+  Scratch folder;
+  test::LineClient client;
+};
+
+}  // namespace
+
+TEST_CASE("Several kinds at once are what each is alone") {
+  Studio together, film, sound;
+  CHECK(together.ask("record y4m,wav a") == "ok recording=a.y4m,a.wav");
+  film.ask("record y4m a");
+  sound.ask("record wav a");
+  for (Studio* studio : {&together, &film, &sound}) {
+    studio->ask("act FIRE*20 UP*5");
+    CHECK(value(studio->ask("record stop"), "frames") == "50");
+  }
+  CHECK(film.file("a.y4m").size() > 50 * 3 * 320 * 210);
+  CHECK((together.file("a.y4m") == film.file("a.y4m")));
+  CHECK((together.file("a.wav") == sound.file("a.wav")));
+}
+
+TEST_CASE("A machine of open is recorded as one of its seed is") {
+  Studio many, alone;
+  many.ask("open 4 autoreset=disabled");
+  CHECK(many.ask("record y4m,wav a machine=2") == "ok recording=a.y4m,a.wav");
+  alone.ask("load beamfall seed=9 sticky=0.25 frame_skip=2");
+  alone.ask("record y4m,wav a");
+  many.ask("act NOOP*3");  // not of this machine
+  for (int step = 0; step < 20; ++step) {
+    many.ask(step % 3 == 0 ? "step FIRE UP LEFT RIGHT" : "step UP DOWN FIRE LEFT");
+    alone.ask(step % 3 == 0 ? "act LEFT" : "act FIRE");
+  }
+  CHECK(value(many.ask("record stop"), "frames") == "40");
+  CHECK(value(alone.ask("record stop"), "frames") == "40");
+  CHECK((many.file("a.y4m") == alone.file("a.y4m")));
+  CHECK((many.file("a.wav") == alone.file("a.wav")));
+  many.ask("step FIRE");
+  CHECK(code(many.ask("record stop")) == "recording");
+}
+
+TEST_CASE("A recording that is cut off is told of once, by act or step") {
+  Studio studio(1'000'000);
+  studio.ask("open 2");
+  studio.ask("record y4m a");
+  CHECK(value(studio.ask("act FIRE*20"), "recording_ended") == "limit");
+  CHECK(value(studio.ask("act FIRE*20"), "recording_ended") == "(none)");
+  CHECK(studio.file("a.y4m").size() == 806463);
+  CHECK(code(studio.ask("record y4m b")) == "recording");
+  CHECK(studio.ask("record stop") ==
+        "ok recorded=a.y4m frames=4 bytes=806463 complete=0 recording_ended=limit");
+  studio.ask("record y4m b machine=1");
+  std::string told = "(none)";
+  int steps = 0;
+  for (; told == "(none)" && steps < 100; ++steps) told = value(studio.ask("step FIRE"), "recording_ended");
+  CHECK(told == "limit");
+  CHECK(value(studio.ask("step FIRE"), "recording_ended") == "(none)");
+  CHECK(value(studio.ask("record stop"), "complete") == "0");
+  studio.ask("record y4m c");
+  CHECK(value(studio.ask("record stop"), "complete") == "1");
+}
+
+TEST_CASE("What ends the machine ends its recording, which is kept") {
+  const auto kept = [](const std::string& record, const std::string& end) {
+    Studio studio;
+    studio.ask("open 2");
+    CHECK_THAT(studio.ask(record), Contains("recording=a.wav"));
+    studio.ask("act FIRE");
+    studio.ask("step FIRE");
+    studio.ask(end);
+    const bool ended = code(studio.ask("record stop")) == "recording";
+    studio.client.service.recorder->end(std::chrono::seconds(10));
+    return ended && studio.file("a.wav").size() == 44 + 2 * 512;
+  };
+  CHECK(kept("record wav a", kLoad));
+  CHECK(kept("record wav a machine=1", kLoad));
+  CHECK(kept("record wav a machine=1", "open 2"));
+  CHECK(kept("record wav a machine=0", "close"));
+  CHECK(!kept("record wav a", "close"));
+  CHECK(!kept("record wav a machine=1", "open 2 autoreset=wrong"));
+}
+
+TEST_CASE("What is no recording is refused, with what is accepted") {
+  Studio studio;
+  for (const std::string request :
+       {"record", "record gif", "record avi a", "record gif, a", "record ,gif a", "record gif,gif a",
+        "record gif a b", "record gif a machine", "record gif a seed=1", "record gif a machine=0 more"}) {
+    INFO(request);
+    CHECK(code(studio.ask(request)) == "bad-arguments");
+  }
+  CHECK(code(studio.ask("record gif a machine=0")) == "no-machines");
+  studio.ask("open 2");
+  CHECK_THAT(studio.ask("record gif a machine=2"), Contains("bad-value machine is '2'; it takes 0 to 1"));
+  CHECK(code(studio.ask("record gif ../a")) == "bad-value");
+  CHECK(code(studio.ask("record stop")) == "recording");
+  CHECK(test::files_in(studio.folder.path("")) == 0);
+  CHECK(studio.ask("record gif a machine=1") == "ok recording=a.gif");
+  CHECK_THAT(studio.ask("record gif b"), Contains("a.gif has not been stopped; record stop does it"));
+}
