@@ -212,7 +212,7 @@ void Session::finish_reply() {
   out += '\n';
   ++unsent_;
   statistics.bytes_out += static_cast<std::int64_t>(out.size() - reply_);
-  done_ = quitting;
+  done_ = quitting || refused();
   memory.set(footprint());
   if (meter_) measure();
   began_ = looked_;  // the next, if it is there

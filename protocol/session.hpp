@@ -75,6 +75,7 @@ class Session {
   void sent(std::size_t count);            // of them
   bool wants_more() const;                 // see LineSession
   bool finished() const { return done_; }
+  bool refused() const { return service.strict && statistics.errors > 0; }
   void cancel();
   void rest();
 

@@ -6,7 +6,7 @@ import threading
 import time
 import unittest
 
-from harness import GAME, LOAD, Server, Session, connect_tcp, connect_unix, main, sanitized
+from harness import GAME, LOAD, Server, Session, connect_tcp, connect_unix, main, run, sanitized
 
 LONG = b"branch root " + b"NOOP*400,FIRE*600 " * 800 + b"\n"  # about 800,000 frames: seconds
 
@@ -17,6 +17,49 @@ def serve(*options):
 
 def lines(wire, count):
     return [wire.line() for _ in range(count)]
+
+
+class Strict(unittest.TestCase):
+    """--strict: the first error is the last reply, and the program ends with status 1."""
+
+    def test_nothing_is_carried_out_after_the_first_error(self):
+        for requests, replies in ((b"load beamfall\nact 99\nact FIRE\nquit\n", [b"ok", b"error"]),
+                                  (b"load beamfall\nact FIRE\nhello", [b"ok", b"ok", b"error"]),
+                                  (b"x" * 5000 + b"\nhello\n", [b"error"]),
+                                  (b"load beamfall\nsave a\nbranch a FIRE,99\nhello\n", [b"ok", b"ok", b"error"])):
+            for ahead in (True, False):
+                for transport in ("stdio", "pipes"):
+                    with self.subTest(requests=requests[:60], ahead=ahead, transport=transport), \
+                            Session(transport, "--strict", "--max-line", "4096", image=None) as session:
+                        if ahead:
+                            session.wire.send(requests)
+                            session.wire.stop_sending()
+                            heard = session.wire.rest().splitlines()
+                        else:  # the input stays open
+                            heard = []
+                            for request in requests.splitlines(True)[:len(replies)]:
+                                session.wire.send(request)
+                                if request.endswith(b"\n"):
+                                    heard.append(session.wire.line())
+                            if len(heard) < len(replies):
+                                session.wire.stop_sending()
+                            heard += session.wire.rest().splitlines()
+                        self.assertEqual([line.split()[0] for line in heard], replies)
+                        self.assertEqual(session.status(), 1)
+
+    def test_without_an_error_all_is_as_ever(self):
+        requests = b"load beamfall seed=1\nact FIRE*9\nlook frame\nquit\n"
+        plain, strict = (run("serve", "--stdio", *options, data=requests)[:2] for options in ((), ("--strict",)))
+        self.assertEqual(plain, strict)
+        self.assertEqual(strict[0], 0)
+        self.assertEqual(run("serve", "--stdio", data=b"nonsense\n")[0], 0)
+
+    def test_it_is_refused_where_one_error_would_end_the_sessions_of_others(self):
+        for words in (("--listen", "tcp://127.0.0.1:0"), ("--stdio", "--listen", "unix:s"),
+                      ("--classic", "--stdio", "--rom", GAME)):
+            status, output, errors = run("serve", "--strict", *words)
+            self.assertEqual((status, output, len(errors)), (2, b"", 1), errors)
+            self.assertIn("--strict: goes with --stdio and --pipes alone, in the line protocol", errors[0])
 
 
 class Sessions(unittest.TestCase):
