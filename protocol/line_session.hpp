@@ -82,6 +82,7 @@ class LineSession {
   void sent(std::size_t count);     // so much of it is on its way
 
   bool admitted() const;     // it has given its token, or needs none
+  int wrong_tokens() const;  // that it has given so far
   bool refused() const;      // ended by an error, as LineService::strict says
   bool finished() const;     // nothing will come any more: send the output, then close
   void cancel();             // the client has gone: what is under way is given up

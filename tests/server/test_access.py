@@ -1,6 +1,7 @@
 """Who may play: tokens, TLS, and what is refused beyond this machine."""
 
 import os
+import select
 import signal
 import socket
 import ssl
@@ -8,8 +9,9 @@ import subprocess
 import tempfile
 import time
 import unittest
+import urllib.request
 
-from harness import GAME, Server, ask, connect_tcp, connect_unix, main, run
+from harness import GAME, PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, run
 
 TOKEN, OTHER = "0123456789abcdef", "fedcba9876543210"
 
@@ -64,6 +66,47 @@ class Tokens(Folder):
                 self.assertTrue(ask(wire, b"hello token=" + wrong.encode()).startswith(b"error unauthorized "))
             self.assertEqual(wire.rest(), b"")
             wire.close()
+
+    def test_guessing_gets_slower_and_delays_nobody_else(self):
+        right, wrong = b"hello token=" + TOKEN.encode() + b"\n", b"hello token=" + OTHER.encode() + b"\n"
+        with self.serve("--http", "127.0.0.1:0", "--threads", "1") as server:
+            metrics = server.wait_for(r"health and metrics on (http://\S+)").group(1) + "/metrics"
+
+            def connect(address):
+                connection = socket.create_connection(("127.0.0.1", server.port()), PATIENCE, (address, 0))
+                self.addCleanup(connection.close)
+                return Wire(connection.fileno(), connection.fileno(), connection)
+
+            def timed(address, request):
+                wire = connect(address)
+                start = time.monotonic()
+                wire.send(request)
+                return wire.line().split()[0], time.monotonic() - start
+
+            delays = [0, 0.1, 0.2, 0.4, 0.8]
+            for delay in delays:
+                reply, took = timed("127.0.0.2", wrong)
+                self.assertEqual(reply, b"error")
+                self.assertGreaterEqual(took, delay)
+            held = [connect("127.0.0.2") for _ in range(20)]
+            for wire in held:
+                wire.send(wrong)
+            admitted, latest = connect("127.0.0.3"), time.monotonic()
+            self.assertTrue(ask(admitted, right[:-1]).startswith(b"ok "))  # from elsewhere, on the same thread
+            self.assertTrue(ask(admitted, b"load beamfall").startswith(b"ok "))
+            self.assertLess(time.monotonic() - latest, 1.6)  # of those that wait
+            self.assertFalse(select.select(held, [], [], 0)[0])
+            with urllib.request.urlopen(metrics, timeout=PATIENCE) as page:
+                self.assertIn(f"racebeam_wrong_tokens_total {len(delays)}\n", page.read().decode())
+            server.wait_for("client 5: a wrong token from 127.0.0.2, number 5 in a row")
+            for wire in held:
+                self.assertTrue(wire.line().startswith(b"error unauthorized "))
+            reply, took = timed("127.0.0.2", right)  # is not locked out, either
+            self.assertEqual(reply, b"ok")
+            self.assertGreaterEqual(took, 5 / 2)
+            self.assertLess(timed("127.0.0.2", right)[1], 5 / 2)
+            with urllib.request.urlopen(metrics, timeout=PATIENCE) as page:
+                self.assertIn(f"racebeam_wrong_tokens_total {len(delays) + len(held)}\n", page.read().decode())
 
     def test_who_gives_no_token_in_time_is_closed(self):
         with self.serve("--handshake", "1") as server:
