@@ -56,9 +56,9 @@ class Client {
   Loop& loop;
   const std::string name;
   std::optional<Guesser> guesser;  // as long as a token is needed
-  bool admitted = false;  // has shown what is needed to play
-  bool working = false;   // it waits for us: a slice of its requests is done, the next has yet to come
-  Usage usage;            // of the loop
+  bool admitted = false;           // has shown what is needed to play
+  bool working = false;  // it waits for us: a slice of its requests is done, the next has yet to come
+  Usage usage;           // of the loop
 
  private:
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};

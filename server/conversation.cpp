@@ -1,5 +1,7 @@
 #include "server/conversation.hpp"
 
+#include <netinet/tcp.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -82,6 +84,13 @@ bool found_more(LookAhead& ahead, Client& client, LineSession& session) {
   return true;
 }
 
+// A client that writes a request in pieces may hold the next one back until this one is acknowledged (Nagle's
+// algorithm), which the system puts off by 40 ms. It has to be told each time.
+void acknowledge(Socket& socket) {
+  error_code is_unix;
+  socket.set_option(net::detail::socket_option::boolean<IPPROTO_TCP, TCP_QUICKACK>(true), is_unix);
+}
+
 // Before a token may be looked at.
 net::awaitable<void> hold_back(Client& client) {
   const auto delay = client.guesser->delay();
@@ -128,15 +137,19 @@ net::awaitable<void> work(Client& client, PacedClassic& session) {
 template <typename Stream>
 net::awaitable<void> converse(Stream& stream, Client& client, PacedClassic& session, Metrics&) {
   error_code error;
+  bool piece = false;  // of a line
   while (!session.ended()) {
     co_await work(client, session);
     if (const auto text = session.reply()) {
       co_await net::async_write(stream, net::buffer(*text), net::redirect_error(use_awaitable, error));
       client.sent(text->size());
       client.loop.meter.frames.add(session.take_frames());
+      piece = false;
       if (error && !session.ended()) throw std::runtime_error("the client stopped reading");
     } else {
+      if (piece) acknowledge(client.socket);
       session.received(co_await receive(stream, client, session.space()));
+      piece = true;
     }
     if (client.ending()) throw std::runtime_error("closed: " + client.reason());
   }
@@ -150,6 +163,7 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
   LookAhead ahead = look_ahead(stream);
   Departure departure;
   Turns& turns = client.loop.turns;
+  bool piece = false;  // all that came last is a piece of a line
   for (int parts = 0;;) {
     if (!turns.may_work(client.usage)) co_await take_turn(client);
     const bool more = session.run();
@@ -159,6 +173,7 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
     if (client.guesser) judge(client, session, metrics);
     const std::string_view text = session.output();
     if (!text.empty()) {
+      piece = false;
       const std::size_t count = send_at_once(stream, text);
       client.sent(count);
       if (count < text.size()) co_await send_rest(stream, client, text.substr(count));
@@ -176,11 +191,13 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
       continue;
     }
     if (!client.ending()) {
+      if (piece) acknowledge(client.socket);
       ahead.take();
       const auto flags = ahead.flags(client.sleeps());
       const std::size_t count = co_await receive(stream, client, session.space(), flags);
       ahead.was_read(flags, count);
       if (count > 0 || !client.ending()) session.received(count);
+      piece = true;
       if (client.guesser) co_await hold_back(client);
     }
     if (client.ending()) co_await take_leave(stream, client);

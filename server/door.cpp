@@ -29,7 +29,8 @@ net::awaitable<void> pause() {
 
 bool has_memory_for_one_more(const Service& service) {
   constexpr std::uint64_t kSession = 1 << 20;
-  const auto& memory = std::visit([](const auto& kind) -> const auto& { return kind.memory; }, service);
+  const auto& memory = std::visit(
+      [](const auto& kind) -> const auto& { return kind.memory; }, service);
   return !memory || memory->has(kSession);
 }
 

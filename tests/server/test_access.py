@@ -1,5 +1,6 @@
 """Who may play: tokens, TLS, and what is refused beyond this machine."""
 
+import contextlib
 import os
 import select
 import signal
@@ -220,6 +221,42 @@ class Tls(Folder):
             heard = self.converse(server, requests)
         self.assertEqual(heard, run("serve", "--stdio", data=requests)[1])
         self.assertEqual(len(heard.splitlines()), 5)
+
+    def test_requests_are_answered_though_the_client_has_closed_its_end(self):
+        requests = b"load beamfall seed=1\nlook screen:hex\nact FIRE*9\n"
+        with self.serve() as server:
+            for says_so in (True, False):  # TLS: close_notify; or TCP alone
+                with self.subTest(says_so=says_so), self.connect_by_hand(server) as (plain, inside, outside, tls):
+                    tls.write(requests)
+                    if says_so:
+                        with self.assertRaises(ssl.SSLWantReadError):
+                            tls.unwrap()
+                    plain.sendall(outside.read())
+                    plain.shutdown(socket.SHUT_WR)
+                    heard = b""
+                    while piece := plain.recv(65536):
+                        inside.write(piece)
+                        try:
+                            while more := tls.read(65536):
+                                heard += more
+                        except (ssl.SSLWantReadError, ssl.SSLZeroReturnError):
+                            pass
+                    self.assertEqual(heard, run("serve", "--stdio", data=requests)[1])
+
+    @contextlib.contextmanager
+    def connect_by_hand(self, server):
+        context = ssl.create_default_context(cafile=self.certificate)
+        inside, outside = ssl.MemoryBIO(), ssl.MemoryBIO()
+        tls = context.wrap_bio(inside, outside, server_hostname="127.0.0.1")
+        with socket.create_connection(("127.0.0.1", self.port(server)), timeout=PATIENCE) as plain:
+            while True:
+                try:
+                    tls.do_handshake()
+                    break
+                except ssl.SSLWantReadError:
+                    plain.sendall(outside.read())
+                    inside.write(plain.recv(65536))
+            yield plain, inside, outside, tls
 
     def test_large_replies_come_whole(self):
         with self.serve() as server:
