@@ -33,6 +33,8 @@ line for each. The game and its settings are those of the command line, the same
 Examples:
   racebeam serve --stdio
       one session on standard input and output; try printf 'load beamfall\nact FIRE\n' | racebeam serve ...
+  racebeam serve --stdio --strict <requests >replies
+      for scripts: ends with status 1 after the first error, which is the last reply
   racebeam serve --listen tcp://127.0.0.1:0 --listen unix:racebeam.sock --roms ~/atari
       until it is told to stop (SIGTERM), a session for everyone who connects
   racebeam serve --classic --stdio --rom tetris.bin --seed 1
@@ -55,7 +57,7 @@ more, sessions on sockets have --grace seconds to end, requests are finished; a 
 SIGHUP reads tokens and certificate again. A server without sockets ends with its sessions.
 
 Exit status: 0 the sessions ended, or SIGTERM or SIGINT came; 1 the start failed, or the client of --stdio or
---pipes stopped reading or, with --classic, sent what makes no sense; 2 the command line or the configuration
+--pipes stopped reading, was refused with --strict or, with --classic, sent what makes no sense; 2 the command line or the configuration
 makes no sense; 255 a classic client asked for an action that does not exist.)";
 
 ClassicService classic_service(const ServeOptions& options) {
@@ -83,6 +85,7 @@ LineService line_service(const ServeOptions& options, Workers& workers) {
   if (!options.record_folder.empty()) service.recorder = std::make_shared<Recorder>(options.record_folder);
   service.threads = static_cast<std::size_t>(options.server.threads);
   service.cpu = options.machine.settings.cpu;
+  service.strict = options.strict;
   service.parallel = [&workers](std::size_t count, const std::function<void(std::size_t)>& task) {
     workers.run(count, task);
   };

@@ -81,6 +81,10 @@ void add_transports(CLI::App& command, ServeOptions& options) {
       ->group(group);
   command.add_flag("--classic", options.classic, "Speak the text protocol of ALE 0.4 to 0.6 everywhere")
       ->group(group);
+  command
+      .add_flag("--strict", options.strict,
+                "End a session on --stdio or --pipes at its first error, with status 1; for scripts")
+      ->group(group);
   const auto add_file = [&](const std::string& name, std::string& value, const std::string& help) {
     command.add_option(name, value, help)->type_name("FILE")->group(group);
   };
@@ -204,6 +208,16 @@ void collect_endpoints(ServeOptions& options) {
     throw CLI::ValidationError("serve", "there is only one pair of standard streams");
 }
 
+// One client's errors must not end the server of others.
+void check_strict(const ServeOptions& options) {
+  if (!options.strict) return;
+  const bool fits = std::ranges::all_of(options.server.endpoints, [](const Endpoint& endpoint) {
+    return is_stream(endpoint.address) && !endpoint.classic;
+  });
+  if (!fits)
+    throw CLI::ValidationError("--strict", "goes with --stdio and --pipes alone, in the line protocol");
+}
+
 }  // namespace
 
 bool serves(const ServeOptions& options, bool classic) {
@@ -227,6 +241,7 @@ void finish(ServeOptions& options, const std::vector<Setting>& settings) {
     refuse_any_of(settings, kClassicOnly, "goes with --classic; in the line protocol, load sets it");
   }
   if (!serves(options, false)) refuse_any_of(settings, kLineOnly, "does not go with --classic");
+  check_strict(options);
   if (options.machine.game && options.machine.game_file)
     throw CLI::ValidationError("--game-file", "excludes --game");
   if (options.server.tls_certificate.empty() != options.server.tls_key.empty())

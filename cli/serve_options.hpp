@@ -19,7 +19,7 @@ struct ServeOptions {
   ClassicOptions protocol;
   LineLimits limits;
   ServerSettings server;
-  bool classic = false, standard_streams = false, full_screen = false;
+  bool classic = false, standard_streams = false, full_screen = false, strict = false;
   std::string pipes, roms, record_folder;
   std::vector<std::string> addresses;
   LogLevel log_level = LogLevel::kInfo;

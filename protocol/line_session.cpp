@@ -28,6 +28,8 @@ std::string_view LineSession::output() const { return session_->whole_replies();
 void LineSession::sent(std::size_t count) { session_->sent(count); }
 
 bool LineSession::admitted() const { return session_->admitted; }
+bool LineSession::refused() const { return session_->refused(); }
+int LineSession::wrong_tokens() const { return session_->wrong_tokens; }
 bool LineSession::finished() const { return session_->finished(); }
 void LineSession::cancel() { session_->cancel(); }
 void LineSession::rest() { session_->rest(); }

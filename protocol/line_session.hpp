@@ -50,6 +50,7 @@ struct LineService {
   Admission admission;                 // empty: everyone may play; else whose `hello` gives a token
   CpuKind cpu = CpuKind::kAuto;        // of all machines
   std::shared_ptr<MemoryBudget> memory;  // of all sessions; null: there is no limit
+  bool strict = false;           // the first error ends a session; for scripts
 };
 
 class Session;
@@ -85,10 +86,12 @@ class LineSession {
   std::string_view output() const;  // to be sent; good until run() or sent()
   void sent(std::size_t count);     // so much of it is on its way
 
-  bool admitted() const;  // it has given its token, or needs none
-  bool finished() const;  // nothing will come any more: send the output, then close
-  void cancel();          // the client has gone: what is under way is given up
-  void rest();            // nothing has come for a while: memory is given back that only saves time
+  bool admitted() const;     // it has given its token, or needs none
+  int wrong_tokens() const;  // that it has given so far
+  bool refused() const;      // ended by an error, as LineService::strict says
+  bool finished() const;     // nothing will come any more: send the output, then close
+  void cancel();             // the client has gone: what is under way is given up
+  void rest();               // nothing has come for a while: memory is given back that only saves time
 
   std::string summary() const;  // for the log: what was played
  private:

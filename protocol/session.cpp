@@ -60,7 +60,11 @@ Session::Session(const LineService& with, Meter* counting)
   memory.set(footprint());
 }
 
-Session::~Session() { pacer.cancel(); }  // before what its body uses
+// Before what they use.
+Session::~Session() {
+  pacer.cancel();
+  recording.reset();
+}
 
 void Session::check_frames(std::int64_t acts, std::int64_t frames) const {
   const Settings& machine = settings.machine;
@@ -218,7 +222,7 @@ void Session::finish_reply() {
   out += '\n';
   ++unsent_;
   statistics.bytes_out += static_cast<std::int64_t>(out.size() - reply_);
-  done_ = quitting;
+  done_ = quitting || refused();
   memory.set(footprint());
   if (meter_) measure();
   began_ = looked_;  // the next, if it is there

@@ -77,6 +77,7 @@ class Session {
   bool wants_more() const;                 // see LineSession
   bool waits() const;                      // the same
   bool finished() const { return done_; }
+  bool refused() const { return service.strict && statistics.errors > 0; }
   void cancel();
   void rest();
 

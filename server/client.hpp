@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>  // Asio 1.74 forgets it
 
@@ -10,6 +11,7 @@
 
 #include "protocol/refusal.hpp"
 #include "server/loops.hpp"
+#include "server/wrong_tokens.hpp"
 
 namespace racebeam {
 
@@ -53,9 +55,10 @@ class Client {
   Socket socket;
   Loop& loop;
   const std::string name;
-  bool admitted = false;  // has shown what is needed to play
-  bool working = false;   // it waits for us: a slice of its requests is done, the next has yet to come
-  Usage usage;            // of the loop
+  std::optional<Guesser> guesser;  // as long as a token is needed
+  bool admitted = false;           // has shown what is needed to play
+  bool working = false;  // it waits for us: a slice of its requests is done, the next has yet to come
+  Usage usage;           // of the loop
 
  private:
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};

@@ -1,5 +1,7 @@
 #include "server/conversation.hpp"
 
+#include <netinet/tcp.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -82,6 +84,34 @@ bool found_more(LookAhead& ahead, Client& client, LineSession& session) {
   return true;
 }
 
+// A client that writes a request in pieces may hold the next one back until this one is acknowledged (Nagle's
+// algorithm), which the system puts off by 40 ms. It has to be told each time.
+void acknowledge(Socket& socket) {
+  error_code is_unix;
+  socket.set_option(net::detail::socket_option::boolean<IPPROTO_TCP, TCP_QUICKACK>(true), is_unix);
+}
+
+// Before a token may be looked at.
+net::awaitable<void> hold_back(Client& client) {
+  const auto delay = client.guesser->delay();
+  if (delay == 0ms) co_return;
+  net::steady_timer timer(client.socket.get_executor(), delay);
+  co_await timer.async_wait(use_awaitable);
+}
+
+void judge(Client& client, const LineSession& session, Metrics& metrics) {
+  const auto [more, in_a_row] = client.guesser->heard(session.wrong_tokens());
+  metrics.wrong_tokens += more;
+  if (more > 0) {
+    log_warning(client.name + ": a wrong token from " + client.guesser->source() + ", number " +
+                    std::to_string(in_a_row) + " in a row",
+                {{"client", client.name}, {"event", "wrong-token"}, {"address", client.guesser->source()}});
+  }
+  if (!session.admitted()) return;
+  client.guesser->admitted();
+  client.guesser.reset();
+}
+
 // Waits for the session's turn on its loop.
 net::awaitable<void> take_turn(Client& client) {
   client.working = true;
@@ -105,17 +135,21 @@ net::awaitable<void> work(Client& client, PacedClassic& session) {
 }
 
 template <typename Stream>
-net::awaitable<void> converse(Stream& stream, Client& client, PacedClassic& session) {
+net::awaitable<void> converse(Stream& stream, Client& client, PacedClassic& session, Metrics&) {
   error_code error;
+  bool piece = false;  // of a line
   while (!session.ended()) {
     co_await work(client, session);
     if (const auto text = session.reply()) {
       co_await net::async_write(stream, net::buffer(*text), net::redirect_error(use_awaitable, error));
       client.sent(text->size());
       client.loop.meter.frames.add(session.take_frames());
+      piece = false;
       if (error && !session.ended()) throw std::runtime_error("the client stopped reading");
     } else {
+      if (piece) acknowledge(client.socket);
       session.received(co_await receive(stream, client, session.space()));
+      piece = true;
     }
     if (client.ending()) throw std::runtime_error("closed: " + client.reason());
   }
@@ -132,19 +166,22 @@ net::awaitable<void> await_recording(Client& client) {
 // Between two slices of a long request, or of many that were sent ahead, the loop's other sessions have their
 // turn. Of the latter a slice has some parts, each of which ends with replies that are sent.
 template <typename Stream>
-net::awaitable<void> converse(Stream& stream, Client& client, LineSession& session) {
+net::awaitable<void> converse(Stream& stream, Client& client, LineSession& session, Metrics& metrics) {
   constexpr int kMostParts = 4;
   LookAhead ahead = look_ahead(stream);
   Departure departure;
   Turns& turns = client.loop.turns;
+  bool piece = false;  // all that came last is a piece of a line
   for (int parts = 0;;) {
     if (!turns.may_work(client.usage)) co_await take_turn(client);
     const bool more = session.run();
     turns.worked(client.usage, session.worked());
     if (session.wants_more() && found_more(ahead, client, session)) continue;
     client.admitted = session.admitted();
+    if (client.guesser) judge(client, session, metrics);
     const std::string_view text = session.output();
     if (!text.empty()) {
+      piece = false;
       const std::size_t count = send_at_once(stream, text);
       client.sent(count);
       if (count < text.size()) co_await send_rest(stream, client, text.substr(count));
@@ -162,11 +199,14 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
       continue;
     }
     if (!client.ending()) {
+      if (piece) acknowledge(client.socket);
       ahead.take();
       const auto flags = ahead.flags(client.sleeps());
       const std::size_t count = co_await receive(stream, client, session.space(), flags);
       ahead.was_read(flags, count);
       if (count > 0 || !client.ending()) session.received(count);
+      piece = true;
+      if (client.guesser) co_await hold_back(client);
     }
     if (client.ending()) co_await take_leave(stream, client);
   }
@@ -210,28 +250,28 @@ class Resting {
 };
 
 template <typename Stream>
-net::awaitable<void> play(Stream& stream, Client& client, const ClassicService& service) {
+net::awaitable<void> play(Stream& stream, Client& client, const ClassicService& service, Metrics& metrics) {
   client.admitted = true;
   PacedClassic session(service);
   co_await work(client, session);
   session.check_machine();
   log(client.name + ": " + describe(session.machine()), {{"client", client.name}, {"event", "came"}});
   const Resting resting(client, [&session] { session.rest(); });
-  co_await converse(stream, client, session);
+  co_await converse(stream, client, session, metrics);
 }
 
 template <typename Stream>
-net::awaitable<void> play(Stream& stream, Client& client, const LineService& service) {
+net::awaitable<void> play(Stream& stream, Client& client, const LineService& service, Metrics& metrics) {
   LineSession session(service, &client.loop.meter);
   log(client.name + ": came", {{"client", client.name}, {"event", "came"}});
   const Resting resting(client, [&session] { session.rest(); });
-  co_await converse(stream, client, session);
+  co_await converse(stream, client, session, metrics);
   log(client.name + ": " + session.summary(), {{"client", client.name}, {"event", "left"}});
 }
 
 template <typename Stream>
-net::awaitable<void> play(Stream& stream, Client& client, const Service& service) {
-  return std::visit([&](const auto& kind) { return play(stream, client, kind); }, service);
+net::awaitable<void> play(Stream& stream, Client& client, const Service& service, Metrics& metrics) {
+  return std::visit([&](const auto& kind) { return play(stream, client, kind, metrics); }, service);
 }
 
 net::awaitable<void> play_over_tls(std::shared_ptr<Client> client, const Service& service,
@@ -243,7 +283,7 @@ net::awaitable<void> play_over_tls(std::shared_ptr<Client> client, const Service
     ++metrics.refused_tls;
     throw std::runtime_error("no TLS came about: " + error.message());
   }
-  co_await play(stream, *client, service);
+  co_await play(stream, *client, service, metrics);
   const Patience patience(client);
   co_await stream.async_shutdown(net::redirect_error(use_awaitable, error));
 }
@@ -257,7 +297,7 @@ net::awaitable<void> converse(std::shared_ptr<Client> client, const Service& ser
     if (tls) {
       co_await play_over_tls(client, service, *tls, metrics);
     } else {
-      co_await play(client->socket, *client, service);
+      co_await play(client->socket, *client, service, metrics);
     }
   } catch (const std::exception& error) {
     log(client->name + ": " + error.what(), {{"client", client->name}, {"event", "left"}});

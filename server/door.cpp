@@ -1,5 +1,7 @@
 #include "server/door.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 #include "server/conversation.hpp"
@@ -27,8 +29,23 @@ net::awaitable<void> pause() {
 
 bool has_memory_for_one_more(const Service& service) {
   constexpr std::uint64_t kSession = 1 << 20;
-  const auto& memory = std::visit([](const auto& kind) -> const auto& { return kind.memory; }, service);
+  const auto& memory = std::visit(
+      [](const auto& kind) -> const auto& { return kind.memory; }, service);
   return !memory || memory->has(kSession);
+}
+
+// Of a token that waits: it has to be looked at before the time for it is over.
+WrongTokens::Delay longest_delay(const ServerSettings& settings) {
+  return std::min<WrongTokens::Delay>(5s, 500ms * settings.handshake_seconds);
+}
+
+// A client that has left already has no address.
+std::string source_of(const Socket& socket) {
+  error_code gone;
+  const Protocol::endpoint peer = socket.remote_endpoint(gone);
+  net::ip::tcp::endpoint address;
+  std::memcpy(address.data(), peer.data(), std::min(peer.size(), address.capacity()));
+  return WrongTokens::source_of(address.address());
 }
 
 template <typename Part>
@@ -45,7 +62,11 @@ void read_again(std::optional<Part>& part, const std::string& what) {
 }  // namespace
 
 Door::Door(const ServerSettings& settings, const Services& services, Loops& loops, Metrics& metrics)
-    : settings_(settings), services_(services), loops_(loops), metrics_(metrics) {
+    : settings_(settings),
+      services_(services),
+      loops_(loops),
+      metrics_(metrics),
+      wrong_tokens_(longest_delay(settings)) {
   if (!settings.token_file.empty()) tokens_.emplace(settings.token_file);
   if (!settings.tls_certificate.empty()) tls_.emplace(settings.tls_certificate, settings.tls_key);
   if (tokens_ && services.line) {
@@ -166,9 +187,10 @@ void Door::admit(Socket socket, Loop& loop, const Listener& listener, int number
   }
   ++metrics_.sessions_open;
   ++(listener.endpoint().classic ? metrics_.sessions_classic : metrics_.sessions_line);
+  const Service& service = service_of(listener);
+  if (guarded_ && &service == &*guarded_) client->guesser.emplace(wrong_tokens_, source_of(client->socket));
   auto tls = listener.endpoint().tls ? tls_->context() : nullptr;
-  net::co_spawn(loop.context, converse(std::move(client), service_of(listener), std::move(tls), metrics_),
-                net::detached);
+  net::co_spawn(loop.context, converse(std::move(client), service, std::move(tls), metrics_), net::detached);
 }
 
 }  // namespace racebeam

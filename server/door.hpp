@@ -16,6 +16,7 @@
 #include "server/settings.hpp"
 #include "server/tls.hpp"
 #include "server/tokens.hpp"
+#include "server/wrong_tokens.hpp"
 
 namespace racebeam {
 
@@ -44,6 +45,7 @@ class Door {
   Loops& loops_;
   Metrics& metrics_;
   std::optional<Tokens> tokens_;
+  WrongTokens wrong_tokens_;
   std::optional<Tls> tls_;
   std::optional<Service> guarded_;  // the line protocol, for those who have a token
   std::list<Listener> listeners_;

@@ -16,7 +16,9 @@ namespace racebeam {
 
 using namespace std::chrono_literals;
 
-constexpr int kClientGone = 1;  // exit status: it stopped reading in the middle
+// Exit statuses.
+constexpr int kClientGone = 1;  // it stopped reading in the middle
+constexpr int kRefused = 1;     // the first error of a strict session
 
 // The session, made before its streams are opened.
 class StreamSession::Conversation {
@@ -69,7 +71,7 @@ class StreamSession::LineConversation final : public Conversation {
       meter_.bytes_in.add(static_cast<std::int64_t>(count));
       session_.received(count);
     }
-    return 0;
+    return session_.refused() ? kRefused : 0;
   }
 
   std::string description() const override { return "the line protocol"; }

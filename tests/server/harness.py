@@ -131,6 +131,9 @@ class Wire:
         self.input_fd, self.output_fd, self.connection = input_fd, output_fd, connection
         self.was_reset = False
 
+    def fileno(self):
+        return self.input_fd
+
     def send(self, data):
         while data:
             data = data[os.write(self.output_fd, data):]

@@ -1,6 +1,8 @@
 """Who may play: tokens, TLS, and what is refused beyond this machine."""
 
+import contextlib
 import os
+import select
 import signal
 import socket
 import ssl
@@ -8,8 +10,9 @@ import subprocess
 import tempfile
 import time
 import unittest
+import urllib.request
 
-from harness import GAME, Server, ask, connect_tcp, connect_unix, main, run
+from harness import GAME, PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, run
 
 TOKEN, OTHER = "0123456789abcdef", "fedcba9876543210"
 
@@ -64,6 +67,47 @@ class Tokens(Folder):
                 self.assertTrue(ask(wire, b"hello token=" + wrong.encode()).startswith(b"error unauthorized "))
             self.assertEqual(wire.rest(), b"")
             wire.close()
+
+    def test_guessing_gets_slower_and_delays_nobody_else(self):
+        right, wrong = b"hello token=" + TOKEN.encode() + b"\n", b"hello token=" + OTHER.encode() + b"\n"
+        with self.serve("--http", "127.0.0.1:0", "--threads", "1") as server:
+            metrics = server.wait_for(r"health and metrics on (http://\S+)").group(1) + "/metrics"
+
+            def connect(address):
+                connection = socket.create_connection(("127.0.0.1", server.port()), PATIENCE, (address, 0))
+                self.addCleanup(connection.close)
+                return Wire(connection.fileno(), connection.fileno(), connection)
+
+            def timed(address, request):
+                wire = connect(address)
+                start = time.monotonic()
+                wire.send(request)
+                return wire.line().split()[0], time.monotonic() - start
+
+            delays = [0, 0.1, 0.2, 0.4, 0.8]
+            for delay in delays:
+                reply, took = timed("127.0.0.2", wrong)
+                self.assertEqual(reply, b"error")
+                self.assertGreaterEqual(took, delay)
+            held = [connect("127.0.0.2") for _ in range(20)]
+            for wire in held:
+                wire.send(wrong)
+            admitted, latest = connect("127.0.0.3"), time.monotonic()
+            self.assertTrue(ask(admitted, right[:-1]).startswith(b"ok "))  # from elsewhere, on the same thread
+            self.assertTrue(ask(admitted, b"load beamfall").startswith(b"ok "))
+            self.assertLess(time.monotonic() - latest, 1.6)  # of those that wait
+            self.assertFalse(select.select(held, [], [], 0)[0])
+            with urllib.request.urlopen(metrics, timeout=PATIENCE) as page:
+                self.assertIn(f"racebeam_wrong_tokens_total {len(delays)}\n", page.read().decode())
+            server.wait_for("client 5: a wrong token from 127.0.0.2, number 5 in a row")
+            for wire in held:
+                self.assertTrue(wire.line().startswith(b"error unauthorized "))
+            reply, took = timed("127.0.0.2", right)  # is not locked out, either
+            self.assertEqual(reply, b"ok")
+            self.assertGreaterEqual(took, 5 / 2)
+            self.assertLess(timed("127.0.0.2", right)[1], 5 / 2)
+            with urllib.request.urlopen(metrics, timeout=PATIENCE) as page:
+                self.assertIn(f"racebeam_wrong_tokens_total {len(delays) + len(held)}\n", page.read().decode())
 
     def test_who_gives_no_token_in_time_is_closed(self):
         with self.serve("--handshake", "1") as server:
@@ -177,6 +221,42 @@ class Tls(Folder):
             heard = self.converse(server, requests)
         self.assertEqual(heard, run("serve", "--stdio", data=requests)[1])
         self.assertEqual(len(heard.splitlines()), 5)
+
+    def test_requests_are_answered_though_the_client_has_closed_its_end(self):
+        requests = b"load beamfall seed=1\nlook screen:hex\nact FIRE*9\n"
+        with self.serve() as server:
+            for says_so in (True, False):  # TLS: close_notify; or TCP alone
+                with self.subTest(says_so=says_so), self.connect_by_hand(server) as (plain, inside, outside, tls):
+                    tls.write(requests)
+                    if says_so:
+                        with self.assertRaises(ssl.SSLWantReadError):
+                            tls.unwrap()
+                    plain.sendall(outside.read())
+                    plain.shutdown(socket.SHUT_WR)
+                    heard = b""
+                    while piece := plain.recv(65536):
+                        inside.write(piece)
+                        try:
+                            while more := tls.read(65536):
+                                heard += more
+                        except (ssl.SSLWantReadError, ssl.SSLZeroReturnError):
+                            pass
+                    self.assertEqual(heard, run("serve", "--stdio", data=requests)[1])
+
+    @contextlib.contextmanager
+    def connect_by_hand(self, server):
+        context = ssl.create_default_context(cafile=self.certificate)
+        inside, outside = ssl.MemoryBIO(), ssl.MemoryBIO()
+        tls = context.wrap_bio(inside, outside, server_hostname="127.0.0.1")
+        with socket.create_connection(("127.0.0.1", self.port(server)), timeout=PATIENCE) as plain:
+            while True:
+                try:
+                    tls.do_handshake()
+                    break
+                except ssl.SSLWantReadError:
+                    plain.sendall(outside.read())
+                    inside.write(plain.recv(65536))
+            yield plain, inside, outside, tls
 
     def test_large_replies_come_whole(self):
         with self.serve() as server:

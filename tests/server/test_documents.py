@@ -41,12 +41,13 @@ class Documents(unittest.TestCase):
         for command, said, heard in found:
             options = [word for word in command[1:] if word != "--stdio"]
             expected = re.escape("".join(heard)).replace(re.escape("..."), ".*")
-            for transport in TRANSPORTS:
+            strict = "--strict" in options  # on streams only; such a conversation ends with an error
+            for transport in TRANSPORTS[:2] if strict else TRANSPORTS:
                 with self.subTest(command=command, said=said, transport=transport):
                     with Session(transport, *options, image=None) as session:
                         received = converse(session.wire, [line.encode() for line in said])
                         self.assertRegex(received.decode(), f"\\A{expected}\\Z")
-                        self.assertEqual(session.status(), 0)
+                        self.assertEqual(session.status(), int(strict))
 
     def test_the_conversations_of_the_line_protocol_are_real(self):
         def in_turn(wire, lines):

@@ -2,11 +2,13 @@
 
 import os
 import resource
+import socket
+import subprocess
 import threading
 import time
 import unittest
 
-from harness import GAME, LOAD, Server, Session, connect_tcp, connect_unix, main, sanitized
+from harness import GAME, LOAD, PATIENCE, Server, Session, connect_tcp, connect_unix, main, run, sanitized
 
 LONG = b"branch root " + b"NOOP*400,FIRE*600 " * 800 + b"\n"  # about 800,000 frames: seconds
 
@@ -17,6 +19,108 @@ def serve(*options):
 
 def lines(wire, count):
     return [wire.line() for _ in range(count)]
+
+
+class Strict(unittest.TestCase):
+    """--strict: the first error is the last reply, and the program ends with status 1."""
+
+    def test_nothing_is_carried_out_after_the_first_error(self):
+        for requests, replies in ((b"load beamfall\nact 99\nact FIRE\nquit\n", [b"ok", b"error"]),
+                                  (b"load beamfall\nact FIRE\nhello", [b"ok", b"ok", b"error"]),
+                                  (b"x" * 5000 + b"\nhello\n", [b"error"]),
+                                  (b"load beamfall\nsave a\nbranch a FIRE,99\nhello\n", [b"ok", b"ok", b"error"])):
+            for ahead in (True, False):
+                for transport in ("stdio", "pipes"):
+                    with self.subTest(requests=requests[:60], ahead=ahead, transport=transport), \
+                            Session(transport, "--strict", "--max-line", "4096", image=None) as session:
+                        if ahead:
+                            session.wire.send(requests)
+                            session.wire.stop_sending()
+                            heard = session.wire.rest().splitlines()
+                        else:  # the input stays open
+                            heard = []
+                            for request in requests.splitlines(True)[:len(replies)]:
+                                session.wire.send(request)
+                                if request.endswith(b"\n"):
+                                    heard.append(session.wire.line())
+                            if len(heard) < len(replies):
+                                session.wire.stop_sending()
+                            heard += session.wire.rest().splitlines()
+                        self.assertEqual([line.split()[0] for line in heard], replies)
+                        self.assertEqual(session.status(), 1)
+
+    def test_without_an_error_all_is_as_ever(self):
+        requests = b"load beamfall seed=1\nact FIRE*9\nlook frame\nquit\n"
+        plain, strict = (run("serve", "--stdio", *options, data=requests)[:2] for options in ((), ("--strict",)))
+        self.assertEqual(plain, strict)
+        self.assertEqual(strict[0], 0)
+        self.assertEqual(run("serve", "--stdio", data=b"nonsense\n")[0], 0)
+
+    def test_it_is_refused_where_one_error_would_end_the_sessions_of_others(self):
+        for words in (("--listen", "tcp://127.0.0.1:0"), ("--stdio", "--listen", "unix:s"),
+                      ("--classic", "--stdio", "--rom", GAME)):
+            status, output, errors = run("serve", "--strict", *words)
+            self.assertEqual((status, output, len(errors)), (2, b"", 1), errors)
+            self.assertIn("--strict: goes with --stdio and --pipes alone, in the line protocol", errors[0])
+
+
+class Pieces(unittest.TestCase):
+    """A client that writes a request in pieces, and lets its system hold the second back until the first is
+    acknowledged. Left to itself, the server's system does that after 40 ms."""
+
+    def steps_a_second(self, port, first, request, count):
+        with socket.create_connection(("127.0.0.1", port), PATIENCE) as connection, connection.makefile("rb") as reader:
+            for _ in range(first.count(b"\n")):
+                connection.sendall(first)
+                reader.readline()
+            start = time.monotonic()
+            for _ in range(count):
+                for piece in request:
+                    connection.sendall(piece)
+                self.assertTrue(reader.readline().endswith(b"\n"))
+            return count / (time.monotonic() - start)
+
+    def test_pieces_are_acknowledged_at_once(self):
+        with serve() as server:
+            self.assertGreater(self.steps_a_second(server.port(), b"load beamfall\n", (b"act ", b"NOOP\n"), 100), 100)
+            self.assertGreater(self.steps_a_second(server.port(), b"load beamfall\n", (b"a", b"c", b"t NOOP", b"\n"), 50), 50)
+
+    def test_so_they_are_in_the_classic_protocol(self):
+        with Server("serve", "--classic", "--listen", "tcp://127.0.0.1:0", "--rom", GAME) as server:
+            with socket.create_connection(("127.0.0.1", server.port()), PATIENCE) as connection:
+                with connection.makefile("rb") as reader:
+                    reader.readline()
+                    connection.sendall(b"0,0,0,1\n")
+                    reader.readline()
+                    start = time.monotonic()
+                    for _ in range(100):
+                        for piece in (b"3,", b"18", b"\n"):
+                            connection.sendall(piece)
+                        self.assertTrue(reader.readline().endswith(b"\n"))
+                    self.assertLess(time.monotonic() - start, 2)  # the 40 ms alone would be 8
+
+
+class Netcat(unittest.TestCase):
+    """OpenBSD's closes its sending end with -N only."""
+
+    def converse(self, requests, *words):
+        done = subprocess.run(["nc", *words], input=requests, capture_output=True, timeout=PATIENCE)
+        self.assertEqual(done.returncode, 0, done)
+        return done.stdout
+
+    def test_a_conversation_ends_with_its_input_or_with_quit(self):
+        usage = subprocess.run("nc -h", shell=True, capture_output=True).stderr
+        if b"OpenBSD" not in usage:
+            self.skipTest("there is no OpenBSD netcat here")
+        requests = b"load beamfall seed=1\nact FIRE*9\nlook screen:hex\n"
+        expected = run("serve", "--stdio", data=requests)[1]
+        with serve() as server:
+            tcp, unix = ("127.0.0.1", str(server.port())), ("-U", server.path("s"))
+            server.wait_for("listening on unix:s")
+            for where in (tcp, unix):
+                with self.subTest(where=where[0]):
+                    self.assertEqual(self.converse(requests, "-N", *where), expected)
+                    self.assertEqual(self.converse(requests + b"quit\n", *where), expected + b"ok\n")
 
 
 class Sessions(unittest.TestCase):
