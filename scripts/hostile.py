@@ -1,0 +1,402 @@
+"""scripts/load --hostile: sessions that ask for as much as they can, and what a bystander notices of it.
+
+A server with two threads and 512 MiB serves 64 attackers. Each does one of ATTACKS over and over: it connects, attacks and
+leaves. A bystander with a game of its own acts every few milliseconds, and /healthz is asked for. In the end the server is
+told to stop, in the middle of it all. The goals are in GOALS; one that is missed makes the exit status 1.
+"""
+import base64
+import collections
+import multiprocessing
+import os
+import pathlib
+import random
+import re
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+SESSIONS, THREADS, GRACE, MEMORY = 64, 2, 2, 512
+TOKEN = b"the-token-of-the-hostile-load"
+GOALS = {"bystander p99": 20, "/healthz p99": 50, "memory": MEMORY, "SIGTERM": GRACE + 1}  # ms, ms, MiB, s
+
+LONG = b"load beamfall as=tetris sticky=0 max_episode_frames=0"  # beamfall, with rules that end no episode
+SKIPPING = LONG + b" frame_skip=1000"
+
+
+def evil_image():
+    """Writes to what the translator has decoded: INC $1B 1,900 times, and a jump to the first."""
+    program = bytes([0xE6, 0x1B]) * 1900 + bytes([0x4C, 0x00, 0xF0])
+    return program.ljust(4090, b"\0") + bytes([0x00, 0xF0]) * 3
+
+
+def load_inline(image):
+    return b"load inline max_episode_frames=0 image=" + base64.b64encode(image)
+
+
+class Session:
+    """A client's connection. Timeouts are part of the attacks: they end a wait, not the session."""
+
+    replies = collections.Counter()  # of all sessions
+
+    def __init__(self, port, folder):
+        self.folder = folder
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=5)
+        self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+
+    def admit(self):
+        self.ask(b"hello token=" + TOKEN)
+
+    def send(self, *lines):
+        self.send_bytes(b"".join(line + b"\n" for line in lines))
+
+    def send_bytes(self, data):
+        try:
+            self.socket.sendall(data)
+        except socket.timeout:
+            self.replies["(not read by the server)"] += 1
+
+    def read(self, seconds):
+        """Whatever comes within so long; None once the server has closed its end."""
+        self.socket.settimeout(seconds)
+        try:
+            data = self.socket.recv(1 << 18)
+        except socket.timeout:
+            return b""
+        for kind in re.findall(rb"(?:^|\n)(ok|error [a-z-]+)\b", data):
+            self.replies[kind.decode()] += 1
+        return data or None
+
+    def ask(self, *lines):
+        """Waits for the replies, 5 seconds at most for each piece of them."""
+        self.send(*lines)
+        ends = 0
+        while ends < len(lines):
+            data = self.read(5)
+            if not data:
+                return
+            ends += data.count(b"\n")
+
+    def read_on(self, seconds):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end and self.read(max(end - time.monotonic(), 0.01)) is not None:
+            continue
+
+
+ATTACKS = {}
+
+
+def attack(function):
+    ATTACKS[function.__name__.replace("_", " ")] = function
+    return function
+
+
+@attack
+def long_modes(session):
+    session.send(*[b"load beamfall as=adventure mode=1 frame_skip=1000 max_episode_frames=0"] * 20)
+    session.read_on(5)
+
+
+@attack
+def no_ops(session):
+    session.ask(SKIPPING + b" noop_max=1000")
+    session.send(*[b"reset", b"open 256"] * 5)
+    session.read_on(5)
+
+
+@attack
+def steps(session):
+    session.ask(SKIPPING, b"open 256")
+    session.send(*[b"step NOOP", b"restart"] * 20)
+    session.read_on(5)
+
+
+@attack
+def leaving(session):
+    session.ask(LONG)
+    session.send(b"act 0*2000000")
+    time.sleep(0.2)
+
+
+@attack
+def half_closing(session):
+    session.ask(LONG)
+    session.send(b"act 0*200000")
+    session.socket.shutdown(socket.SHUT_WR)
+    session.read_on(5)
+
+
+@attack
+def searching(session):
+    session.ask(LONG, b"save root")
+    session.send(*[b"branch root" + b" UP*50,FIRE*20" * 18] * 100)
+    session.read_on(5)
+
+
+def record(session, kind):
+    name = f"{kind}-{threading.get_ident()}"
+    session.ask(LONG, f"record {kind} {name}".encode())
+    session.send(b"act NOOP*50", *[b"act RIGHT*10 LEFT*10"] * 20, b"record stop")
+    session.read_on(3)
+    for path in pathlib.Path(session.folder).glob(name + "*"):
+        subprocess.run(["rm", "-rf", path], check=False)
+
+
+@attack
+def recording_png(session):
+    record(session, "png")
+
+
+@attack
+def recording_gif(session):
+    record(session, "gif")
+
+
+@attack
+def recording_y4m(session):
+    record(session, "y4m")
+
+
+@attack
+def evil_images(session):
+    session.ask(load_inline(evil_image()))
+    session.send(*[b"act NOOP*1000"] * 5)
+    session.read_on(5)
+
+
+@attack
+def random_images(session):
+    for _ in range(8):
+        session.ask(load_inline(random.randbytes(4096)), b"act NOOP*60 UP*60", b"look screen:zlib")
+
+
+@attack
+def not_reading(session):
+    session.ask(LONG, b"observe rgb:hex")
+    session.send(b"open 256", *[b"step NOOP"] * 10)
+    time.sleep(4)
+
+
+@attack
+def states(session):
+    session.ask(LONG, b"observe grey84x16:hex")
+    session.send(*[b"save s%d" % number for number in range(256)], b"act NOOP")
+    session.read_on(4)
+
+
+@attack
+def many_words(session):
+    session.ask(LONG)
+    session.send(*[b"act" + b" 0" * 500_000] * 3)
+    session.read_on(5)
+
+
+@attack
+def endless_lines(session):
+    for _ in range(8):
+        session.send_bytes(b"a" * (1 << 20))
+    session.read_on(1)
+
+
+@attack
+def half_lines(session):
+    session.ask(LONG)
+    session.send_bytes(b"act NO")
+    time.sleep(1)
+    session.socket.shutdown(socket.SHUT_WR)
+    session.read_on(1)
+
+
+@attack
+def wrong_tokens(session):
+    session.send(*[b"hello token=0123456789abcdef"] * 3)
+    session.read_on(2)
+
+
+@attack
+def connecting(session):
+    time.sleep(0.02)
+
+
+STRANGERS = {wrong_tokens, connecting}  # who do not give the token
+
+
+def keep_attacking(function, port, folder):
+    while True:
+        try:
+            session = Session(port, folder)
+        except OSError:
+            Session.replies["(no connection)"] += 1
+            time.sleep(0.1)
+            continue
+        try:
+            if function not in STRANGERS:
+                session.admit()
+            function(session)
+        except OSError:
+            Session.replies["(connection lost)"] += 1
+        session.socket.close()
+
+
+def attack_all(port, folder, told, answers):
+    """A process of attackers, which tells what they got so far and goes on."""
+    os.nice(5)
+    functions = list(ATTACKS.values())
+    for number in range(SESSIONS):
+        threading.Thread(target=keep_attacking, args=(functions[number % len(functions)], port, folder), daemon=True).start()
+    told.recv()
+    answers.send(dict(Session.replies))
+    told.recv()
+
+
+def raise_priority():
+    try:
+        os.setpriority(os.PRIO_PROCESS, 0, -15)
+    except PermissionError:
+        print("load: without the right to raise the priority, the bystander's figures are the system's, too", file=sys.stderr)
+
+
+def watch(ask_once, pause, told, answers):
+    """A process that times `ask_once()` until it is told to end; sends milliseconds."""
+    raise_priority()
+    waits = []
+    while not told.poll():
+        asked = time.perf_counter()
+        ask_once()
+        waits.append((time.perf_counter() - asked) * 1000)
+        time.sleep(pause)
+    answers.send(waits)
+
+
+class Bystander:
+    def __init__(self, port):
+        connection = socket.create_connection(("127.0.0.1", port))
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self.lines = connection.makefile("rwb", buffering=0)
+        for line in (b"hello token=" + TOKEN, b"load beamfall max_episode_frames=0"):
+            self.ask(line)
+
+    def ask(self, line):
+        self.lines.write(line + b"\n")
+        reply = self.lines.readline()
+        if not reply.startswith(b"ok"):
+            sys.exit(f"load: the bystander got {reply!r}")
+
+    def __call__(self):
+        self.ask(b"act NOOP")
+
+
+class Health:
+    def __init__(self, port):
+        self.address = ("127.0.0.1", port)
+
+    def __call__(self):
+        with socket.create_connection(self.address) as connection:
+            connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n")
+            reply = connection.makefile("rb").read()
+        if not reply.startswith(b"HTTP/1.1 200"):
+            sys.exit(f"load: /healthz said {reply[:80]!r}")
+
+
+class Helper:
+    """A process beside the server."""
+
+    def __init__(self, function, *arguments):
+        self.told, there = multiprocessing.Pipe()
+        self.answers, back = multiprocessing.Pipe()
+        self.process = multiprocessing.Process(target=function, args=(*arguments, there, back), daemon=True)
+        self.process.start()
+
+    def ask(self):
+        self.told.send(None)
+        return self.answers.recv()
+
+
+def start_server(build, folder):
+    tokens, ready, records = (pathlib.Path(folder) / name for name in ("tokens", "ready", "records"))
+    tokens.write_bytes(TOKEN + b"\n")
+    tokens.chmod(0o600)
+    records.mkdir()
+    command = [build / "racebeam", "serve", "--listen", "tcp://127.0.0.1:0", "--http", "127.0.0.1:0", "--threads", str(THREADS),
+               "--token-file", tokens, "--ready-file", ready, "--record-dir", records, "--record-limit", "20000000",
+               "--grace", str(GRACE), "--log-level", "error"]
+    limited = b"--max-memory" in subprocess.run([build / "racebeam", "serve", "--help"], capture_output=True, check=True).stdout
+    if limited:
+        command += ["--max-memory", f"{MEMORY}M"]
+    server = subprocess.Popen(command, stdin=subprocess.DEVNULL)
+    while not ready.exists():
+        if server.poll() is not None:
+            sys.exit("load: the server does not start")
+        time.sleep(0.02)
+    port, http = (int(found) for found in re.findall(r":(\d+)$", ready.read_text(), re.MULTILINE)[:2])
+    return server, port, http, records, limited
+
+
+def peak_memory(server):
+    """MiB."""
+    with open(f"/proc/{server.pid}/status") as status:
+        return next(int(line.split()[1]) for line in status if line.startswith("VmHWM")) / 1024
+
+
+def processor():
+    with open("/proc/cpuinfo") as facts:
+        return next((line.split(":", 1)[1].strip() for line in facts if line.startswith("model name")), "unknown")
+
+
+def percentile(waits, share):
+    return sorted(waits)[min(int(len(waits) * share), len(waits) - 1)]
+
+
+def show_waits(name, waits):
+    print(f"{name:14}{len(waits):8}" + "".join(f"{percentile(waits, share):10.2f}" for share in (0.5, 0.99, 1)), flush=True)
+
+
+def time_to_end(server):
+    told = time.monotonic()
+    server.terminate()
+    try:
+        server.wait(30)
+    except subprocess.TimeoutExpired:
+        server.kill()
+    return time.monotonic() - told
+
+
+def measure(server, port, http, records, seconds):
+    attackers = Helper(attack_all, port, records)
+    watchers = {"bystander": Helper(watch, Bystander(port), 0.003), "/healthz": Helper(watch, Health(http), 0.05)}
+    time.sleep(seconds)
+    print(f"{'':14}{'asked':>8}" + "".join(f"{key:>10}" for key in ("p50 ms", "p99 ms", "max ms")))
+    found = {}
+    for name, watcher in watchers.items():
+        waits = watcher.ask()
+        show_waits(name, waits)
+        found[name + " p99"] = percentile(waits, 0.99)
+    replies = attackers.ask()
+    print("attackers got: " + ", ".join(f"{count} {kind}" for kind, count in sorted(replies.items())))
+    found["memory"] = peak_memory(server)
+    found["SIGTERM"] = time_to_end(server)
+    attackers.process.terminate()
+    return found
+
+
+def run(build, seconds):
+    """Returns the exit status."""
+    print(f"{SESSIONS} attackers, {THREADS} threads, {os.cpu_count()} processors ({processor()}), {seconds:g} seconds")
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        server, port, http, records, limited = start_server(build, folder)
+        try:
+            found = measure(server, port, http, records, seconds)
+        finally:
+            server.kill()
+            status = server.wait()
+    if not limited:
+        print("this server has no --max-memory: its memory is not limited")
+    units = {"memory": "MiB", "SIGTERM": "s"}
+    missed = {name for name, goal in GOALS.items() if found[name] >= goal} - (set() if limited else {"memory"})
+    for name, goal in GOALS.items():
+        verdict = "MISSED" if name in missed else "ok"
+        print(f"{name:14}{found[name]:10.2f} {units.get(name, 'ms'):4} below {goal:4}: {verdict}")
+    print(f"the server ended with status {status}")
+    return int(bool(missed) or status != 0)

@@ -1,0 +1,227 @@
+"""Clients that ask for as much as they can: the server's other clients are answered, and the server ends when it is told to.
+
+The thresholds leave room for slow machines. What they guard against takes seconds to minutes.
+"""
+
+import base64
+import os
+import signal
+import socket
+import statistics
+import time
+import unittest
+import urllib.request
+
+from harness import PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, open_pipes, serve
+
+ENDLESS = b"load beamfall as=tetris seed=1 system_seed=1 sticky=0 max_episode_frames=0"  # beamfall with rules that end no episode
+MODE = b"load beamfall as=adventure mode=1 frame_skip=1000 max_episode_frames=0"   # which never comes about on beamfall
+HOUR = b"act NOOP*900000000"
+JUMP_TO_ITSELF = bytes([0x4C, 0x00, 0xF0])
+MANY_FRAMES = ("--max-request-frames", "1000000000")
+
+
+def load_inline(program):
+    """An image of 4K that begins with `program`."""
+    image = program.ljust(4090, b"\0") + bytes([0x00, 0xF0]) * 3
+    return b"load inline max_episode_frames=0 image=" + base64.b64encode(image)
+
+
+# What a client asks first, and then for as long as it lives. One such request takes long.
+SKIPPING = ENDLESS + b" frame_skip=1000"
+NO_OPS = ENDLESS + b" noop_max=1000"
+LONG_REQUESTS = {
+    "a mode that does not come about": ([], MODE),
+    "acts of frames that never end": ([load_inline(JUMP_TO_ITSELF) + b" frame_skip=1000"], b"act NOOP"),
+    "machines that power on": ([NO_OPS], b"open 256"),
+    "machines that act": ([SKIPPING, b"open 256"], b"step NOOP"),
+    "machines that begin again": ([NO_OPS, b"open 256"], b"restart"),
+    "machines whose episodes end": ([b"load beamfall max_episode_frames=1 noop_max=1000", b"open 256 autoreset=same-step"], b"step NOOP"),
+    "a search": ([ENDLESS, b"save root"], b"branch root" + b" NOOP*90000" * 20),
+}
+
+
+def begin(wire, first, request):
+    """The client has got its replies to `first`; some of `request` are under way, unread."""
+    for line in first:
+        reply = ask(wire, line)
+        assert reply.startswith(b"ok"), reply
+    wire.send((request + b"\n") * 20)
+
+
+def median_wait(wire, count=9):
+    """Seconds that a client waits for a short act."""
+    waits = []
+    for _ in range(count):
+        asked = time.monotonic()
+        reply = ask(wire, b"act NOOP")
+        assert reply.startswith(b"ok"), reply
+        waits.append(time.monotonic() - asked)
+        time.sleep(0.005)
+    return statistics.median(waits)
+
+
+def health_wait(server):
+    address = server.wait_for(r"health and metrics on (http://127\.0\.0\.1:\d+)").group(1)
+    asked = time.monotonic()
+    with urllib.request.urlopen(address + "/healthz", timeout=PATIENCE) as response:
+        assert response.read() == b"ok\n"
+    return time.monotonic() - asked
+
+
+def processor_seconds(server):
+    with open(f"/proc/{server.process.pid}/stat") as stat:
+        fields = stat.read().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / 100
+
+
+class Case(unittest.TestCase):
+    """Has a server, and connections to it, that end with the test."""
+
+    def start(self, server):
+        self.server = server
+        self.addCleanup(server.__exit__)
+        return server
+
+    def connect(self):
+        wire = connect_tcp(self.server.port())
+        self.addCleanup(wire.close)
+        return wire
+
+
+class OneThread(Case):
+    """All clients on one thread of the server."""
+
+    def setUp(self):
+        self.start(serve("--threads", "1", "--http", "127.0.0.1:0", "--grace", "0"))
+        self.bystander = self.connect()
+        ask(self.bystander, b"load beamfall max_episode_frames=0")
+
+    def check_that_others_are_answered(self):
+        self.assertLess(median_wait(self.bystander), 0.1)
+        self.assertLess(health_wait(self.server), 0.5)
+
+    def test_others_are_answered_beside_64_that_search(self):
+        searches = b"branch root" + b" UP*50,FIRE*20" * 18
+        for _ in range(64):
+            begin(self.connect(), [ENDLESS, b"save root"], b"\n".join([searches] * 10))
+        self.check_that_others_are_answered()
+
+
+def add_long_request(name, first, request):
+    def test(self):
+        begin(self.connect(), first, request)
+        time.sleep(0.05)
+        self.check_that_others_are_answered()
+    setattr(OneThread, "test_others_are_answered_beside_" + name.replace(" ", "_").replace("-", "_"), test)
+
+
+for title, (before, asked_for) in LONG_REQUESTS.items():
+    add_long_request(title, before, asked_for)
+
+
+class Limits(Case):
+    def test_a_mode_that_does_not_come_about_is_given_up(self):
+        self.start(serve())
+        wire = self.connect()
+        begun = time.monotonic()
+        self.assertRegex(ask(wire, MODE.replace(b"=1000", b"=200")), b"^error bad-value mode 1 of adventure could not be set up on this image: ")
+        self.assertLess(time.monotonic() - begun, PATIENCE)
+        self.assertRegex(ask(wire, b"look"), b"^error no-game ")
+
+    def test_steps_count_against_the_frames_of_a_request(self):
+        self.start(serve("--max-request-frames", "1000"))
+        wire = self.connect()
+        ask(wire, ENDLESS + b" frame_skip=100")
+        for machines, answer in ((10, b"^ok "), (11, b"^error limit the request asks for 1100 frames; it may ask for 1000")):
+            self.assertRegex(ask(wire, b"open %d" % machines), b"^ok ")
+            self.assertRegex(ask(wire, b"step NOOP"), answer)
+
+    def test_resets_count_against_the_frames_of_a_request(self):
+        self.start(serve("--max-request-frames", "1000"))
+        wire = self.connect()
+        ask(wire, ENDLESS)
+        before = ask(wire, b"look ram reward lives")
+        self.assertRegex(ask(wire, MODE), b"^error limit the request would run more than 2000 frames; ")  # 1,000 are free
+        self.assertEqual(ask(wire, b"look ram reward lives"), before)
+
+
+class Departure(Case):
+    """A request that would take an hour."""
+
+    def check_that_it_is_given_up(self, wire, first, request):
+        begin(wire, first, request)
+        time.sleep(0.1)
+        wire.close()
+        self.server.wait_for(r"client 1: .*(left|stopped)")
+        used = processor_seconds(self.server)
+        time.sleep(0.5)
+        self.assertLess(processor_seconds(self.server) - used, 0.2)
+
+    def test_a_request_of_a_client_that_left_over_tcp_is_given_up(self):
+        self.start(serve("--grace", "0", *MANY_FRAMES))
+        self.check_that_it_is_given_up(self.connect(), [ENDLESS], HOUR)
+
+    def test_a_request_of_a_client_that_left_over_a_unix_socket_is_given_up(self):
+        server = self.start(Server("serve", "--listen", "unix:s", "--grace", "0", *MANY_FRAMES))
+        server.wait_for("listening on unix:s")
+        self.check_that_it_is_given_up(connect_unix(server.path("s")), [ENDLESS], HOUR)
+
+    def test_machines_of_a_client_that_left_are_given_up(self):
+        self.start(serve("--grace", "0", *MANY_FRAMES))
+        self.check_that_it_is_given_up(self.connect(), [ENDLESS + b" frame_skip=1000 noop_max=1000"], b"open 256")
+
+    def test_a_client_that_only_stops_sending_gets_its_reply(self):
+        self.start(serve("--grace", "0"))
+        replies = []
+        for stop_sending in (False, True):
+            wire = self.connect()
+            wire.send(ENDLESS + b"\nact NOOP*60000\nquit\n")
+            if stop_sending:
+                wire.connection.shutdown(socket.SHUT_WR)
+            replies.append(wire.rest())
+        self.assertEqual(replies[0].count(b"\nok "), 1, replies)
+        self.assertEqual(replies[1], replies[0])
+
+
+class End(unittest.TestCase):
+    """SIGTERM in the middle of a request that would take an hour, or of a mode that takes long."""
+
+    GRACE = 1
+    REQUESTS = {"act": ([ENDLESS], HOUR), "mode": ([], MODE), "open": ([ENDLESS + b" frame_skip=1000 noop_max=1000"], b"open 256")}
+
+    def check_that_it_ends(self, *listen, connect, streams=False):
+        for name, (first, request) in self.REQUESTS.items():
+            with self.subTest(name), Server("serve", *listen, "--grace", str(self.GRACE), *MANY_FRAMES, streams=streams) as server:
+                wire = connect(server)
+                begin(wire, first, request)
+                time.sleep(0.1)
+                told = time.monotonic()
+                server.process.send_signal(signal.SIGTERM)
+                server.wait()
+                self.assertLess(time.monotonic() - told, self.GRACE + 2)  # of which one is for slow machines
+                wire.close()
+
+    def test_over_tcp(self):
+        self.check_that_it_ends("--listen", "tcp://127.0.0.1:0", connect=lambda server: connect_tcp(server.port()))
+
+    def test_over_a_unix_socket(self):
+        def connect(server):
+            server.wait_for("listening on unix:s")
+            return connect_unix(server.path("s"))
+        self.check_that_it_ends("--listen", "unix:s", connect=connect)
+
+    def test_over_pipes(self):
+        def connect(server):
+            server.wait_for("for a client that opens")
+            return open_pipes(server, "p")
+        self.check_that_it_ends("--pipes", "p", connect=connect)
+
+    def test_over_standard_streams(self):
+        def connect(server):
+            return Wire(os.dup(server.process.stdout.fileno()), os.dup(server.process.stdin.fileno()))
+        self.check_that_it_ends("--stdio", connect=connect, streams=True)
+
+
+if __name__ == "__main__":
+    main()
