@@ -1,7 +1,5 @@
 #include "cli/configuration.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -10,6 +8,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "games/toml.hpp"
 #include "system/input_file.hpp"
 
 namespace racebeam {

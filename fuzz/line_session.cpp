@@ -1,6 +1,7 @@
 // A session of the line protocol: the input is what a client sends.
 #include "protocol/line_session.hpp"
 
+#include <chrono>
 #include <vector>
 
 #include "fuzz/folder.hpp"
@@ -51,7 +52,9 @@ std::string with_seed(std::string line) {
 
 class Client {
  public:
-  Client() : service_(make_service(folder_.path())), session_(service_) {}
+  // Requests are carried out in slices of so long; however short, they change nothing.
+  explicit Client(std::chrono::microseconds slice)
+      : slice_(slice), service_(make_service(folder_.path())), session_(service_) {}
 
   // Sends the text in pieces of at most `piece` bytes; all replies, each ended by LF.
   std::string say(std::string_view text, std::size_t piece) {
@@ -74,18 +77,28 @@ class Client {
     return replies;
   }
 
+  // As much as there is space for, of which a part is carried out; then it has gone.
+  void say_and_leave(std::string_view text) {
+    const std::span<char> space = session_.space();
+    session_.received(text.copy(space.data(), space.size()));
+    session_.run(slice_);
+    session_.cancel();
+    require(session_.finished(), "a session whose client has gone has ended");
+  }
+
  private:
   std::string listen() {
     std::string replies;
     bool more = true;
     while (more) {
-      more = session_.run();
+      more = session_.run(slice_);
       replies += session_.output();
       session_.sent(session_.output().size());
     }
     return replies;
   }
 
+  std::chrono::microseconds slice_;
   ScratchFolder folder_;
   LineService service_;
   LineSession session_;
@@ -103,7 +116,7 @@ std::string comparable(const std::string& request, const std::string& reply) {
 
 // What was refused has left no trace: without it, all others get the replies that they got.
 void check_refusals(const Lines& requests, const Lines& replies) {
-  Client client;
+  Client client(LineSession::kSlice);
   for (std::size_t n = 0; n < replies.size(); ++n) {
     if (replies[n].starts_with("error ")) continue;
     Lines again = lines_of(client.say(requests[n] + "\n", requests[n].size() + 1));
@@ -121,7 +134,7 @@ void run(Bytes input) {
   for (std::string& request : requests) text += (request = with_seed(request)) + "\n";
   if (!text.empty() && text_of(input).back() != '\n') text.pop_back();
 
-  Client client;
+  Client client(std::chrono::microseconds(1));
   const std::size_t piece = input.empty() ? 1 : 1 + input.size() * 7919 % 997;
   std::string all = client.say(text, piece);
   all += client.close();
@@ -139,6 +152,7 @@ void run(Bytes input) {
   const bool half = !text.empty() && text.back() != '\n' && replies.size() == requests.size();
   if (half) require(replies.back().starts_with("error "), "half a line is not carried out", replies.back());
   check_refusals(requests, replies);
+  if (!text.empty()) Client(std::chrono::microseconds(1)).say_and_leave(text);
 }
 
 }  // namespace racebeam::fuzz

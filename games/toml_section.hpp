@@ -1,8 +1,6 @@
 // Reads one table of a game file, with errors that a person can act on: "FILE:LINE: FIELD: sentence".
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "games/lexer.hpp"
+#include "games/toml.hpp"
 
 namespace racebeam {
 

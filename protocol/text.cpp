@@ -12,13 +12,13 @@ bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 }  // namespace
 
 int parse_integer(std::string_view text) {
-  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
   std::size_t at = 0;
   while (at < text.size() && is_blank(text[at])) ++at;
   const bool negative = at < text.size() && text[at] == '-';
   if (at < text.size() && (negative || text[at] == '+')) ++at;
+  const std::int64_t most = std::int64_t{std::numeric_limits<int>::max()} + negative;
   std::int64_t value = 0;
-  for (; at < text.size() && is_digit(text[at]); ++at) value = std::min(value * 10 + (text[at] - '0'), kMost);
+  for (; at < text.size() && is_digit(text[at]); ++at) value = std::min(value * 10 + (text[at] - '0'), most);
   return static_cast<int>(negative ? -value : value);
 }
 

@@ -56,7 +56,8 @@ TEST_CASE("A number that does not fit an int becomes the nearest that does") {
   CHECK(parse_integer("2147483647") == std::numeric_limits<int>::max());
   CHECK(parse_integer("2147483648") == std::numeric_limits<int>::max());
   CHECK(parse_integer(std::string(1000, '9')) == std::numeric_limits<int>::max());
-  CHECK(parse_integer("-" + std::string(1000, '9')) == -std::numeric_limits<int>::max());
+  CHECK(parse_integer("-2147483648") == std::numeric_limits<int>::min());
+  CHECK(parse_integer("-" + std::string(1000, '9')) == std::numeric_limits<int>::min());
 }
 
 TEST_CASE("A line is cut at commas, and its empty parts are skipped") {
