@@ -11,6 +11,7 @@
 #include "protocol/encoding.hpp"
 #include "protocol/field.hpp"
 #include "protocol/play_settings.hpp"
+#include "recording/recorder.hpp"
 #include "tests/protocol/duel.hpp"
 
 using namespace racebeam;
@@ -50,7 +51,7 @@ std::string state_as_text() {
 struct Room {  // where conversations are held
   Scratch folder;
   LineService service = duel_service();
-  Room() { service.record_folder = folder.path(""); }
+  Room() { service.recorder = std::make_shared<Recorder>(folder.path("")); }
 };
 
 // The reply to the last line.
@@ -108,6 +109,9 @@ const std::string kAlternating = "act RIGHT NOOP RIGHT NOOP RIGHT NOOP RIGHT NOO
                   kEnds = "load duel seed=7 sticky=0 max_episode_frames=2\nobserve episode_frame ends",
                   kThreeSteps = "step NOOP\nstep NOOP\nstep NOOP",
                   kOpen = "open 2\nobserve episode_frame\nstep NOOP";
+
+const std::string kUneven = "load duel seed=7 sticky=0 frame_skip=1-9\nopen 2\n",
+                  kFourSteps = "step NOOP\nstep NOOP\nstep NOOP\nstep NOOP\nrecord stop";
 
 // Conversations before a game is loaded.
 const Cases kFirst = {
@@ -209,6 +213,8 @@ const Cases kPlaying = {
     {"record y4m", "record y4m a", "record gif a"},
     {"record wav", "load duel sound=1\nrecord wav a", "load duel sound=1\nrecord gif a"},
     {"record NAME", "record gif a", "record gif b"},
+    {"record machine", kUneven + "record png a machine=1", kUneven + "record png a", kFourSteps},
+    {"record N", kUneven + "record png a machine=1", kUneven + "record png a machine=0", kFourSteps},
     {"record stop", "record gif a\nact NOOP*4\nrecord stop", "record gif a\nact NOOP*4", "record gif b"},
     {"stats", "stats", "act NOOP\nstats"},
     {"quit", "quit", "stats"},
@@ -295,7 +301,7 @@ LineService other_service() {
   limits.idle_seconds = 1;
   LineService service = test::line_service(limits);
   service.version = "other";
-  service.record_folder = "somewhere";
+  service.recorder = std::make_shared<Recorder>("somewhere");
   service.threads = 2;
   service.admission = [](std::string_view token) { return token == kToken; };
   return service;
