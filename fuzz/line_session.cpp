@@ -6,6 +6,7 @@
 
 #include "fuzz/folder.hpp"
 #include "fuzz/target.hpp"
+#include "recording/recorder.hpp"
 
 namespace racebeam::fuzz {
 namespace {
@@ -24,7 +25,7 @@ LineService make_service(const std::string& record_folder) {
   service.limits.states = 4;
   service.limits.request_frames = 200;
   service.limits.recording = 1 << 20;
-  service.record_folder = record_folder;
+  service.recorder = std::make_shared<Recorder>(record_folder);
   return service;
 }
 
@@ -104,6 +105,16 @@ class Client {
   LineSession session_;
 };
 
+// It has no reply.
+bool is_comment(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(' ');
+  return first != std::string_view::npos && line[first] == '#';
+}
+
+bool ends_session(std::string_view line) {
+  return line.find("quit") != std::string_view::npos || line.find("exit") != std::string_view::npos;
+}
+
 bool is_reply(std::string_view reply) {
   const bool begins = reply == "ok" || reply.starts_with("ok ") || reply.starts_with("error ");
   return begins && is_printable(reply);
@@ -133,6 +144,7 @@ void run(Bytes input) {
   std::string text;
   for (std::string& request : requests) text += (request = with_seed(request)) + "\n";
   if (!text.empty() && text_of(input).back() != '\n') text.pop_back();
+  std::erase_if(requests, is_comment);
 
   Client client(std::chrono::microseconds(1));
   const std::size_t piece = input.empty() ? 1 : 1 + input.size() * 7919 % 997;
@@ -146,7 +158,7 @@ void run(Bytes input) {
             requests[n] + "\n" + replies[n]);
   if (replies.size() < requests.size()) {
     const bool has_quit = !replies.empty() && replies.back() == "ok" &&
-                          requests[replies.size() - 1].find("quit") != std::string::npos;
+                          ends_session(requests[replies.size() - 1]);
     require(has_quit, "every line gets a reply, until quit", text);
   }
   const bool half = !text.empty() && text.back() != '\n' && replies.size() == requests.size();
