@@ -37,7 +37,7 @@ class Pacer final : public Pace {
 
   void frame() override {
     count(1);
-    if (frames_ % kFramesBetweenLooks == 0) breathe();
+    if (--frames_before_look_ <= 0) look();
   }
 
   // Suspends the body if its slice is over: for loops that take long without running frames.
@@ -63,13 +63,21 @@ class Pacer final : public Pace {
 
  private:
   static constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
-  // A look at the clock takes 25 ns, a frame from 2 us to 2 ms.
-  static constexpr std::int64_t kFramesBetweenLooks = 4;
+  // A look at the clock takes 25 ns, a frame from 2 us to some milliseconds.
+  static constexpr int kFramesBetweenLooks = 4;
+  static constexpr std::chrono::microseconds kLong{400};  // for so many
 
+  void look() {
+    const auto now = Clock::now();
+    frames_before_look_ = now - looked_ < kLong ? kFramesBetweenLooks : 1;
+    looked_ = now;
+    if (now >= end_) pause();
+  }
   [[noreturn]] void refuse() const;
 
   Fiber fiber_;
-  Clock::time_point end_{};
+  Clock::time_point end_{}, looked_{};
+  int frames_before_look_ = kFramesBetweenLooks;
   std::int64_t frames_ = 0, most_frames_ = kNoLimit, allowed_ = 0;
 };
 

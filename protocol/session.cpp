@@ -209,13 +209,23 @@ void Session::take(const LineReader::Line& line) {
 void Session::execute(std::string_view line) {
   if (line.size() > kShortLine) memory.check(kBytesOfWord / 2 * line.size(), "a line of so many words");
   check_bytes(line);
-  split(line, words_);
+  read_words(line);
   if (words_.empty()) throw Refusal(Code::kBadLine, "the line is empty; help lists the commands");
   const Command& command = find_command(words_[0]);
   command_ = static_cast<std::size_t>(&command - commands().data());
   const Words arguments = Words(words_).subspan(1);
   check(command, *this, arguments.size());
   command.run(*this, arguments);
+}
+
+// A line may have half a million.
+void Session::read_words(std::string_view line) {
+  constexpr std::size_t kWordsBetweenLooks = 1024;
+  words_.clear();
+  for (auto word = next_word(line); !word.empty(); word = next_word(line)) {
+    words_.push_back(word);
+    if (words_.size() % kWordsBetweenLooks == 0) pacer.breathe();
+  }
 }
 
 void Session::finish_reply() {
@@ -272,6 +282,7 @@ void Session::cancel() {
 }
 
 void Session::rest() {
+  if (pacer.in_progress()) return;  // a request waits for a reader that is slow; its words are in use
   if (player) player->machine().rest();
   machines.rest();
   if (out.empty()) out.shrink_to_fit();

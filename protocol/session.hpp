@@ -91,6 +91,7 @@ class Session {
   void begin_request();
   void take(const LineReader::Line& line);
   void execute(std::string_view line);
+  void read_words(std::string_view line);
   void refuse(Code code, std::string_view sentence);
   std::size_t footprint() const;
   void finish_reply();

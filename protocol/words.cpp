@@ -29,13 +29,16 @@ void append_any(std::string& out, Number number) {
 
 }  // namespace
 
+std::string_view next_word(std::string_view& line) {
+  line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+  const std::string_view word = line.substr(0, line.find(' '));
+  line.remove_prefix(word.size());
+  return word;
+}
+
 void split(std::string_view line, std::vector<std::string_view>& words) {
   words.clear();
-  for (std::size_t at = 0; at < line.size();) {
-    const std::size_t end = std::min(line.find(' ', at), line.size());
-    if (end > at) words.push_back(line.substr(at, end - at));
-    at = end + 1;
-  }
+  for (auto word = next_word(line); !word.empty(); word = next_word(line)) words.push_back(word);
 }
 
 std::int64_t number_within(std::string_view text, std::string_view what, std::int64_t least,

@@ -18,6 +18,7 @@ using Words = std::span<const std::string_view>;
 
 // Cuts at blanks; several in a row count as one. Reuses the memory of `words`.
 void split(std::string_view line, std::vector<std::string_view>& words);
+std::string_view next_word(std::string_view& line);  // takes it out of the line; empty: there is none
 
 // The whole text as a number; nothing for anything else, "nan" and "inf" included.
 template <typename Number>

@@ -194,7 +194,11 @@ net::awaitable<void> converse(Stream& stream, Client& client, LineSession& sessi
         throw std::runtime_error("the client left in the middle of a request");
       if (!text.empty() && ++parts < kMostParts) continue;
       parts = 0;
-      co_await (session.waits() ? await_recording(client) : take_turn(client));
+      if (session.waits()) {  // GCC 12 destroys both results of a conditional expression
+        co_await await_recording(client);
+      } else {
+        co_await take_turn(client);
+      }
       if (client.ending()) co_await take_leave(stream, client);
       continue;
     }

@@ -5,7 +5,7 @@
 namespace racebeam {
 
 Workers::Workers(unsigned threads, std::chrono::microseconds busy_poll)
-    : busy_poll_(busy_poll), jobs_so_far_(0) {
+    : threads_at_work_(std::max(1U, threads)), busy_poll_(busy_poll), jobs_so_far_(0) {
   for (unsigned thread = 1; thread < threads; ++thread)
     threads_.emplace_back([this, thread] { help(thread); });
 }
@@ -30,6 +30,7 @@ void Workers::run(std::size_t count, const std::function<void(std::size_t)>& tas
     const std::lock_guard lock(mutex_);
     jobs_.push_back(&job);
     ++jobs_so_far_;
+    ++working_;
   }
   job_is_here_.notify_all();
   job.work(0);
@@ -41,6 +42,7 @@ void Workers::run(std::size_t count, const std::function<void(std::size_t)>& tas
     lock.lock();
   }
   helper_left_.wait(lock, [&job] { return job.helpers == 0; });
+  --working_;
 }
 
 void Workers::Job::work(std::size_t own) {
@@ -59,6 +61,7 @@ bool Workers::Job::can_use_help() const {
 }
 
 Workers::Job* Workers::pick() {
+  if (working_ >= threads_at_work_) return nullptr;
   const auto found = std::ranges::find_if(jobs_, [](const Job* job) { return job->can_use_help(); });
   return found == jobs_.end() ? nullptr : *found;
 }
@@ -90,10 +93,12 @@ void Workers::help(std::size_t own) {
     job_is_here_.wait(lock, [&] { return stopping_ || (job = pick()) != nullptr; });
     if (stopping_) return;
     ++job->helpers;
+    ++working_;
     lock.unlock();
     quick = busy.came_after(BusyPoll::Clock::now() - idle);
     job->work(own);
     lock.lock();
+    --working_;
     if (--job->helpers == 0) helper_left_.notify_all();
   }
 }

@@ -25,7 +25,8 @@ class Workers {
 
   // Runs task(0) ... task(count - 1) and returns when all are done. Every thread begins with a share of its
   // own, the same for the same count, so that what a task uses stays in one processor's cache; who is done
-  // helps the others. From any thread, also from several at once. A task does not throw.
+  // helps the others. From any thread, also from several at once. A task does not throw. Callers count among
+  // the threads that work: more of them than there are would wait for helpers that wait for a processor.
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
 
  private:
@@ -43,14 +44,16 @@ class Workers {
   };
 
   void help(std::size_t own);
-  Job* pick();                                             // under mutex_
+  Job* pick();  // null: none can use help, or as many threads work as there may; under mutex_
   void await_job(BusyPoll& busy, std::size_t jobs) const;  // beyond those so far
   void await_helpers(const Job& job) const;
 
+  const std::size_t threads_at_work_;  // at most, callers included
   const std::chrono::microseconds busy_poll_;
   std::mutex mutex_;
   std::condition_variable job_is_here_, helper_left_;
   std::vector<Job*> jobs_;                // that can use help
+  std::size_t working_ = 0;               // callers and helpers; under mutex_
   std::atomic<std::size_t> jobs_so_far_;  // counted under mutex_
   bool stopping_ = false;
   std::vector<std::jthread> threads_;

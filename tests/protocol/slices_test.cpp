@@ -33,6 +33,12 @@ int slices_after(const std::vector<std::string>& before, const std::string& requ
   return slices;
 }
 
+std::string many(const std::string& words) {
+  std::string all;
+  for (int n = 0; n < 20; ++n) all += words;
+  return all;
+}
+
 const std::string kLong = "load beamfall seed=1 frame_skip=1000 max_episode_frames=0 noop_max=1000";
 
 }  // namespace
@@ -71,6 +77,38 @@ TEST_CASE("What is given up leaves no trace but the end of the session") {
   CHECK_FALSE(client.session.run());
   CHECK(client.session.finished());
   CHECK(client.session.output().empty());
+}
+
+TEST_CASE("A line of many words is read in slices") {
+  LineClient client;
+  std::string line = "look";
+  while (line.size() < 400'000) line += " 0";
+  for (std::string_view rest = line += '\n'; !rest.empty();) {
+    const std::string_view piece = rest.substr(0, client.session.space().size());
+    client.hand_in(piece);
+    rest.remove_prefix(piece.size());
+  }
+  int slices = 0;
+  while (client.session.output().empty() && ++slices < 1000) client.session.run(0us);
+  CHECK(slices > 100);
+  CHECK(client.session.output().starts_with("error "));
+}
+
+TEST_CASE("A pause in the middle of a request takes nothing that it needs") {
+  for (const std::string request : {"act" + many(" LEFT*40 FIRE*30 RIGHT"),
+                                    "branch root" + many(" LEFT*40 FIRE*30"), "step" + many(" LEFT FIRE")}) {
+    LineClient whole, resting;
+    for (LineClient* const client : {&whole, &resting}) {
+      for (const std::string line :
+           {"load beamfall seed=1 max_episode_frames=0 frame_skip=4", "save root", "open 40"})
+        REQUIRE(client->ask(line).starts_with("ok"));
+    }
+    resting.hand_in(request + "\n");
+    while (resting.session.run(0us) && resting.session.output().empty()) resting.session.rest();
+    const std::string reply(resting.session.output());
+    CHECK(reply.starts_with("ok"));
+    CHECK(reply == whole.ask(request) + "\n");
+  }
 }
 
 TEST_CASE("A session may end while a request is in progress") {
