@@ -64,7 +64,7 @@ struct Budget {
 
   // Of a step. drawing: Tia::work(). It takes that long in any case.
   void earn(const Work& work, std::uint32_t drawing) {
-    making.earn((work.interpreted + work.quick() + drawing / kDrawingAUnit) / 4);
+    making.earn((work.interpreted + work.quick() + drawing / kDrawingAUnit) * 5 / 16);
     moving.earn(work.interpreted / 16);
   }
 
@@ -72,7 +72,7 @@ struct Budget {
   void move(Cost quick) { moving.earn(quick * 5 / 4 - kEntryPrice); }
 
   static constexpr Cost kBoundless = Cost{1} << 60;
-  static constexpr std::uint32_t kDrawingAUnit = 12;
+  static constexpr std::uint32_t kDrawingAUnit = 10;
   static constexpr Cost kEnoughToMove = 4000;  // for a step to begin with, so that it gets into its stride
 };
 

@@ -172,7 +172,6 @@ void Translator::Impl::run_stretch(Board& board, bool left) {
 }
 
 bool Translator::Impl::run(Board& board, std::int32_t instructions) {
-  if (board.state.cpu.jammed) return true;
   board.stop = false;
   const std::int32_t limit = board.translated.limit = board.overlong_cycle() - kMargin;
   board.translated.first_line = board.state.tia.origin / 3;
