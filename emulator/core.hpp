@@ -187,7 +187,6 @@ struct Core {
     const std::int32_t most = (budget - executed()) / 2 - 1;
     const std::int32_t turns = sure < most ? sure : most;
     clock += turns * (period * kCycle + 2);
-    board.translated.skipped += 2 * turns;
   }
 
   RACEBEAM_INLINE void write(ZeroPage address, std::uint8_t value) {

@@ -73,8 +73,8 @@ void reset_cpu(Board& board) {
   cpu.store_state();
 }
 
-std::int32_t interpret(Board& board, std::int32_t instructions) {
-  if (board.state.cpu.jammed) return 0;
+void interpret(Board& board, std::int32_t instructions) {
+  if (board.state.cpu.jammed) return;
   board.stop = false;
 
   static constexpr void* kHandlers[256] = {
@@ -112,7 +112,6 @@ elsewhere:
 
 done:
   cpu.store_state();
-  return cpu.executed();
 }
 
 }  // namespace racebeam

@@ -9,7 +9,7 @@ namespace racebeam {
 void reset_cpu(Board& board);
 
 // Runs up to `instructions` instructions, at most 4,000,000; ends early, between two of them, when the board asks to stop
-// or the chip jams. Answers how many it has run, those of a timer loop that were skipped included.
-std::int32_t interpret(Board& board, std::int32_t instructions);
+// or the chip jams.
+void interpret(Board& board, std::int32_t instructions);
 
 }  // namespace racebeam

@@ -85,7 +85,6 @@ bool Console::Impl::run_step(Picture& picture, const FrameStart& start, Pixels p
     repeat(pixels);
   }
   board.end_step();
-  if (translator != nullptr) translator->earn(board.tia.work());
   if (!board.needs_exact_step()) return true;
   if (pixels == Pixels::kNone) return false;
   repeat(Pixels::kExact);

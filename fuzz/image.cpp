@@ -74,7 +74,6 @@ void run(Bytes input) {
             refusal.what());
     return;
   }
-  Translator::set_boundless(true);  // so few steps would not pay for code
   Machine interpreted(rom, properties, seed, CpuKind::kInterpreter),
       translated(rom, properties, seed, CpuKind::kTranslator);
   for (int step = 0; step < kSteps; ++step) {

@@ -18,9 +18,7 @@ std::unique_ptr<Translator> Translator::make(Board&, CpuKind kind) {
 }
 
 bool Translator::run(Board&, std::int32_t) { return false; }
-void Translator::earn(std::uint32_t) {}
 void Translator::set_code_capacity(std::size_t) {}
-void Translator::set_boundless(bool) {}
 const char* Translator::obstacle() { return "this build has no translator: it needs x86-64 and Xbyak"; }
 
 }  // namespace racebeam

@@ -28,7 +28,6 @@ Layout::Layout(Board& board) {
   overflow = at(board.translated.V);
   decimal = at(board.translated.D);
   interrupt = at(board.translated.I);
-  idle = at(board.translated.idle);
 }
 
 }  // namespace racebeam::translator

@@ -181,13 +181,22 @@ void BlockEmitter::emit_jump(const Instruction& instruction) {
   if (instruction.operation == Operation::jsr) return jsr(instruction);
   if (instruction.operation == Operation::rts) return rts(instruction);
   if (instruction.mode == Mode::indirect) return jmp_indirect(instruction);
-  elapsed_ += instruction.cycles;
+  const bool known = may_be_left_to(instruction.target());
+  if (known) elapsed_ += instruction.cycles;
   settle(here());
-  jump_to(instruction.target());
+  if (known) jump_to(instruction.target());
+  else leave_before(instruction);
 }
 
+// Code on the cartridge is the same whatever was on the data bus before.
+bool BlockEmitter::may_be_left_to(std::uint16_t target) const {
+  return holds(as_.window.code, target) || is_cartridge(target);
+}
+
+// Both bytes of the pointer must be in RAM.
 void BlockEmitter::jmp_indirect(const Instruction& instruction) {
   settle(here());
+  if (!is_ram(instruction.operand) || (instruction.operand & 0x7F) == 0x7F) return leave_before(instruction);
   Xbyak::Label outside;
   as_.movzx(as_.eax, as_.word[as_.rbx + (as_.layout.ram + (instruction.operand & 0x7F))]);
   as_.lea(as_.edx, as_.ptr[as_.rax - as_.window.code.first]);
@@ -218,6 +227,11 @@ void BlockEmitter::jump_to_block(const Instruction& instruction) {
 void BlockEmitter::jsr(const Instruction& instruction) {
   Xbyak::Label outside;
   const Place before = here();
+  if (!may_be_left_to(instruction.target()) || !as_.covers(instruction.pc, 3)) {
+    settle(before);
+    leave_before(instruction);
+    return;
+  }
   as_.movzx(as_.eax, as_.byte_of(as_.layout.sp));
   as_.cmp(as_.al, 0x81);
   as_.jb(outside, Xbyak::CodeGenerator::T_NEAR);

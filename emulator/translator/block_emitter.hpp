@@ -52,6 +52,7 @@ class BlockEmitter {
   void emit_jump(const Instruction& instruction);
   void jsr(const Instruction& instruction);
   void leave_to_cartridge(const Instruction& instruction, Xbyak::Label& interpret);
+  bool may_be_left_to(std::uint16_t target) const;
   void rts(const Instruction& instruction);
   void jmp_indirect(const Instruction& instruction);
   void find_block(Xbyak::Label& none);
@@ -72,7 +73,6 @@ class BlockEmitter {
   void bit(const Value& value, Flags live);
   void implied(const Instruction& instruction, Flags live);
   void modify(const Instruction& instruction, Flags live);
-  void modify_device(const Instruction& instruction);
   void shift(Operation operation, const Xbyak::Operand& operand, Flags live);
   void push(const Instruction& instruction);
   void pull(const Instruction& instruction);
@@ -88,7 +88,7 @@ class BlockEmitter {
   Value read_zero_page_indexed(const Instruction& instruction, Reg32 index);
   Value read_indexed(const Instruction& instruction, Reg32 index);
   Value read_through_pointer(const Instruction& instruction);
-  void load_pointer(const Instruction& instruction);
+  bool load_pointer(const Instruction& instruction);
   void read_at_eax(const Instruction& instruction);
   void read_device(const Instruction& instruction, const Place& place);
   void add_penalty(const Instruction& instruction, Reg32 index);

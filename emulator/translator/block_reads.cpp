@@ -102,7 +102,7 @@ BlockEmitter::Value BlockEmitter::read_indexed(const Instruction& instruction, R
 }
 
 BlockEmitter::Value BlockEmitter::read_through_pointer(const Instruction& instruction) {
-  load_pointer(instruction);
+  if (!load_pointer(instruction)) return {Value::Kind::kConstant};
   as_.mov(as_.esi, as_.eax);
   as_.shr(as_.esi, 8);
   if (instruction.mode == Mode::indirect_y) {
@@ -117,11 +117,16 @@ BlockEmitter::Value BlockEmitter::read_through_pointer(const Instruction& instru
   return {Value::Kind::kEax};
 }
 
-// The pointer of (zp),Y or (zp,X) into eax. If that of (zp,X) is not in RAM, the interpreter does the instruction.
-void BlockEmitter::load_pointer(const Instruction& instruction) {
+// The pointer of (zp),Y or (zp,X) into eax. False if it is not in RAM, and the interpreter does the instruction.
+bool BlockEmitter::load_pointer(const Instruction& instruction) {
   if (instruction.mode == Mode::indirect_y) {
+    if (instruction.operand < 0x80 || instruction.operand == 0xFF) {
+      settle(here());
+      leave_before(instruction);
+      return false;
+    }
     as_.movzx(as_.eax, as_.word[as_.rbx + (as_.layout.ram + (instruction.operand & 0x7F))]);
-    return;
+    return true;
   }
   Xbyak::Label outside;
   as_.lea(as_.ecx, as_.ptr[as_.r13 + (instruction.operand - 0x80)]);
@@ -131,6 +136,7 @@ void BlockEmitter::load_pointer(const Instruction& instruction) {
   as_.movzx(as_.eax, as_.word[as_.rbx + as_.rcx + as_.layout.ram]);
   leave_cold(outside, instruction, here());
   clobbered_flags();
+  return true;
 }
 
 // Reads what is at the address in eax, into eax; esi: the data bus before. The penalty has been added already. Mostly it

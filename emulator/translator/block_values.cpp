@@ -234,12 +234,17 @@ void BlockEmitter::modify(const Instruction& instruction, Flags live) {
     made_nz(NzHome::kA, !rotates);
     return;
   }
-  const bool fixed = instruction.mode == Mode::zero_page || instruction.mode == Mode::absolute;
-  if (fixed && !is_ram(instruction.operand)) return modify_device(instruction);
   Xbyak::Label outside;
   const Place before = here();
   Xbyak::RegExp place;
+  const bool fixed = instruction.mode == Mode::zero_page || instruction.mode == Mode::absolute;
   if (fixed) {
+    if (!is_ram(instruction.operand)) {
+      settle(before);
+      leave_before(instruction);
+      made_nz(NzHome::kNumber, false);
+      return;
+    }
     place = as_.rbx + (as_.layout.ram + (instruction.operand & 0x7F));
   } else {
     if (instruction.mode == Mode::zero_page_x) {
@@ -274,19 +279,6 @@ void BlockEmitter::modify(const Instruction& instruction, Flags live) {
   if (live.nz) as_.mov(as_.r8d, as_.eax);
   const bool rotates = instruction.operation == Operation::rol || instruction.operation == Operation::ror;
   made_nz(NzHome::kNumber, !rotates);
-}
-
-// What it writes may end the frame, where all flags are looked at.
-void BlockEmitter::modify_device(const Instruction& instruction) {
-  read_fixed(instruction);
-  if (instruction.operation == Operation::inc) as_.inc(as_.al);
-  else if (instruction.operation == Operation::dec) as_.dec(as_.al);
-  else shift(instruction.operation, as_.al, Flags{});
-  as_.movzx(as_.ecx, as_.al);
-  as_.mov(as_.r8d, as_.ecx);
-  made_nz(NzHome::kNumber, false);
-  as_.mov(as_.eax, instruction.operand);
-  call_write(instruction, as_.ecx, here());
 }
 
 void BlockEmitter::shift(Operation operation, const Xbyak::Operand& operand, Flags live) {

@@ -28,7 +28,7 @@ void BlockEmitter::write(const Instruction& instruction) {
       as_.lea(as_.eax, as_.ptr[index() + instruction.operand]);
       break;
     default:
-      load_pointer(instruction);
+      if (!load_pointer(instruction)) return;
       if (instruction.mode == Mode::indirect_y) as_.add(as_.eax, as_.r14d);
       break;
   }
@@ -121,10 +121,8 @@ void BlockEmitter::write_wsync(const Instruction& instruction) {
   as_.shr(as_.eax, 22);
   as_.imul(as_.eax, as_.eax, 76);
   as_.add(as_.eax, as_.ecx);
-  touch_tia(cycles);  // edx: the cycle of the write
+  touch_tia(cycles);
   as_.mov(as_.ebp, as_.eax);
-  as_.sub(as_.eax, as_.edx);
-  as_.add(as_.dword_of(as_.layout.idle), as_.eax);
   elapsed_ = -static_cast<int>(instruction.cycles);  // they are counted when the instruction is done
   clobbered_flags();
 }

@@ -8,27 +8,22 @@ namespace racebeam::translator {
 namespace {
 
 std::uint32_t read_bus(Board* board, std::uint32_t address, std::uint32_t latch, std::int32_t cycle) {
-  ++board->translated.calls;
   return board->read_device(static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch), cycle);
 }
 
 std::int32_t write_bus(Board* board, std::uint32_t address, std::uint32_t value, std::int32_t cycle) {
   const auto byte = static_cast<std::uint8_t>(value);
   board->state.cpu.latch = byte;
-  ++board->translated.calls;
   if ((address & 0x1080) == 0 && board->is_plain_write(static_cast<std::uint16_t>(address), cycle)) {
     board->log->append_change(cycle, address & 0x3F, byte);
     return cycle;
   }
-  const std::int32_t after = board->write_device(static_cast<std::uint16_t>(address), byte, cycle, true);
-  board->translated.idle += after - cycle;
-  return after;
+  return board->write_device(static_cast<std::uint16_t>(address), byte, cycle, true);
 }
 
 std::uint32_t pull(Board* board, std::int32_t cycle) {
   constexpr std::uint8_t kOpcode = 0x68;
   CpuState& cpu = board->state.cpu;
-  ++board->translated.calls;
   const auto read = [&](std::uint8_t sp, std::uint8_t latch) {
     return sp & 0x80 ? board->state.riot.ram[sp & 0x7F]
                      : board->read_device(static_cast<std::uint16_t>(0x100 | sp), latch, cycle);
@@ -47,9 +42,7 @@ std::uint32_t decimal(std::uint32_t a, std::uint32_t m, std::uint32_t carry, boo
 }
 
 std::int32_t skip_timer_loop(Board* board, const std::uint8_t* branch, std::int32_t cycle, std::int32_t period) {
-  const std::int32_t skipped = period * sure_timer_turns(branch, board->state.riot, cycle + 4, period);
-  board->translated.idle += skipped;
-  return cycle + skipped;
+  return cycle + period * sure_timer_turns(branch, board->state.riot, cycle + 4, period);
 }
 
 template <class Function>

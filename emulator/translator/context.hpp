@@ -1,5 +1,4 @@
-// What translated code and the rest of the machine tell each other: a part of every Board, at the same place
-// in each.
+// What translated code and the rest of the machine tell each other: a part of every Board, at the same place in each.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +6,11 @@
 namespace racebeam::translator {
 
 struct Context {
-  std::int32_t limit = 0;            // from this cycle on the interpreter goes on
-  std::int32_t first_line = 0;       // cycle at which line 0 of the frame began, <= 0
-  std::uint32_t nz = 0;              // N is bit 15 or bit 7; Z is set when bits 7-0 are 0
-  std::uint32_t carry = 0;           // 0 or 1
+  std::int32_t limit = 0;        // from this cycle on the interpreter goes on
+  std::int32_t first_line = 0;   // cycle at which line 0 of the frame began, <= 0
+  std::uint32_t nz = 0;          // N is bit 15 or bit 7; Z is set when bits 7-0 are 0
+  std::uint32_t carry = 0;       // 0 or 1
   std::uint8_t V = 0, D = 0, I = 0;  // 0 or 1
-
-  // What the time that has passed did not take (budget.hpp). Whoever wants to know sets them to 0 first.
-  std::int32_t idle = 0;     // cycles that translated code stood still or skipped
-  std::int32_t calls = 0;    // accesses to devices and the like, which are no faster from translated code
-  std::int32_t skipped = 0;  // instructions of timer loops that the interpreter did not run
 };
 
 }  // namespace racebeam::translator

@@ -4,14 +4,12 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <unordered_map>
 #include <vector>
 
 #include "emulator/memory_map.hpp"
 #include "emulator/scheme.hpp"
 #include "emulator/state.hpp"
 #include "emulator/translator/assembler.hpp"
-#include "emulator/translator/budget.hpp"
 #include "emulator/translator/code_memory.hpp"
 
 namespace racebeam {
@@ -20,18 +18,15 @@ struct WriteLog;
 
 namespace racebeam::translator {
 
-struct Batch;
-
 // A run of the image that the CPU sees at certain addresses, and its blocks.
 struct View {
   View(const CodeWindow& window, std::size_t offset)
       : code(window), rom_offset(offset), entries(window.span), known(window.span) {}
 
-  const CodeWindow code;         // in the copy of the image that belongs to the code
-  const std::size_t rom_offset;  // of its first byte
-  std::vector<const void*>
-      entries;              // by offset: where the block that starts there begins; read by other threads
-  std::vector<bool> known;  // the same for the translator alone
+  const CodeWindow code;          // in the copy of the image that belongs to the code
+  const std::size_t rom_offset;   // of its first byte
+  std::vector<const void*> entries;  // by offset: where the block that starts there begins; read by other threads
+  std::vector<bool> known;        // the same for the translator alone
 
   const void* entry(std::uint16_t pc) {
     const auto offset = static_cast<std::uint16_t>(pc - code.first);
@@ -39,26 +34,19 @@ struct View {
   }
 };
 
-// No function waits while another thread translates: it answers null instead, and the machine is interpreted
-// meanwhile.
 class ImageCode {
  public:
   // Of an image like this one, made when it is first asked for. wiring: of the cartridge scheme; two
-  // machines can run one image under different schemes. Throws std::system_error where executable memory is
-  // refused.
-  static std::shared_ptr<ImageCode> of(const Rom& rom, const Wiring& wiring, const Layout& layout);
+  // machines can run one image under different schemes. Throws std::system_error where executable memory is refused.
+  static std::shared_ptr<ImageCode> of(const Rom& rom, const Wiring& wiring);
 
-  ImageCode(const Rom& rom, const Wiring& wiring, const Layout& layout, std::size_t capacity);
-  ~ImageCode();
+  ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity);
 
-  // The view through this window of a machine's memory. Null if it shows something else than this image, or
-  // can't be paid from `purse`.
-  View* view(const CodeWindow& window, const Rom& rom, Purse& purse);
+  // The view through this window of a machine's memory. Null if it shows something else than this image.
+  View* view(const CodeWindow& window, const Rom& rom);
 
-  // Translates what can be reached from `pc`, which must be in the view, as far as `purse` pays for it; what
-  // is begun is finished first, whatever `pc` is. Null if the block at `pc` is not there yet, or there is no
-  // room.
-  const void* translate(View& view, std::uint16_t pc, Purse& purse);
+  // Translates what can be reached from `pc`, which must be in the view. Null if there is no room.
+  const void* translate(View& view, std::uint16_t pc, const Layout& layout);
 
   // Runs from `entry` on; returns the new PC, with kInterpretNext or not.
   using Enter = std::uint32_t (*)(const void* entry, Board* board, WriteLog* log);
@@ -67,18 +55,13 @@ class ImageCode {
   bool is_full() const { return full_.load(std::memory_order_relaxed); }
 
  private:
-  void make_gates();
-  void begin_batch(View& view, std::uint16_t pc, Purse& purse);
-  void emit_block(Purse& purse);
-  void publish();
+  void make_gates(const Layout& layout);
 
   const Rom rom_;
   const Wiring wiring_;
-  const Layout layout_;
   std::mutex mutex_;
   CodeMemory memory_;
-  std::unordered_map<std::uint64_t, std::unique_ptr<View>> views_;
-  std::unique_ptr<Batch> batch_;  // what is being translated, or null
+  std::vector<std::unique_ptr<View>> views_;
   Enter enter_ = nullptr;
   const void* way_out_ = nullptr;
   std::atomic<bool> full_ = false;

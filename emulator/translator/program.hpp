@@ -6,7 +6,6 @@
 
 #include "emulator/memory_map.hpp"
 #include "emulator/translator/instruction.hpp"
-#include "emulator/translator/window.hpp"
 
 namespace racebeam::translator {
 
@@ -26,10 +25,7 @@ inline bool holds(const CodeWindow& window, std::uint16_t pc) {
   return static_cast<std::uint16_t>(pc - window.first) < window.span;
 }
 
-// Translated code would leave before this instruction in any case: the interpreter does it.
-bool is_interpreted(const Instruction& instruction, const Window& window);
-
 // The blocks in the order of their addresses. known: by offset in the window, where blocks exist already.
-std::vector<Block> discover(const Window& window, std::uint16_t entry, const std::vector<bool>& known);
+std::vector<Block> discover(const CodeWindow& window, std::uint16_t entry, const std::vector<bool>& known);
 
 }  // namespace racebeam::translator

@@ -25,16 +25,9 @@ class Translator {
   // the frame closed: then there were no more, and the step must be run again by who counts.
   bool run(Board& board, std::int32_t instructions);
 
-  // After each run(), when the step has ended: drawing, which is Tia::work(), took its time, too. Translation may cost a
-  // part of what the step cost.
-  void earn(std::uint32_t drawing);
-
   // The most bytes of translated code for one image, at least 131072; 4 MiB unless told. When they are used up, all is
   // translated anew. Applies to images that are translated from now on.
   static void set_code_capacity(std::size_t bytes);
-
-  // For tests: from now on machines translate whatever they meet at once, whatever it costs.
-  static void set_boundless(bool boundless);
 
   // Why kAuto gives the interpreter in this process; empty if it does not.
   static const char* obstacle();

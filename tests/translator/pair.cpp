@@ -63,8 +63,7 @@ std::string difference(Console& interpreted, Console& translated) {
   return found;
 }
 
-std::string difference_in_program(std::uint32_t seed, int steps, Translation translation) {
-  Translator::set_boundless(translation == Translation::kAtOnce);
+std::string difference_in_program(std::uint32_t seed, int steps) {
   Program program = make_program(seed);
   const Properties properties = properties_for(program);
   const auto rom = std::make_shared<const std::vector<std::uint8_t>>(std::move(program.rom));

@@ -14,11 +14,8 @@ namespace racebeam::test {
 // sound on both.
 std::string difference(Console& interpreted, Console& translated);
 
-// Whether all that is met is translated at once, or as much as pays (docs/translator.md).
-enum class Translation { kAtOnce, kAsItPays };
-
 // Runs the program of a seed on both, `steps` steps, with states saved and restored on the way, and compares
 // everything after each: state, cartridge RAM, pictures, sound. Empty if all is the same, else what differs.
-std::string difference_in_program(std::uint32_t seed, int steps, Translation translation = Translation::kAtOnce);
+std::string difference_in_program(std::uint32_t seed, int steps);
 
 }  // namespace racebeam::test
