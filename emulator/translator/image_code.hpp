@@ -45,8 +45,9 @@ class ImageCode {
   // The view through this window of a machine's memory. Null if it shows something else than this image.
   View* view(const CodeWindow& window, const Rom& rom);
 
-  // Translates what can be reached from `pc`, which must be in the view. Null if there is no room.
-  const void* translate(View& view, std::uint16_t pc, const Layout& layout);
+  // Translates what can be reached from `pc`, which must be in the view. Null if there is no room. Adds to `bytes` how much
+  // code was made.
+  const void* translate(View& view, std::uint16_t pc, const Layout& layout, std::size_t& bytes);
 
   // Runs from `entry` on; returns the new PC, with kInterpretNext or not.
   using Enter = std::uint32_t (*)(const void* entry, Board* board, WriteLog* log);

@@ -1,5 +1,6 @@
 #include "emulator/translator/translator.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -18,8 +19,26 @@ constexpr std::int32_t kMargin = 400;
 
 // Instructions that the interpreter runs at a time where there is nothing to translate: code in RAM, mostly.
 constexpr std::int32_t kElsewhere = 8;
+constexpr std::int32_t kWithoutBudget = 64;  // the same, where code may not be made now
 
 constexpr std::int32_t kFewestCycles = 2;  // of an instruction
+
+// What a machine may spend on making code, in nanoseconds: a start, which is more than the code of any game takes, and a part
+// of the time that the interpreter would take. Prices, and 1 ns a cycle, as measured on a Zen 5 processor; no clock is looked
+// at, so that two runs do the same.
+class Budget {
+ public:
+  bool allows() const { return left_ > 0; }
+  void earn(std::int32_t cycles) { left_ = std::min(left_ + cycles / kPart, kStart); }
+  void spend_on_batch(std::size_t bytes) { left_ -= 6000 + 9 * static_cast<std::int64_t>(bytes); }
+  void spend_on_generation() { left_ -= 100'000; }
+
+ private:
+  static constexpr std::int64_t kStart = 4'000'000;
+  static constexpr std::int32_t kPart = 5;
+
+  std::int64_t left_ = kStart;
+};
 
 bool same(const CodeWindow& a, const CodeWindow& b) {
   return a.memory == b.memory && a.first == b.first && a.span == b.span;
@@ -71,6 +90,7 @@ struct Translator::Impl {
   std::shared_ptr<translator::ImageCode> code;
   const translator::Layout layout;
   std::array<Seen, 32> seen{};
+  Budget budget;
 };
 
 translator::View* Translator::Impl::current_view(Board& board) {
@@ -87,8 +107,11 @@ const void* Translator::Impl::entry(Board& board) {
   translator::View* view = current_view(board);
   if (view == nullptr) return nullptr;
   if (const void* known = view->entry(board.state.cpu.PC)) return known;
-  if (!translator::holds(view->code, board.state.cpu.PC) || code->is_full()) return nullptr;
-  return code->translate(*view, board.state.cpu.PC, layout);
+  if (!translator::holds(view->code, board.state.cpu.PC) || code->is_full() || !budget.allows()) return nullptr;
+  std::size_t bytes = 0;
+  const void* entry = code->translate(*view, board.state.cpu.PC, layout, bytes);
+  budget.spend_on_batch(bytes);
+  return entry;
 }
 
 // True if the interpreter must do the next instruction.
@@ -114,11 +137,17 @@ std::unique_ptr<Translator> Translator::make(Board& board, CpuKind kind) {
 }
 
 bool Translator::run(Board& board, std::int32_t instructions) {
-  if (impl_->code->is_full()) impl_ = std::make_unique<Impl>(board);
+  const std::int32_t first_cycle = board.state.cycle;
+  const bool counted = run_on(board, instructions, first_cycle);
+  impl_->budget.earn(board.state.cycle - first_cycle);
+  return counted;
+}
+
+bool Translator::run_on(Board& board, std::int32_t instructions, std::int32_t first_cycle) {
+  if (impl_->code->is_full()) renew(board);
   board.stop = false;
   const std::int32_t limit = board.translated.limit = board.overlong_cycle() - kMargin;
   board.translated.first_line = board.state.tia.origin / 3;
-  const std::int32_t first_cycle = board.state.cycle;
   while (!board.stop && !board.state.cpu.jammed) {
     if (board.state.cycle >= limit) {
       interpret(board, instructions - (board.state.cycle - first_cycle) / kFewestCycles);
@@ -126,9 +155,18 @@ bool Translator::run(Board& board, std::int32_t instructions) {
     }
     const void* start = impl_->entry(board);
     if (start != nullptr && !impl_->enter(board, start)) continue;
-    if (!board.stop) interpret(board, start != nullptr ? 1 : kElsewhere);
+    if (!board.stop) interpret(board, start != nullptr ? 1 : impl_->budget.allows() ? kElsewhere : kWithoutBudget);
   }
   return true;
+}
+
+// A new generation of code, since the old one is full. The budget goes on.
+void Translator::renew(Board& board) {
+  Budget budget = impl_->budget;
+  budget.spend_on_generation();
+  if (!budget.allows()) return;
+  impl_ = std::make_unique<Impl>(board);
+  impl_->budget = budget;
 }
 
 void Translator::set_code_capacity(std::size_t bytes) { translator::set_code_capacity(bytes); }

@@ -34,6 +34,8 @@ class Translator {
 
  private:
   struct Impl;
+  bool run_on(Board& board, std::int32_t instructions, std::int32_t first_cycle);
+  void renew(Board& board);
   explicit Translator(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
