@@ -134,7 +134,7 @@ void ClassicSession::save_state() {
 void ClassicSession::load_state() {
   if (saved_.empty()) {
     throw ClassicError(kMalformedStatus,
-                       "the client loads a state (44), but none is left of those it saved (43); the newest " +
+                       "the client loads a state (44), but has not saved one (43) that is left; the newest " +
                            std::to_string(kMostClassicStates) + " are kept");
   }
   environment_.restore_classic(*saved_.back());
