@@ -42,7 +42,7 @@ struct ModeProgram {
   std::vector<Statement> statements;
 };
 
-// Of all loops of one run. The games of the catalogue take 272 at most (maze_craze), so that more means that the image is not
+// Of all loops of one run. The games of the catalogue take 683 at most (video_cube), so that more means that the image is not
 // the one the program was written for.
 constexpr int kModeTurns = 1000;
 
