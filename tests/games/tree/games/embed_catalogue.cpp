@@ -1,1 +1,0 @@
-/work/main/games/embed_catalogue.cpp

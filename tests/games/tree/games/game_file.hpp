@@ -1,1 +1,0 @@
-/work/main/games/game_file.hpp

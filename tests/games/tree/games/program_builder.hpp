@@ -1,1 +1,0 @@
-/work/main/games/program_builder.hpp
