@@ -18,8 +18,6 @@ NOT_COMPARABLE = (
                "reached, acts are refused and the reference never comes back"),
     Gap(("atlantis2",), "lifeloss", "the lives that the reference compares with are uninitialised: it ends "
                "episodes differently from run to run"),
-    Gap(("air_raid",), "averaging", "OPEN FAULT, cause not found: four pixels of the first averaged picture differed twice in "
-               "whole runs of the plan, and not in the same run alone; to be compared again once it is understood"),
 )
 
 

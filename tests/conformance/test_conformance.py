@@ -7,6 +7,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import reference_python  # isort: skip
 
 reference_python.require("ale_py", "numpy")
+reference_python.zero_new_memory()
 
 import json
 import os

@@ -6,6 +6,7 @@ import pathlib
 import sys
 
 SKIPPED = 77  # the exit status that ctest reads as "skipped"
+ZEROS = "255"  # MALLOC_PERTURB_ (mallopt(3)): new memory holds the complement of this byte
 OF_SCRIPTS_REFERENCE = pathlib.Path(__file__).resolve().parents[2] / ".venv/bin/python"
 
 
@@ -19,3 +20,14 @@ def require(*modules):
         os.execv(OF_SCRIPTS_REFERENCE, [str(OF_SCRIPTS_REFERENCE), "-B", *sys.argv])
     print(f"SKIPPED: there is nothing to compare with: {' and '.join(missing)} not installed (scripts/reference)")
     sys.exit(SKIPPED)
+
+
+def zero_new_memory():
+    """Returns if the C library of this process fills new memory with zeros; else the program begins again so that it does.
+
+    The reference reads memory that it never set: averaging looks up an unset entry of its table wherever an index is odd,
+    as in PAL pictures that lost their colour (docs/spec-notes.md). Fresh memory happens to be zero, reused memory is not.
+    """
+    if os.environ.get("MALLOC_PERTURB_") != ZEROS:
+        os.environ["MALLOC_PERTURB_"] = ZEROS
+        os.execv(sys.executable, [sys.executable, "-B", *sys.argv])
