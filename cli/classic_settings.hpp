@@ -1,4 +1,4 @@
-// The command line and the configuration files of ALE 0.4-0.6 (spec: classic-protocol.md, section 7).
+// The command line and the configuration files of ALE 0.4-0.6 (docs/spec/classic-protocol.md, 7).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Addressing modes: each makes its own bus reads and returns the effective address (spec: cpu.md, section 4).
+// Addressing modes: each makes its own bus reads and returns the effective address (docs/spec/cpu.md, 4).
 // kPenalty: the instruction only reads, so that crossing a page costs a cycle.
 #pragma once
 

@@ -192,7 +192,8 @@ RACEBEAM_INLINE void Beam::collide(int first, int last) {
   tia_.collisions |= found;
 }
 
-// The reference writes some pixels four at a time, and so up to three beyond the span (tia.md, "Provisional pixels").
+// The reference writes some pixels four at a time, and so up to three beyond the span (docs/spec/tia.md,
+// "Provisional pixels").
 void Beam::spill(std::uint8_t* row, int first, int last) {
   const int group = last & ~3;
   if (group == last || group < first || !writes_groups(tia_.enabled, tia_.ctrlpf)) return;
@@ -236,7 +237,7 @@ void Beam::act_on_line_end() {
   if (tia_.cosmic) advance_cosmic();
 }
 
-// Missile 0 keeps moving 17 clocks a line, in a pattern of four (tia.md, section 9).
+// Missile 0 keeps moving 17 clocks a line, in a pattern of four (docs/spec/tia.md, 9).
 void Beam::advance_cosmic() {
   static constexpr std::uint8_t kStep[4] = {18, 33, 0, 17};
   static constexpr CosmicShape kShape[4] = {CosmicShape::kNormal, CosmicShape::kStretched, CosmicShape::kHidden,

@@ -1,5 +1,5 @@
 // The beam: draws the picture up to a colour clock, line by line, from the registers as they stand
-// (spec: tia.md, sections 3, 5 and 6).
+// (docs/spec/tia.md, 3, 5 and 6).
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,9 @@ constexpr int kBlankClocks = 68;  // of each line, before its first pixel
 enum class Pixels : std::uint8_t {
   kNone,   // its pixels are not wanted: they stay as they were
   kDrawn,
-  kExact,  // step by step as the reference draws, pixels beyond a span's end included (tia.md, "Provisional pixels")
+  // Step by step as the reference draws, pixels beyond a span's end included (docs/spec/tia.md, "Provisional
+  // pixels").
+  kExact,
 };
 
 // How a console makes its picture; constant once its format is known.

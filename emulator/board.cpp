@@ -102,8 +102,8 @@ void Board::begin_step(Picture& picture, const Picture* other, WriteLog& scratch
 }
 
 // Writes that repeat what a register holds leave no trace in the log, but they end a span of drawing, up to 5 clocks
-// ahead (tia.md, section 4), and that is seen where the picture stops in the window. An access that closes the frame is
-// at least 9 clocks later.
+// ahead (docs/spec/tia.md, 4), and that is seen where the picture stops in the window. An access that closes
+// the frame is at least 9 clocks later.
 void Board::end_step() {
   const bool closed = !state.frame.open && last_access_ == state.cycle;
   if (closed && !exact_) {
@@ -141,7 +141,7 @@ const std::uint8_t* Board::locate_code(std::uint16_t pc, std::uint8_t latch, std
   return find_code(pc) ? code.memory + static_cast<std::uint16_t>(pc - code.first) : fetch_slowly(pc, latch, cycle);
 }
 
-// The opcode is read before its cycles are counted, the operand after (cpu.md, section 3).
+// The opcode is read before its cycles are counted, the operand after (docs/spec/cpu.md, 3).
 const std::uint8_t* Board::fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
   fetched_latches_ |= (pc & 0x1088) == 0;
   const std::uint8_t opcode = fetched_[0] = read(pc, latch, cycle);
@@ -208,7 +208,7 @@ std::uint8_t Board::read_riot(std::uint16_t address, std::int32_t cycle) {
   }
 }
 
-// The ports come first and ignore A4 (riot.md, section 1).
+// The ports come first and ignore A4 (docs/spec/riot.md, 1).
 void Board::write_riot(std::uint16_t address, std::uint8_t value, std::int32_t cycle) {
   if ((address & 7) == 1) state.riot.swacnt = value;
   else if ((address & 0x14) == 0x14) Timer(state.riot, cycle).set(value, kTimerShift[address & 3]);

@@ -1,4 +1,5 @@
-// The board as the CPU sees it: decodes addresses and owns the chips (spec: cpu.md section 2, riot.md, tia.md).
+// The board as the CPU sees it: decodes addresses and owns the chips (docs/spec/cpu.md, 2;
+// docs/spec/riot.md; docs/spec/tia.md).
 #pragma once
 
 #include <array>
@@ -72,7 +73,7 @@ class Board {
   std::int32_t overlong_cycle() const { return overlong_cycle_; }
   translator::Context translated;
 
-  void open_frame();  // tia.md section 2, step action 1, with the pictures exchanged already
+  void open_frame();  // docs/spec/tia.md, 2: action 1 of a step, with the pictures exchanged already
   void turn_back_clocks(std::int32_t cycles);
   // A step: begin_step(), then what the CPU does, then end_step(), which leaves the picture drawn as far as the
   // reference has drawn it. If needs_exact_step(), what the reference draws ahead of the beam can be seen: then the

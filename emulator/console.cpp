@@ -19,7 +19,7 @@ bool is_pal(Format format) { return format == Format::kPal || format == Format::
 
 }  // namespace
 
-// console.md, section 1.
+// docs/spec/console.md, 1.
 void Console::Impl::power_up() {
   for (std::uint8_t& byte : state().riot.ram) byte = static_cast<std::uint8_t>(power_on.draw(state().drawn));
   set_timer();
@@ -32,7 +32,7 @@ void Console::Impl::power_up() {
   reset();
 }
 
-// riot.md, section 2: 25 to 99 intervals of 64 cycles.
+// docs/spec/riot.md, 2: 25 to 99 intervals of 64 cycles.
 void Console::Impl::set_timer() {
   RiotState& riot = state().riot;
   riot.timer = static_cast<std::uint8_t>(25 + power_on.draw(state().drawn) % 75);
@@ -43,7 +43,7 @@ void Console::Impl::set_timer() {
   riot.swacnt = 0;
 }
 
-// console.md, section 2. RIOT RAM, sound and an unfinished frame live through it.
+// docs/spec/console.md, 2. RIOT RAM, sound and an unfinished frame live through it.
 void Console::Impl::reset() {
   const std::uint8_t open = state().frame.open, greyed = state().frame.greyed;
   state().cycle = 0;

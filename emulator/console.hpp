@@ -1,4 +1,4 @@
-// The board: a cartridge, the three chips, and the frame (spec: console.md, tia.md section 2).
+// The board: a cartridge, the three chips, and the frame (docs/spec/console.md; docs/spec/tia.md, 2).
 #pragma once
 
 #include <array>
@@ -20,19 +20,20 @@ namespace racebeam {
 
 class Console {
  public:
-  // Builds the console around an image, as console.md section 1 says: power-on RAM, format detection, system reset.
-  // Throws std::invalid_argument when no cartridge scheme fits the image. `power_on` must outlive the console.
-  // cpu: what runs the instructions; kTranslator throws std::system_error where code can't be translated. pace: is told of
-  // every step, those of format detection too, and must outlive the console; null: none.
+  // Builds the console around an image, as docs/spec/console.md, 1 says: power-on RAM, format detection,
+  // system reset. Throws std::invalid_argument when no cartridge scheme fits the image. `power_on` must
+  // outlive the console. cpu: what runs the instructions; kTranslator throws std::system_error where code
+  // can't be translated. pace: is told of every step, those of format detection too, and must outlive the
+  // console; null: none.
   Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on,
           CpuKind cpu = CpuKind::kAuto, Pace* pace = nullptr);
   ~Console();
 
-  void reset();  // system reset, console.md section 2
+  void reset();  // system reset, docs/spec/console.md, 2
 
-  // Runs until a frame closes (tia.md section 2). draw: its picture will be looked at. Without, all is the same and
-  // picture() too, but it must then run the frame again: what will mostly not be looked at costs less.
-  // Where drawing costs less all the same, it is drawn, unless it is to be followed in any case.
+  // Runs until a frame closes (docs/spec/tia.md, 2). draw: its picture will be looked at. Without, all is the
+  // same and picture() too, but it must then run the frame again: what will mostly not be looked at costs
+  // less. Where drawing costs less all the same, it is drawn, unless it is to be followed in any case.
   void step(bool draw = true, bool follow = false);
 
   Inputs& inputs();               // what is pressed from now on

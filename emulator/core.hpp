@@ -49,7 +49,7 @@ struct Core {
     set_status(on.state.cpu.P);
   }
 
-  // T: at the end of the instruction from its second bus access on (cpu.md, section 3).
+  // T: at the end of the instruction from its second bus access on (docs/spec/cpu.md, 3).
   RACEBEAM_INLINE std::int32_t cycle() const { return static_cast<std::int32_t>(clock >> kCycleBit); }
 
   // A cycle more if bit 8 of `carry` is set.

@@ -1,4 +1,4 @@
-// The 6507: an instruction-granular interpreter (spec: cpu.md).
+// The 6507: an instruction-granular interpreter (docs/spec/cpu.md).
 #pragma once
 
 #include "emulator/board.hpp"

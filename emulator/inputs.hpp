@@ -9,7 +9,7 @@ namespace racebeam {
 // Bits of Inputs::joystick; a set bit is pressed.
 constexpr std::uint8_t kStickUp = 1, kStickDown = 2, kStickLeft = 4, kStickRight = 8, kStickFire = 16;
 
-// Bits of Inputs::switches, as SWCHB has them (riot.md, section 6): RESET and SELECT are 1 when released.
+// Bits of Inputs::switches, as SWCHB has them (docs/spec/riot.md, 6): RESET and SELECT are 1 when released.
 constexpr std::uint8_t kSwitchReset = 0x01, kSwitchSelect = 0x02, kSwitchColor = 0x08;
 constexpr std::uint8_t kSwitchLeftA = 0x40, kSwitchRightA = 0x80;
 constexpr std::uint8_t kSwitchesAtRest = 0x3F;  // all released, both difficulties B, colour

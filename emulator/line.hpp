@@ -1,4 +1,4 @@
-// One line's objects and their collisions (spec: tia.md, section 11).
+// One line's objects and their collisions (docs/spec/tia.md, 11).
 #pragma once
 
 #include <array>

@@ -13,7 +13,7 @@ constexpr bool draws(unsigned reg) {
   return reg <= CXCLR && !(reg >= AUDC0 && reg <= AUDV1) && reg != VSYNC && reg != WSYNC && reg != RSYNC;
 }
 
-// The most colour clocks between a write and its effect (tia.md, sections 4 and 8).
+// The most colour clocks between a write and its effect (docs/spec/tia.md, 4 and 8).
 constexpr int longest_delay(unsigned reg) {
   if (reg == RESP0 || reg == RESP1) return 11;
   if (reg == NUSIZ0 || reg == NUSIZ1 || reg == RESM0 || reg == RESM1) return 8;

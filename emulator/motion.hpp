@@ -1,5 +1,5 @@
 // How far HMOVE moves an object: a table by the cycle of the strobe within its line and the motion nibble
-// (spec: tia.md, section 9).
+// (docs/spec/tia.md, 9).
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The six objects of a line as masks, made from the registers (spec: tia.md, section 7).
+// The six objects of a line as masks, made from the registers (docs/spec/tia.md, 7).
 #pragma once
 
 #include <array>
@@ -56,7 +56,7 @@ void draw_player(PixelMask& mask, const PlayerState& player);
 void draw_missile(PixelMask& mask, const TiaState& tia, unsigned which);
 void draw_ball(PixelMask& mask, const TiaState& tia);
 
-// The pixels of an object's shape whatever its graphics (tia.md section 6, "Provisional pixels").
+// The pixels of an object's shape whatever its graphics (docs/spec/tia.md, "Provisional pixels").
 PixelMask player_shape(const PlayerState& player);
 
 // Offsets of the copies that NUSIZx bits 0-2 ask for; unused places repeat offset 0.

@@ -1,5 +1,5 @@
-// What each instruction does with its operand (spec: cpu.md, sections 6 to 9). The signature is that of its kind of
-// access in opcodes.inc; names are the mnemonics there.
+// What each instruction does with its operand (docs/spec/cpu.md, 6 to 9). The signature is that of its kind
+// of access in opcodes.inc; names are the mnemonics there.
 #pragma once
 
 #include "emulator/core.hpp"
@@ -198,7 +198,7 @@ RACEBEAM_INLINE bool bcs(Core& cpu) { return cpu.C != 0; }
 RACEBEAM_INLINE bool bne(Core& cpu) { return !cpu.is_zero(); }
 RACEBEAM_INLINE bool beq(Core& cpu) { return cpu.is_zero(); }
 
-// Stack and jumps, in the order of accesses of cpu.md, section 4.
+// Stack and jumps, in the order of accesses of docs/spec/cpu.md, 4.
 RACEBEAM_INLINE void pha(Core& cpu) { cpu.push(cpu.A); }
 RACEBEAM_INLINE void php(Core& cpu) { cpu.push(cpu.status()); }
 RACEBEAM_INLINE void pla(Core& cpu) {

@@ -1,4 +1,4 @@
-// What the bytes of a picture look like: colour, grey, and the blend of two pictures (spec: palette.md).
+// What the bytes of a picture look like: colour, grey, and the blend of two pictures (docs/spec/palette.md).
 #pragma once
 
 #include <array>

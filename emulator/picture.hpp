@@ -27,7 +27,7 @@ struct FrameStart {
 class Picture {
  public:
   // All of its rows, one after the other: those of the window, and those that a reset has shifted it down by, if ever
-  // (tia.md, section 2).
+  // (docs/spec/tia.md, 2).
   std::span<std::uint8_t> pixels() { return {reinterpret_cast<std::uint8_t*>(rows_.data()), sizeof(Row) * rows()}; }
   std::span<const std::uint8_t> pixels() const {
     return {reinterpret_cast<const std::uint8_t*>(rows_.data()), sizeof(Row) * rows()};

@@ -17,8 +17,8 @@ constexpr std::uint8_t kScoreMode = 2, kPriorityMode = 4;  // bits of CTRLPF
 constexpr PixelMask kLeftHalf = {{~std::uint64_t{0}, 0xFFFF, 0}};
 constexpr PixelMask kRightHalf = {{0, ~std::uint64_t{0xFFFF}, 0xFFFFFFFF}};
 
-// Who hides whom (spec: tia.md, section 10). In score mode each half of the playfield belongs to a player; unless it has
-// priority, and there is anything to have it over.
+// Who hides whom (docs/spec/tia.md, 10). In score mode each half of the playfield belongs to a player; unless
+// it has priority, and there is anything to have it over.
 enum class Order { kPlayersInFront, kPlayfieldInFront, kScore };
 
 RACEBEAM_INLINE Order order_of(const TiaRegisters& tia) {

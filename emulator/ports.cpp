@@ -45,7 +45,8 @@ bool Ports::pot(const Inputs& inputs, int number, std::uint32_t cycle, std::uint
   if (port.controller == Controller::kJoystick) return false;
   const std::int32_t ohms = inputs.paddle[static_cast<std::size_t>(paddle(port, number % 2))];
   if (ohms == 0) return true;
-  // Unsigned on purpose: a release in an earlier frame is a huge number and never reached (tia.md, section 11).
+  // Unsigned on purpose: a release in an earlier frame is a huge number and never reached (docs/spec/tia.md,
+  // 11).
   return !dumping && cycle > release + charge_cycles(ohms);
 }
 

@@ -1,4 +1,5 @@
-// The two controller ports: which pin reads what (spec: riot.md section 5, console.md section 5, tia.md section 11).
+// The two controller ports: which pin reads what (docs/spec/riot.md, 5; docs/spec/console.md, 5;
+// docs/spec/tia.md, 11).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Where the random contents of a machine that is switched on come from (spec: riot.md, section 2).
+// Where the random contents of a machine that is switched on come from (docs/spec/riot.md, 2).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // What a console must be told about a cartridge that its bytes do not say: controllers, picture window, format.
-// The defaults are those of the reference for an image that it has no entry for (spec: cartridges.md, section 3).
+// The defaults are those of the reference for an image that it has no entry for (docs/spec/cartridges.md, 3).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace racebeam {
 
 enum class Controller : std::uint8_t { kJoystick, kPaddles };
 
-// The television standard. kAuto: run 60 frames and look how many of them are long (console.md, section 1).
+// The television standard. kAuto: run 60 frames and look how many of them are long (docs/spec/console.md, 1).
 enum class Format : std::uint8_t { kAuto, kNtsc, kPal, kPal60, kSecam };
 
 struct Properties {

@@ -1,4 +1,4 @@
-// What a write to each register of the TIA does to the picture's state (spec: tia.md, sections 4 and 7 to 9).
+// What a write to each register of the TIA does to the picture's state (docs/spec/tia.md, 4 and 7 to 9).
 // A Painter is told, before and after (painters.hpp).
 #pragma once
 
@@ -47,7 +47,7 @@ class RegisterEffects {
   // CPU cycle within the line, 0-75. The origin is a multiple of three.
   int line_cycle(std::int32_t cycle) const { return (cycle - first_cycle_) % kLineCycles; }
 
-  // On odd line counts PAL loses its colour (tia.md, section 12).
+  // On odd line counts PAL loses its colour (docs/spec/tia.md, 12).
   std::uint8_t color_loss() const { return video_.pal ? frame_.lines & 1 : 0; }
 
   // The control of these objects has been written: they are enabled now, or not.

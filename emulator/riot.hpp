@@ -1,4 +1,5 @@
-// The 6532: RAM, timer and ports (spec: riot.md). Nothing ticks: the timer is arithmetic on the cycle counter.
+// The 6532: RAM, timer and ports (docs/spec/riot.md). Nothing ticks: the timer is arithmetic on the cycle
+// counter.
 #pragma once
 
 #include <cstdint>

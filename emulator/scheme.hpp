@@ -1,5 +1,5 @@
 // What a cartridge scheme is: one record. A cartridge shows plain memory to the CPU through the memory map and acts
-// only where its pages are hidden: hot spots and write ports (spec: cartridges.md).
+// only where its pages are hidden: hot spots and write ports (docs/spec/cartridges.md).
 #pragma once
 
 #include <algorithm>

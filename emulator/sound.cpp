@@ -20,7 +20,7 @@ void clock_poly5(std::uint8_t& b) {
   }
 }
 
-// What a waveform does with the register that is heard: A and B in audio.md, section 4.
+// What a waveform does with the register that is heard: A and B in docs/spec/audio.md, 4.
 void one(Channel& c) { shift_in(c.poly4, 1); }
 void divide_by_2(Channel& c) { shift_in(c.poly4, 1 - bit(c.poly4, 0)); }
 void poly5_bit4(Channel& c) { shift_in(c.poly4, bit(c.poly5, 4)); }

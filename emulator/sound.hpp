@@ -1,4 +1,4 @@
-// The TIA's two sound channels and the block of samples made from them (spec: audio.md).
+// The TIA's two sound channels and the block of samples made from them (docs/spec/audio.md).
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ struct Sound {
 
   struct Channel {
     std::uint8_t divider = 0;   // ticks since the shift registers were clocked
-    std::uint8_t poly4 = 1;     // A in audio.md
-    std::uint8_t poly5 = 1;     // B in audio.md
+    std::uint8_t poly4 = 1;     // A in docs/spec/audio.md
+    std::uint8_t poly5 = 1;     // B in docs/spec/audio.md
   };
   std::array<Channel, 2> channel{};
 

@@ -62,7 +62,7 @@ struct TiaRegisters {
   BallState ball;
   std::uint8_t vblank = 0;         // VBLANK bit 1
   std::uint8_t comb_armed = 0;     // the next line start is blanked by an HMOVE
-  std::uint8_t cosmic = 0;         // missile 0 moves by itself (tia.md, "Cosmic Ark mode")
+  std::uint8_t cosmic = 0;         // missile 0 moves by itself (docs/spec/tia.md, "Cosmic Ark mode")
   std::uint8_t cosmic_count = 0;
   CosmicShape cosmic_shape = CosmicShape::kNormal;
   std::uint8_t enabled = 0;        // enabled_objects(), kept up to date

@@ -71,7 +71,7 @@ void check_registers(const TiaRegisters& tia) {
 }
 
 // The beam's clock, what is left of its line, and the next pixel belong together. A picture is drawn from the
-// window's start on or, if a reset came upon an unfinished one, from clock 0 (tia.md, section 2).
+// window's start on or, if a reset came upon an unfinished one, from clock 0 (docs/spec/tia.md, 2).
 void check_beam(const TiaState& tia, const Video& video) {
   check_range("the frame's origin", tia.origin, 1 - kLineClocks, 0);
   check_range("the frame's origin modulo 3", tia.origin % 3, 0, 0);

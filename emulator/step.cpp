@@ -1,5 +1,5 @@
-// Running a frame, with its pixels or without (spec: tia.md, section 2). A frame whose pixels nobody has asked for
-// leaves its start in the picture, and is run again when somebody asks.
+// Running a frame, with its pixels or without (docs/spec/tia.md, 2). A frame whose pixels nobody has asked
+// for leaves its start in the picture, and is run again when somebody asks.
 #include "emulator/console_impl.hpp"
 #include "emulator/cpu.hpp"
 #include "emulator/motion.hpp"
@@ -34,7 +34,8 @@ void Console::Impl::step(bool looked_at, bool follow) {
     latches.sought |= board.tia.asked();
     note_latches(start, kAllPairs);
   }
-  state().cpu.latch = state().riot.ram.back();  // RAM is looked at over the bus after each step (console.md, section 4)
+  // The agent reads RAM over the bus after each step (docs/spec/console.md, 4).
+  state().cpu.latch = state().riot.ram.back();
   if (!frame.open) {
     frame.lines = (3 * state().cycle - state().tia.origin) / kLineClocks;
     frame.greyed = 0;

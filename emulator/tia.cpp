@@ -274,7 +274,7 @@ void Tia::close_record() {
   recorded_ = nullptr;
 }
 
-// tia.md, section 2, "Greying": what is seen when the processor stands still in the middle of a picture.
+// docs/spec/tia.md, "Greying": what is seen when the processor stands still in the middle of a picture.
 void Tia::grey(Picture& picture, std::int32_t cycle) const {
   const int line = (3 * cycle - tia_.origin) / kLineClocks;
   const int first = std::clamp(line - video_.ystart, 0, video_.height);

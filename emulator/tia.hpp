@@ -1,5 +1,5 @@
-// The TIA's picture side: plays the log of register writes on the beam, line by line (spec: tia.md, sections 4 to 6).
-// Sound, WSYNC, VSYNC and the paddles' capacitors, which the CPU sees at once, are the board's.
+// The TIA's picture side: plays the log of register writes on the beam, line by line (docs/spec/tia.md, 4 to
+// 6). Sound, WSYNC, VSYNC and the paddles' capacitors, which the CPU sees at once, are the board's.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class Tia {
   Tia(TiaState& state, const FrameState& frame, const Video& video)
       : tia_(state), frame_(frame), video_(video), beam_(state, video) {}
 
-  void begin_frame();  // the cursor, and the colour loss of PAL (tia.md, section 12)
+  void begin_frame();  // the cursor, and the colour loss of PAL (docs/spec/tia.md, 12)
 
   // Pixels go to `picture`, writes come in `log`. Pixels::kExact: the picture shows what the reference has drawn ahead
   // of the beam at every access; then each write must be played, and each read touched, before the next.

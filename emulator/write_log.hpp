@@ -49,7 +49,8 @@ struct WriteLog {
     return table;
   }();
 
-  // A new value in these makes a write of the other one do something again: it moves the value on (tia.md, section 7).
+  // A new value in these makes a write of the other one do something again: it moves the value on
+  // (docs/spec/tia.md, 7).
   static constexpr std::uint8_t kNobody = 0x3F;
   static constexpr std::array<std::uint8_t, 64> kDisturbed = [] {
     std::array<std::uint8_t, 64> table{};

@@ -1,4 +1,4 @@
-// One agent step (spec: environment.md, sections 4 and 5).
+// One agent step (docs/spec/environment.md, 4 and 5).
 #include <algorithm>
 #include <limits>
 

@@ -1,4 +1,4 @@
-// Area averaging as OpenCV's INTER_AREA does it, to the byte (spec: environment.md, section 15).
+// Area averaging as OpenCV's INTER_AREA does it, to the byte (docs/spec/environment.md, 15).
 #pragma once
 
 #include <array>

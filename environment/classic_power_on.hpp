@@ -1,5 +1,5 @@
 // Random contents as in ALE 0.4 to 0.6, where one generator served the machine and the sticky actions
-// (spec: classic-protocol.md, section 6, rules 1 and 2).
+// (docs/spec/classic-protocol.md, 6, rules 1 and 2).
 #pragma once
 
 

@@ -1,5 +1,5 @@
 // An agent's view of one game: actions in; rewards, screens, RAM and the end of the episode out.
-// Everything here follows ALE 0.12 (spec: environment.md), where not said otherwise.
+// Everything here follows ALE 0.12 (docs/spec/environment.md), where not said otherwise.
 #pragma once
 
 #include <array>
@@ -38,8 +38,8 @@ class Environment {
   Environment(Environment&&) noexcept;
   Environment& operator=(Environment&&) noexcept;
 
-  // One agent step of `frame_skip` frames. a: 0-17, b: 18-35 (environment.md, section 1). Returns the clamped
-  // sum of rewards.
+  // One agent step of `frame_skip` frames. a: 0-17, b: 18-35 (docs/spec/environment.md, 1). Returns the
+  // clamped sum of rewards.
   int act(int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
   // What both players got for the last act, clamped like its answer, which is `a`. `b` is 0 in games whose
   // rule has no second player.
@@ -120,7 +120,7 @@ class Environment {
   std::shared_ptr<const Saved> save_classic() const;
 
   // The classic server's LOAD_STATE: like restore, but screen and RAM answered stay those from before it
-  // until the next frame, and stored sticky actions stay (classic-protocol.md, section 4).
+  // until the next frame, and stored sticky actions stay (docs/spec/classic-protocol.md, 4).
   void restore_classic(const Saved& saved);
 
  private:

@@ -1,5 +1,5 @@
-// Actions on their way to the console's ports and switches (spec: environment.md, section 2; console.md,
-// section 5).
+// Actions on their way to the console's ports and switches (docs/spec/environment.md, 2;
+// docs/spec/console.md, 5).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// One machine of a Batch: the frame loop of the reference's vector environment (spec: environment.md, section 15).
+// One machine of a Batch: the frame loop of the reference's vector environment (docs/spec/environment.md,
+// 15).
 #pragma once
 
 #include "environment/batch.hpp"

@@ -1,4 +1,4 @@
-// Which action numbers a game takes, and what becomes of the others (spec: environment.md, section 1).
+// Which action numbers a game takes, and what becomes of the others (docs/spec/environment.md, 1).
 #pragma once
 
 #include <cstdint>

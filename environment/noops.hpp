@@ -1,5 +1,5 @@
-// How many frames pass before an agent may act: drawn as the reference's vector environment draws them (spec:
-// environment.md, section 15), so that the same seed gives the same episodes.
+// How many frames pass before an agent may act: drawn as the reference's vector environment draws them
+// (docs/spec/environment.md, 15), so that the same seed gives the same episodes.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The two paddles that actions can turn: player A's and player B's (spec: environment.md, section 2).
+// The two paddles that actions can turn: player A's and player B's (docs/spec/environment.md, 2).
 #pragma once
 
 #include <algorithm>

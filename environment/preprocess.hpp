@@ -1,5 +1,5 @@
 // Screens as learning agents take them: small, grey, the brighter of two frames, several in a stack
-// (spec: environment.md, section 15; the figures of OpenCV's INTER_AREA).
+// (docs/spec/environment.md, 15; the figures of OpenCV's INTER_AREA).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What the two players ask for, and what they get: sticky actions (spec: environment.md, sections 3 and 4).
+// What the two players ask for, and what they get: sticky actions (docs/spec/environment.md, 3 and 4).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The way to the first frame of an episode (spec: environment.md, section 7).
+// The way to the first frame of an episode (docs/spec/environment.md, 7).
 #include "emulator/scheme.hpp"
 #include "environment/impl.hpp"
 #include "games/mode_program.hpp"

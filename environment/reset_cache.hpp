@@ -1,6 +1,6 @@
 // Resets as copies. A reset runs 60 to 100 frames from a machine that was just switched on, and these are the same
 // whenever they start from the same state. So the state they lead to is kept, with what it came from, and
-// copied when that comes again (design: performance.md, 10).
+// copied when that comes again.
 //
 // Where a reset starts differs by what the episode before left in RAM, by the timer, which is random, and by the
 // sound registers. Most programs overwrite these before they look at them; where that is proven (boot_study.hpp),

@@ -1,5 +1,5 @@
-// States in memory: copies of values, and pictures that are shared until they are drawn on again (spec:
-// environment.md, section 13, for what the reference leaves out).
+// States in memory: copies of values, and pictures that are shared until they are drawn on again
+// (docs/spec/environment.md, 13, for what the reference leaves out).
 #include <algorithm>
 #include <stdexcept>
 

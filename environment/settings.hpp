@@ -1,4 +1,4 @@
-// What an environment can be told before an image is loaded (spec: environment.md, section 14).
+// What an environment can be told before an image is loaded (docs/spec/environment.md, 14).
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,7 @@ struct Settings {
   int paddle_max = -1;
   CpuKind cpu = CpuKind::kAuto;  // what runs the instructions; it changes nothing but the speed
   // ALE 0.4-0.6: one generator for machine and stickiness, sticky actions survive a reset, and so on
-  // (spec: classic-protocol.md, section 6).
+  // (docs/spec/classic-protocol.md, 6).
   bool classic = false;
 };
 

@@ -1,4 +1,4 @@
-// The names and numbers of what an agent can do (spec: environment.md, section 1).
+// The names and numbers of what an agent can do (docs/spec/environment.md, 1).
 #pragma once
 
 #include <optional>

@@ -48,7 +48,8 @@ Game with_image(Game game, const GameImage& image) {
   return game;
 }
 
-// Whatever plays by the game's rule, the console is told what is known about the image (spec: console.md).
+// Whatever plays by the game's rule, the console is told what is known about the image
+// (docs/spec/console.md).
 std::shared_ptr<const Game> with_properties_of(const Image& image, std::shared_ptr<const Game> game) {
   const CatalogueImage* const known = known_image(image.md5);
   if (known == nullptr || describes(*game, image)) return game;

@@ -7,7 +7,7 @@
 namespace racebeam {
 namespace {
 
-// Dumps whose two banks lie in the wrong order, whatever they are called (spec: cartridges.md, section 1).
+// Dumps whose two banks lie in the wrong order, whatever they are called (docs/spec/cartridges.md, 1).
 constexpr std::string_view kSwappedImages[] = {"bc24440b59092559a1ec26055fd1270e", "75ee371ccfc4f43e7d9b8f24e1266b55"};
 
 // An entry with the image's own MD5 goes before one that fits any image.

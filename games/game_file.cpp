@@ -13,7 +13,7 @@ namespace racebeam {
 namespace {
 
 constexpr int kLargestMode = 65535, kLargestDifficulty = 3;
-// The picture buffer has 300 lines (tia.md, section 2), and PAL makes 250 of the usual 210.
+// The picture buffer has 300 lines (docs/spec/tia.md, 2), and PAL makes 250 of the usual 210.
 constexpr int kPictureLines = 300;
 constexpr int kLastYStart = kPictureLines - 250, kLeastHeight = 100, kMostHeight = 256;
 

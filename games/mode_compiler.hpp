@@ -1,4 +1,4 @@
-// Compiles mode programs (games/catalogue/README.md, "[mode]").
+// Compiles mode programs (games/catalogue/README.md, "`[mode]`").
 #pragma once
 
 #include <string_view>

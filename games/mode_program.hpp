@@ -1,5 +1,5 @@
-// How a game variation is put in place during a reset: SELECT presses, waits and checks (spec:
-// games/README.md, 3).
+// How a game variation is put in place during a reset: SELECT presses, waits and checks
+// (docs/spec/games/README.md, 3).
 #pragma once
 
 #include <cstdint>

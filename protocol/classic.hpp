@@ -1,5 +1,5 @@
-// One session of the text protocol of ALE 0.4 to 0.6 (spec: classic-protocol.md; for clients: CLASSIC.md).
-// It has never heard of files and sockets: bytes go in, lines of text come out.
+// One session of the text protocol of ALE 0.4 to 0.6 (docs/spec/classic-protocol.md; for clients:
+// protocol/CLASSIC.md). It has never heard of files and sockets: bytes go in, lines of text come out.
 #pragma once
 
 #include <deque>
@@ -37,7 +37,7 @@ struct ClassicOptions {
   std::function<void(const Environment&)> record = {};
 };
 
-// A save at each action of an episode of 18,000 frames with a frame skip of 5 fits; see CLASSIC.md.
+// A save at each action of an episode of 18,000 frames with a frame skip of 5 fits; see protocol/CLASSIC.md.
 constexpr std::size_t kMostClassicStates = 4096;
 
 class ClassicSession {

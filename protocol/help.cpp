@@ -25,7 +25,7 @@ std::string list_of(Words names) {
   return list;
 }
 
-// The tables are also those of PROTOCOL.md, which marks words.
+// The tables are also those of protocol/PROTOCOL.md, which marks words.
 std::string plain(std::string text) {
   std::erase(text, '`');
   return text;

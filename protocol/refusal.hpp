@@ -1,4 +1,5 @@
-// How the line protocol says no: `error CODE sentence`. PROTOCOL.md lists the codes; a test compares.
+// How the line protocol says no: `error CODE sentence`. protocol/PROTOCOL.md lists the codes; a test
+// compares.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// The run-length text of a screen, from its lines (design: performance.md, 12). Of each row of 160 pixels it is
+// The run-length text of a screen, from its lines. Of each row of 160 pixels it is
 // found first where runs begin and whether the row equals the one above, many rows at a time and in SIMD where
 // the processor has it; the text is then made from that. A row that equals the one above, and begins
 // within a run that is as long, has the text that the one above has. Most rows do.

@@ -1,4 +1,4 @@
-// WAV: 8-bit mono, 512 samples a frame, as the reference records (spec: environment.md, section 12).
+// WAV: 8-bit mono, 512 samples a frame, as the reference records (docs/spec/environment.md, 12).
 #include <vector>
 
 #include "emulator/sound.hpp"

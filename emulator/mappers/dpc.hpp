@@ -4,7 +4,7 @@
 //
 //   $1000-$103F read: function (address >> 3 & 7) of fetcher (address & 7); $1040-$107F written: its registers
 //
-// (spec: cartridges.md, section 8)
+// (docs/spec/cartridges.md, 8)
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // MC, Chris Wilkson's Megacart. Four windows of 1K, each with a block number, which is written to $003C-$003F. $80 and
 // up is a block of 1K of the 128K of ROM; below are blocks of 512 bytes of the 32K of RAM, written in the lower half of
 // the window and read in the upper. Touching the reset vector puts the last block of ROM into the fourth window until
-// another window is touched. Reads of $0000-$003F give 0, writes to them stay in the cartridge (spec: cartridges.md,
-// section 10).
+// another window is touched. Reads of $0000-$003F give 0, writes to them stay in the cartridge
+// (docs/spec/cartridges.md, 10).
 #pragma once
 
 #include <algorithm>

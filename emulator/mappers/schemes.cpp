@@ -1,4 +1,4 @@
-// The table of schemes, and which one an image has (spec: cartridges.md, section 2).
+// The table of schemes, and which one an image has (docs/spec/cartridges.md, 2).
 #include <algorithm>
 #include <array>
 #include <initializer_list>

@@ -3,7 +3,7 @@
 // an access to $10xx notes xx, one to $1FF8 makes it the configuration.
 //
 // On the chip a noted value could also be written to RAM five bus cycles later. In the reference this never happens,
-// because its processor core doesn't count those; so RAM changes by loads only (spec: cartridges.md, section 9).
+// because its processor core doesn't count those; so RAM changes by loads only (docs/spec/cartridges.md, 9).
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 """What the reference can't be compared in, and why. The plan leaves it out of a run, and the report counts it.
 
-environment.md and docs/spec-notes.md have the findings.
+The findings are in docs/spec/environment.md, 5, docs/spec/games/README.md and docs/spec/palette.md.
 """
 
 from dataclasses import dataclass, replace

@@ -140,7 +140,7 @@ struct Bench {
     board.open_frame();
   }
 
-  // A system reset in the middle of a frame: the frame stays open (tia.md, section 2).
+  // A system reset in the middle of a frame: the frame stays open (docs/spec/tia.md, 2).
   void reset_in_frame() {
     end_step();
     state.cycle = 0;

@@ -1,4 +1,4 @@
-// The console as a whole: state, formats, resets, controllers (spec/console.md).
+// The console as a whole: state, formats, resets, controllers (docs/spec/console.md).
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
@@ -171,7 +171,7 @@ TEST_CASE("A picture lower than 200 lines is filled up with black") {
   CHECK(std::ranges::all_of(rows.subspan(150 * 160), [](std::uint8_t v) { return v == 0; }));
 }
 
-// console.md, "More cases".
+// docs/spec/console.md, "More cases".
 
 TEST_CASE("Case 2: with swapped ports player A drives the right one") {
   Properties swapped = ntsc();

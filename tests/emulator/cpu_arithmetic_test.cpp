@@ -78,7 +78,7 @@ TEST_CASE("Arithmetic gives what the specification says for all operands") {
   }
 }
 
-// The model again, by values that were observed on the reference (cpu.md, "How to check", 1 to 3).
+// The model again, by values that were observed on the reference (docs/spec/cpu.md, "How to check", 1 to 3).
 TEST_CASE("Decimal arithmetic gives the observed values") {
   struct Observed {
     int opcode, a, m, carry, result, status;

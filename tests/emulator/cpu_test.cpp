@@ -1,4 +1,4 @@
-// The cases of spec/cpu.md, "How to check", and how a run ends.
+// The cases of docs/spec/cpu.md, "How to check", and how a run ends.
 #include <algorithm>
 #include <catch2/catch.hpp>
 

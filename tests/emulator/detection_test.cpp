@@ -1,4 +1,5 @@
-// Which cartridge scheme an image has: spec/cartridges.md, section 2 and "How to check", 1 and 2.
+// Which cartridge scheme an image has: docs/spec/cartridges.md, 2, and
+// docs/spec/cartridges.md, "How to check", 1 and 2.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>

@@ -19,12 +19,12 @@ void check(Format format, const Shade& shade) {
   CHECK(palette(format)[shade.entry + 1u] == Rgb{shade.grey, shade.grey, shade.grey});
 }
 
-// palette.md, case 3: a, b, what both give
+// docs/spec/palette.md, "How to check", 3: a, b, what both give
 constexpr std::uint8_t kNtscBlends[][3] = {{0x0E, 0x00, 0x08},
                                            {0x44, 0x84, 0x54},
                                            {0x1A, 0x36, 0x18},
                                            {0xC8, 0x00, 0xC6},
-                                           // environment.md, section 17
+                                           // docs/spec/environment.md, 17
                                            {0x36, 0xC8, 0xE8},
                                            {0x44, 0x86, 0x56},
                                            {0x1A, 0x00, 0x16},

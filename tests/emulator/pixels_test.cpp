@@ -20,7 +20,7 @@ PixelMask random_mask(std::mt19937_64& random) {
   return mask;
 }
 
-// The colour of one pixel, by tia.md, section 10.
+// The colour of one pixel, by docs/spec/tia.md, 10.
 unsigned color_of(const Line& line, const TiaRegisters& tia, int pixel) {
   const auto shows = [&](Object object) { return covers(line.mask[object], pixel); };
   const bool score = (tia.ctrlpf & 2) != 0, priority = (tia.ctrlpf & 4) != 0, left = pixel < kLinePixels / 2;

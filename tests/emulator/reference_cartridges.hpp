@@ -1,5 +1,5 @@
-// Models of the cartridge schemes, written from spec/cartridges.md, sections 5 to 10, and from nothing else: each decodes
-// every address anew. They know no memory map, and of emulator/ nothing at all.
+// Models of the cartridge schemes, written from docs/spec/cartridges.md, 5 to 10, and from nothing else: each
+// decodes every address anew. They know no memory map, and of emulator/ nothing at all.
 #pragma once
 
 #include <array>

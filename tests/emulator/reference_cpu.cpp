@@ -7,7 +7,7 @@
 namespace racebeam::test {
 namespace {
 
-// cpu.md, section 5, as it stands there: mnemonic, mode, cycles; + a cycle more when a page is crossed, *
+// docs/spec/cpu.md, 5, as it stands there: mnemonic, mode, cycles; + a cycle more when a page is crossed, *
 // branch.
 constexpr const char* kGrid = R"(
     BRK 7|ORA ix 6|jam 2|slo ix 8|nop zp 3|ORA zp 3|ASL zp 5|slo zp 5|

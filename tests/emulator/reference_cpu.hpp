@@ -1,5 +1,5 @@
-// The 6507 once more, straight from spec/cpu.md: its own copy of the opcode grid, one bus access after the
-// other. Slow, plain, and independent of emulator/: what the interpreter is compared with.
+// The 6507 once more, straight from docs/spec/cpu.md: its own copy of the opcode grid, one bus access after
+// the other. Slow, plain, and independent of emulator/: what the interpreter is compared with.
 #pragma once
 
 #include <cstdint>

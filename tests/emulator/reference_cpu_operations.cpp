@@ -1,4 +1,4 @@
-// What instructions do with their operands: cpu.md, sections 6 to 8.
+// What instructions do with their operands: docs/spec/cpu.md, 6 to 8.
 #include "tests/emulator/reference_cpu.hpp"
 
 namespace racebeam::test {

@@ -9,7 +9,7 @@ void ReferenceMachine::run(int instructions) {
   for (int i = 0; i < instructions && !stop && !cpu.jammed; ++i) cpu.step();
 }
 
-// tia.md, section 2, action 1.
+// docs/spec/tia.md, 2, action 1.
 void ReferenceMachine::next_frame() {
   const auto T = static_cast<std::uint32_t>(cpu.T);
   tia.open_frame(cpu.T);
@@ -20,7 +20,7 @@ void ReferenceMachine::next_frame() {
   cpu.T = 0;
 }
 
-// cpu.md, section 2.
+// docs/spec/cpu.md, 2.
 int ReferenceMachine::read(int address, int T) {
   if (address & 0x1000) return access(rom_[static_cast<std::size_t>(address & 0xFFF)]);
   if (!(address & 0x80)) return access(read_tia(address & 15, T));
@@ -49,7 +49,7 @@ int ReferenceMachine::write(int address, int value, int T, bool after_read) {
   return T;
 }
 
-// riot.md, section 3.
+// docs/spec/riot.md, 3.
 int ReferenceMachine::read_timer(int address, std::uint32_t T) {
   const std::uint32_t D = T - 1 - timer.Tset, E = static_cast<std::uint32_t>(timer.V) << timer.s;
   const auto k = static_cast<std::int32_t>(static_cast<std::uint32_t>(timer.V) - (D >> timer.s) - 1);
@@ -64,7 +64,7 @@ int ReferenceMachine::read_timer(int address, std::uint32_t T) {
       (static_cast<std::uint32_t>(timer.V) - (D >> timer.s) - (timer.R - (timer.Tset + E))) & 0xFF);
 }
 
-// tia.md, section 11: no pots, no button pressed.
+// docs/spec/tia.md, 11: no pots, no button pressed.
 int ReferenceMachine::read_tia(int reg, int T) {
   int driven = reg == 12 || reg == 13 ? 0x80 : 0;
   if (reg < 8)
@@ -74,7 +74,7 @@ int ReferenceMachine::read_tia(int reg, int T) {
   return driven | (latch & 0x3F);
 }
 
-// tia.md, sections 2 and 4.
+// docs/spec/tia.md, 2 and 4.
 int ReferenceMachine::write_tia(int reg, int value, int T, bool after_read) {
   tia.write(T, static_cast<unsigned>(reg), static_cast<std::uint8_t>(value));
   const auto c = static_cast<std::uint32_t>(3 * T);

@@ -1,4 +1,4 @@
-// The picture side of the TIA once more, straight from spec/tia.md: clock by clock, pixel by pixel,
+// The picture side of the TIA once more, straight from docs/spec/tia.md: clock by clock, pixel by pixel,
 // everything drawn at the moment at which the specification draws it. Slow, plain, and independent of
 // emulator/: what the machine is compared with.
 #pragma once

@@ -1,4 +1,4 @@
-// What a register write does: tia.md, sections 4 and 7 to 9.
+// What a register write does: docs/spec/tia.md, 4 and 7 to 9.
 #include <algorithm>
 
 #include "tests/emulator/reference_tia.hpp"

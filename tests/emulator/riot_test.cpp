@@ -1,4 +1,4 @@
-// The cases of spec/riot.md, "How to check", and the decoding of the RIOT's addresses.
+// The cases of docs/spec/riot.md, "How to check", and the decoding of the RIOT's addresses.
 #include <catch2/catch.hpp>
 
 #include "emulator/console.hpp"

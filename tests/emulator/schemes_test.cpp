@@ -1,5 +1,5 @@
 // Each cartridge scheme at work: mapping, hot spots by read and by write, RAM, and what a reset does
-// (spec/cartridges.md, sections 4 to 7 and "How to check").
+// (docs/spec/cartridges.md, 4 to 7; docs/spec/cartridges.md, "How to check").
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>

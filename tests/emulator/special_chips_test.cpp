@@ -1,5 +1,5 @@
 // What schemes do beside showing banks: DPC's chip, AR's loads, cartridges at the TIA's addresses, what a reset does,
-// and code that runs from RAM on the cartridge or over hot spots (spec/cartridges.md, sections 5 to 10).
+// and code that runs from RAM on the cartridge or over hot spots (docs/spec/cartridges.md, 5 to 10).
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>

@@ -1,5 +1,5 @@
-// Positions, shapes and movement, each table of spec/tia.md in full, and the bugs that were found by random
-// accesses.
+// Positions, shapes and movement, each table of docs/spec/tia.md in full, and the bugs that were found by
+// random accesses.
 #include <catch2/catch.hpp>
 
 #include "tests/emulator/comparison.hpp"

@@ -1,4 +1,4 @@
-// The cases of spec/tia.md, "How to check", by their numbers there.
+// The cases of docs/spec/tia.md, "How to check", by their numbers there.
 #include <catch2/catch.hpp>
 #include <sstream>
 #include <string>

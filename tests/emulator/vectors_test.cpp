@@ -1,5 +1,6 @@
-// The published single-instruction vectors on the machine's own processor, wherever spec/cpu.md says that the
-// reference equals the chip. RACEBEAM_VECTORS names the folder that they are in; scripts/vectors runs this.
+// The published single-instruction vectors on the machine's own processor, wherever docs/spec/cpu.md says
+// that the reference equals the chip. RACEBEAM_VECTORS names the folder that they are in; scripts/vectors
+// runs this.
 //
 // The vectors are about a bus with 64K of plain memory. Here, the board's map of pages is pointed at plain
 // memory of 16K, for as many addresses as it decodes; but what is written goes where the board sends it, and
@@ -40,7 +41,7 @@ std::uint8_t before_at(const Vector& vector, unsigned address) {
   return 0;
 }
 
-// The high byte of the pointer comes from $0100, not $0000 (cpu.md, section 4).
+// The high byte of the pointer comes from $0100, not $0000 (docs/spec/cpu.md, 4).
 bool pointer_wraps(const Vector& vector, std::string_view mode) {
   const unsigned operand = before_at(vector, (vector.before.pc + 1U) & 0xFFFF);
   return (mode == "indirect_y" && operand == 0xFF) ||
@@ -59,7 +60,7 @@ bool crosses_page(const Vector& vector, std::string_view mode) {
 // Why the specification lets the reference differ from the chip; null where both are the same.
 const char* difference(const Vector& vector, unsigned opcode) {
   const auto [operation, mode] = kNames[opcode];
-  if (operation == "jam") return "jam: the chip stops in its own way (cpu.md, section 9)";
+  if (operation == "jam") return "jam: the chip stops in its own way (docs/spec/cpu.md, 9)";
   if (is_one_of(operation, {"ane", "lxa"})) return "ane, lxa: depends on the chip (section 6)";
   if (is_one_of(operation, {"sha", "shx", "shy", "shs"}) && crosses_page(vector, mode))
     return "sha, shx, shy, shs across a page: the address is not altered (section 6)";

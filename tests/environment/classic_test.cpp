@@ -1,4 +1,4 @@
-// Seeding and resets as in ALE 0.4 to 0.6 (classic-protocol.md, section 6).
+// Seeding and resets as in ALE 0.4 to 0.6 (docs/spec/classic-protocol.md, 6).
 #include <catch2/catch.hpp>
 
 #include "environment/classic_power_on.hpp"

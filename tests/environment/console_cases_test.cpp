@@ -1,4 +1,4 @@
-// console.md, "More cases": what actions do at the ports, and what a reset's steps come to.
+// docs/spec/console.md, "More cases": what actions do at the ports, and what a reset's steps come to.
 #include <algorithm>
 #include <catch2/catch.hpp>
 

@@ -89,7 +89,7 @@ TEST_CASE("The difficulty sets the switches, also while SELECT is held") {
   }
 }
 
-// environment.md, section 17: "Paddle"
+// docs/spec/environment.md, 17: "Paddle"
 TEST_CASE("A paddle turns as in the reference, and stops at its ends") {
   Player player = with_paddles();
   CHECK(player.paddles[0] == 408823);
@@ -104,7 +104,7 @@ TEST_CASE("A paddle turns as in the reference, and stops at its ends") {
   CHECK(player.hands.middle() == PaddleValues{408823, 408823});
 }
 
-// console.md, case 4
+// docs/spec/console.md, "More cases", 4
 TEST_CASE("A strength is widened to double before the product") {
   Player player = with_paddles();
   CHECK(player.paddle_after(kRight, 0.7F) == 392724);

@@ -32,7 +32,7 @@ std::vector<int> performed(float p, std::uint32_t seed, int acts) {
   return actions;
 }
 
-// environment.md, section 17
+// docs/spec/environment.md, 17
 TEST_CASE("The generator is the standard 32-bit Mersenne Twister") {
   CHECK(first_draws(0, 3) == std::vector{2357136044u, 2546248239u, 3071714933u});
   CHECK(first_draws(1, 3) == std::vector{1791095845u, 4282876139u, 3093770124u});

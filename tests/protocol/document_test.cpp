@@ -1,4 +1,4 @@
-// The tables of PROTOCOL.md are those of the program.
+// The tables of protocol/PROTOCOL.md are those of the program.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>

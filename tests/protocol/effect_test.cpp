@@ -1,6 +1,6 @@
-// All that PROTOCOL.md offers makes a difference. The tables of the program are gone over: each command, word
-// of a command's arguments, setting, preset, field, encoding and error code needs a case here, and a server
-// that ignored it would fail that case.
+// All that protocol/PROTOCOL.md offers makes a difference. The tables of the program are gone over: each
+// command, word of a command's arguments, setting, preset, field, encoding and error code needs a case here,
+// and a server that ignored it would fail that case.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>

@@ -1,8 +1,7 @@
 """What the tests of the running server share: starting it, talking to it in four ways, waiting for its end.
 
-RACEBEAM_BINARY names the executable. RACEBEAM_ROMS (or an ale-py in .venv) has the commercial images, and
-RACEBEAM_SHARED (or the folder ../shared beside the checkout) the recorded sessions; tests that need either are
-skipped without it.
+RACEBEAM_BINARY names the executable. RACEBEAM_ROMS (or an ale-py in .venv) has the commercial images; tests that need
+one are skipped without it.
 """
 
 import glob
@@ -32,12 +31,6 @@ def rom(name):
     folders += glob.glob(os.path.join(SOURCE, ".venv", "lib", "python*", "site-packages", "ale_py", "roms"))
     found = [os.path.join(folder, name + ".bin") for folder in folders if folder]
     return next((path for path in found if os.path.exists(path)), None)
-
-
-def transcripts_folder():
-    shared = os.environ.get("RACEBEAM_SHARED", os.path.join(os.path.dirname(SOURCE), "shared"))
-    folder = os.path.join(shared, "spec", "transcripts")
-    return folder if os.path.isdir(folder) else None
 
 
 def built_with(symbol):

@@ -159,7 +159,7 @@ class Writer {
   }
 
   // Load 0 fills the three banks of RAM; it is started with the last of them in the upper half
-  // (cartridges.md, section 9).
+  // (docs/spec/cartridges.md, 9).
   Bytes starpath_load() {
     constexpr unsigned kConfiguration = 0x0D, kPagesABank = 8;
     Bytes load = units(kStarpathPages * 256);

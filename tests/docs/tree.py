@@ -1,0 +1,21 @@
+"""The files of this tree that the tests of documents read."""
+
+import os
+import pathlib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+NOT_OURS = {"build", "__pycache__"}  # and all that begin with a dot, but .github and .ci
+
+
+def files(root=ROOT):
+    """Paths of all files below `root`, relative to it, in order; build trees, environments and git's apart."""
+    found = []
+    for folder, folders, names in os.walk(root):
+        folders[:] = [name for name in folders
+                      if name not in NOT_OURS and (not name.startswith(".") or name in (".github", ".ci"))]
+        found += [(pathlib.Path(folder) / name).relative_to(root) for name in names]
+    return sorted(found)
+
+
+def documents(root=ROOT):
+    return [path for path in files(root) if path.suffix == ".md"]
