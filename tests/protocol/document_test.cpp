@@ -56,7 +56,7 @@ TEST_CASE("The document has each command, with its arguments and its summary, an
     if (!command.arguments.empty()) (expected += ' ') += in_table(command.arguments);
     ((expected += "` | ") += command.summary) += " |\n";
   }
-  CHECK(table("| command | |") == expected);
+  CHECK(table("| command | what it does |") == expected);
 }
 
 TEST_CASE("The document has each setting, preset, field, encoding and error code, and no other") {
@@ -67,24 +67,24 @@ TEST_CASE("The document has each setting, preset, field, encoding and error code
       CHECK_THAT(found, Contains(in_code(row.name)));
     }
   };
-  compare("| setting | values | default | |", setting_rows());
+  compare("| setting | values | default | meaning |", setting_rows());
   compare("| preset | sets | source |", preset_rows());
-  compare("| field | | encoding |", field_rows());
-  compare("| encoding | |", encodings());
-  compare("| code | |", codes());
+  compare("| field | content | encoding |", field_rows());
+  compare("| encoding | form |", encodings());
+  compare("| code | meaning |", codes());
   for (const SettingRow& setting : setting_rows()) {
     const std::string row = in_code(setting.name) + " " + std::string(setting.accepted) + " |";
-    CHECK_THAT(table("| setting | values | default | |"), Contains(row));
-    CHECK_THAT(table("| setting | values | default | |"),
+    CHECK_THAT(table("| setting | values | default | meaning |"), Contains(row));
+    CHECK_THAT(table("| setting | values | default | meaning |"),
                Contains("| " + std::string(setting.summary) + " |\n"));
   }
   for (const FieldRow& field : field_rows()) {
     const std::string row = in_code(field.name) + " " + std::string(field.summary) + " |";
-    CHECK_THAT(table("| field | | encoding |"), Contains(row));
+    CHECK_THAT(table("| field | content | encoding |"), Contains(row));
   }
   for (const CodeRow& code : codes()) {
     const std::string row = in_code(code.name) + " " + std::string(code.meaning) + " |\n";
-    CHECK_THAT(table("| code | |"), Contains(row));
+    CHECK_THAT(table("| code | meaning |"), Contains(row));
   }
   for (const PresetRow& preset : preset_rows())
     CHECK_THAT(table("| preset | sets | source |"), Contains(in_code(preset.words)));
