@@ -55,7 +55,7 @@ def parse_arguments():
     parser.add_argument("--out", type=pathlib.Path, default=cartridges.ROOT / "build/bench/core.json", metavar="FILE",
                         help="all figures, as JSON (default build/bench/core.json)")
     parser.add_argument("--write", action="store_true",
-                        help="write tables and picture into docs/performance.md and docs/performance-core.svg")
+                        help="write docs/performance/figures.md and its picture, and the summary in docs/performance.md")
     parser.add_argument("--from", dest="source", type=pathlib.Path, metavar="FILE",
                         help="measure nothing, take the figures from this file")
     options = parser.parse_args()

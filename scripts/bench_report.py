@@ -1,4 +1,4 @@
-"""What scripts/bench core found, as tables in a page, and where it was found."""
+"""What scripts/bench core found: a summary in a page, each game's figures in a file of their own, and a picture."""
 import math
 import os
 import pathlib
@@ -11,7 +11,8 @@ import cartridges
 from bench_settings import SETTINGS
 
 PAGE = cartridges.ROOT / "docs/performance.md"
-PICTURE = cartridges.ROOT / "docs/performance-core.svg"
+FIGURES = cartridges.ROOT / "docs/performance/figures.md"
+PICTURE = cartridges.ROOT / "docs/performance/core.svg"
 BEGIN, END = "<!-- scripts/bench core --write: begin -->", "<!-- end -->"
 HEADINGS = {name: setting.heading for name, setting in SETTINGS.items()}
 
@@ -70,7 +71,7 @@ def table(headings, rows):
 def summary_table(results):
     rows = [[heading, f"{mean:.2f}", f"{worst:.2f}", game]
             for heading, (mean, worst, game) in summary(results).items()]
-    return table(["", "geomean", "worst", "of"], rows)
+    return table(["what is measured", "geomean", "worst", "of"], rows)
 
 
 def speed_table(results):
@@ -98,32 +99,43 @@ def states_table(results):
 
 def circumstances(results):
     at, of = results["machine"], results["versions"]
-    return (f"`{results['command']}`, {results['date']}, {results['seconds']} seconds.\n"
-            f"{at['processor']}, {at['processors']} processors, {at['system']};\n"
-            f"racebeam {of['racebeam']} ({of['commit']}), {of['compiler']}; ale-py {of['ale_py']}, Python {of['python']}.\n"
-            f"{len(results['games'])} games, {results['frames']:,} frames of each in each setting, "
-            f"in chunks of {results['chunk_frames']}; every one of them was checked.")
+    facts = [("command", f"`{results['command']}`"),
+             ("date, duration", f"{results['date']}, {results['seconds']} seconds"),
+             ("processor", f"{at['processor']}, {at['processors']} processors"), ("system", at["system"]),
+             ("racebeam", f"{of['racebeam']} ({of['commit']}), {of['compiler']}"),
+             ("reference", f"ale-py {of['ale_py']}, Python {of['python']}"),
+             ("games", f"{len(results['games'])}, {results['frames']:,} frames of each in each setting, in chunks of "
+                       f"{results['chunk_frames']}; every frame was checked")]
+    return "\n".join(["| run | value |", "|---|---|", *(f"| {name} | {value} |" for name, value in facts)])
 
 
 def page(results):
-    parts = [circumstances(results), summary_table(results)]
+    return "\n\n".join([circumstances(results), summary_table(results)])
+
+
+def figures(results):
+    """The document that has every game's figures."""
+    parts = ["# Figures of all games", "Written by `scripts/bench core --write`, not by hand. "
+             "[performance.md](../performance.md) says how\nthey are measured.", circumstances(results)]
     if settings_in(results):
-        parts.append(speed_table(results))
+        parts += ["## Frames", speed_table(results)]
     if all("states" in found for found in results["games"].values()):
-        parts.append(states_table(results))
-    return "\n\n".join(parts)
+        parts += ["## Resets and states", states_table(results)]
+    return "\n\n".join(parts) + "\n"
 
 
 def write(results):
-    """Puts tables and picture into the documents. Raises OSError if the page lacks its markers."""
+    """Writes summary, figures and picture into the documents. Raises OSError if the page lacks its markers."""
     before, begin, rest = PAGE.read_text().partition(BEGIN)
     _, end, after = rest.partition(END)
     if not (begin and end):
-        raise OSError(f"{PAGE} lacks the lines {BEGIN} and {END}, between which the tables go")
+        raise OSError(f"{PAGE} lacks the lines {BEGIN} and {END}, between which the summary goes")
+    FIGURES.parent.mkdir(exist_ok=True)
+    FIGURES.write_text(figures(results))
     picture = ""
     names = settings_in(results)
     if names:
         ratios = {game: found[names[0]]["ratio"] for game, found in results["games"].items()}
         PICTURE.write_text(bench_picture.draw(ratios, HEADINGS[names[0]]))
-        picture = f"![{HEADINGS[names[0]]}: ratio to ALE, by game]({PICTURE.name})\n\n"
+        picture = f"![{HEADINGS[names[0]]}: ratio to ALE, by game]({PICTURE.relative_to(PAGE.parent)})\n\n"
     PAGE.write_text(f"{before}{BEGIN}\n{picture}{page(results)}\n{END}{after}")

@@ -69,14 +69,17 @@ class Reports(unittest.TestCase):
         self.assertIn(">10x<", picture)
         self.assertIn("worst 3.25 (slow)", picture)
 
-    def test_the_tables_go_between_the_markers_of_the_page(self):
+    def test_the_summary_goes_between_the_markers_of_the_page_and_the_games_into_a_file(self):
         with tempfile.TemporaryDirectory() as folder:
             bench_report.PAGE = pathlib.Path(folder) / "page.md"
-            bench_report.PICTURE = pathlib.Path(folder) / "picture.svg"
+            bench_report.FIGURES = pathlib.Path(folder) / "figures/figures.md"
+            bench_report.PICTURE = pathlib.Path(folder) / "figures/picture.svg"
             bench_report.PAGE.write_text(f"before\n{bench_report.BEGIN}\nold\n{bench_report.END}\nafter\n")
             bench_report.write(results({"one": 2}))
             page = bench_report.PAGE.read_text()
-            self.assertRegex(page, r"(?s)^before\n.*\| one \| 100 \| 200 \| 2\.00 \|.*\nafter\n$")
+            self.assertRegex(page, r"(?s)^before\n.*\(figures/picture\.svg\).*\| 2\.00 \| 2\.00 \| one \|.*\nafter\n$")
+            self.assertNotIn("| one | 100", page)
+            self.assertIn("| one | 100 | 200 | 2.00 |", bench_report.FIGURES.read_text())
             self.assertNotIn("old", page)
             self.assertTrue(bench_report.PICTURE.exists())
             bench_report.PAGE.write_text("a page without markers")
