@@ -2,6 +2,7 @@
 
 import collections
 import datetime
+import textwrap
 
 from compare import IDENTICAL
 from images import HOST, WITHOUT_RULE
@@ -11,21 +12,30 @@ from run import COLORS_EVERY, WRITE, parse_run
 
 HEAD = """# Conformance
 
-Made by `scripts/conformance`; not written by hand. racebeam and the reference, ALE through ale-py, play the same
-random actions with the same settings. After every act and every reset these must be the same: the screen's palette
-indices, RAM, the 512 samples of sound, reward, game over, truncated, lives, frame number and episode frame number. The
-pictures in RGB and in grey, which follow from the indices, are compared after every act with colour averaging, else in
-every {every}th line. At loading, modes, difficulties, and the legal and minimal actions are compared. Actions are drawn
-from all 18 and held for four acts in the mean; an episode that is over is followed by a reset on both sides.
+`scripts/conformance` writes this document; it is not edited by hand. It answers whether racebeam
+and the reference do the same. The reference is ALE, through ale-py.
 
-The default settings are: the game's own mode and difficulty, frame skip 1, no sticky actions, no averaging. The other
-settings are all of {{default, each other mode, each other difficulty}} x frame skip {{1, 4}} x sticky {{0, 0.25}} x
-colour averaging {{off, on}}. By chance some of these runs also write bytes of RAM (before {write:.0%} of the acts), limit
-an episode's frames, truncate at the loss of a life, or turn paddles by random strengths.
+Both play the same random actions with the same settings. After every act and every reset, these
+values must be equal:
+
+- the screen's palette indices, RAM, and the 512 samples of sound;
+- reward, game over, truncated, and lives;
+- frame number and episode frame number.
+
+The pictures in RGB and in grey follow from the indices. They are compared after every act with
+colour averaging, else in every {every}th line. At loading, modes, difficulties, and the legal and
+minimal actions are compared. Actions are drawn from all 18 and held for four acts on average. After
+the end of an episode, both sides are reset.
+
+The default settings are the game's own mode and difficulty, frame skip 1, no sticky actions, no
+averaging. The other settings are all of {{default, each other mode, each other difficulty}} x frame
+skip {{1, 4}} x sticky {{0, 0.25}} x colour averaging {{off, on}}. Some of these runs, by chance, do
+more: they write bytes of RAM (before {write:.0%} of the acts), limit an episode's frames, truncate
+at the loss of a life, or turn paddles by random strengths.
 
     {command}
 
-| | |
+| run | value |
 |---|---|
 | date | {date} |
 | racebeam | {version} |
@@ -33,6 +43,10 @@ an episode's frames, truncate at the loss of a life, or turn paddles by random s
 | seeds | {seeds} |
 | forms of racebeam's machine | {forms} |
 """
+
+
+def wrapped(paragraph):
+    return textwrap.fill(paragraph, 100, break_long_words=False, break_on_hyphens=False)
 
 
 def is_default(run):
@@ -56,10 +70,11 @@ def totals(results):
     games = {run.game for run in runs}
     good_games = games - {parse_run(result["run"]).game for result in bad}
     frames = sum(result["frames"] for result in results)
-    return (f"{len(good_games)} of {len(games)} games are identical in all their runs; {len(results) - len(bad):,} of "
-            f"{len(results):,} runs, {frames:,} frames. Among them {count('writes'):,} runs with writes to RAM, "
-            f"{count('limit'):,} with a limit of frames, {count('lifeloss'):,} truncated at the loss of a life, "
-            f"{count('strengths'):,} with random strengths.")
+    return wrapped(f"{len(good_games)} of {len(games)} games are identical in all their runs; "
+                   f"{len(results) - len(bad):,} of {len(results):,} runs, {frames:,} frames. Among them "
+                   f"{count('writes'):,} runs with writes to RAM, {count('limit'):,} with a limit of frames, "
+                   f"{count('lifeloss'):,} truncated at the loss of a life, "
+                   f"{count('strengths'):,} with random strengths.")
 
 
 def gap_table(gaps):
@@ -90,6 +105,6 @@ def markdown(results, identity, command, gaps):
              "", "## Games", "", "| game | frames, default settings | other settings | frames in them | verdict |",
              "|---|---|---|---|---|", *(row(game, by_game[game]) for game in sorted(by_game))]
     if hosted:
-        parts += ["", f"The reference has no rule for {hosted}: their machines are compared with the actions, rule and "
-                  f"difficulties of {HOST} on both sides."]
+        parts += ["", wrapped(f"The reference has no rule for {hosted}. Their machines are compared with the "
+                              f"actions, rule and difficulties of {HOST} on both sides.")]
     return "\n".join(parts).replace("\n\n\n", "\n\n") + "\n"
