@@ -6,20 +6,16 @@ other lines are what the command before them prints, standard error included; ".
 line, and on a line of its own for any lines. Blocks fenced otherwise (```sh) are not run.
 """
 
-import glob
 import os
 import re
 import subprocess
 import sys
 import tempfile
 
+from tree import documents
+
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BINARY = os.environ.get("RACEBEAM_BINARY", os.path.join(SOURCE, "build", "release", "racebeam"))
-
-
-def documents():
-    names = ["README.md", "HACKING.md", *glob.glob("*/*.md", root_dir=SOURCE)]
-    return sorted({name for name in names if not name.startswith(("build/", "shared/"))})
 
 
 def examples(text):
@@ -70,7 +66,7 @@ def check(name):
 
 
 def main():
-    counts = [check(name) for name in documents()]
+    counts = [check(str(path)) for path in documents()]
     ran, wrong = (sum(column) for column in zip(*counts))
     print(f"{ran} examples in {len(counts)} documents, {wrong} wrong")
     return 1 if wrong or not ran else 0

@@ -1,0 +1,61 @@
+"""What every document of this tree keeps to: links and paths that exist, lines of 100 columns, tables with headings."""
+
+import re
+
+import markdown
+from tree import ROOT, documents
+
+WIDTH = 100
+
+
+def link_faults(root, path, text):
+    """Links to files that are not there, outside the tree, or to headings that the file does not have."""
+    for number, target in markdown.links(text):
+        if re.match(r"[a-z]+:", target):  # an address; nothing is fetched
+            continue
+        name, _, anchor = target.partition("#")
+        found = (root / path.parent / name).resolve() if name else root / path
+        if not found.is_relative_to(root.resolve()) and name:
+            yield number, f"{target} leads out of the tree"
+        elif not found.exists():
+            yield number, f"there is no {target}"
+        elif anchor and anchor not in markdown.anchors(found.read_text()):
+            yield number, f"{name or path.name} has no heading #{anchor}"
+
+
+def path_faults(root, text):
+    """Paths of the tree in backticks, such as `emulator/state.hpp`, that are not there. Patterns and names in capitals,
+    which stand for any name, are left out."""
+    for number, line in markdown.prose(text):
+        for path in re.findall(r"`([a-z.][\w.-]*/[\w./-]*\w\.(?:cpp|hpp|inc|md|py|txt|toml|svg))`", line):
+            ours = (root / path.split("/")[0]).is_dir() and not re.search(r"NAME|TARGET", path)
+            if ours and not (root / path).exists():
+                yield number, f"there is no {path}"
+
+
+def width_faults(text):
+    """Lines of prose that are too wide. Tables, code, and what cannot be broken may be."""
+    for number, line in markdown.prose(text):
+        unbreakable = " " not in re.sub(r"`[^`]*`", "x", line.strip())
+        if len(line) > WIDTH and not line.lstrip().startswith("|") and not unbreakable:
+            yield number, f"{len(line)} columns, more than {WIDTH}"
+
+
+def table_faults(text):
+    """Tables in which a column has no heading."""
+    lines = list(markdown.prose(text))
+    for (number, line), (_, below) in zip(lines, lines[1:]):
+        if re.match(r"\s*\|[\s:|-]+\|$", below) and line.lstrip().startswith("|"):
+            if not all(cell.strip() for cell in line.strip().strip("|").split("|")):
+                yield number, "a column of the table has no heading"
+
+
+def faults(root=ROOT):
+    """The number of documents below `root`, and a line for each thing that is wrong in them."""
+    wrong = []
+    for path in documents(root):
+        text = (root / path).read_text()
+        for number, problem in [*link_faults(root, path, text), *path_faults(root, text), *width_faults(text),
+                                *table_faults(text)]:
+            wrong.append(f"{path}:{number}: {problem}")
+    return len(documents(root)), wrong
