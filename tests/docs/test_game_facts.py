@@ -1,0 +1,51 @@
+"""The specification's facts of each game (docs/spec/games/README.md, 1) are those of the program.
+
+The program reads its own game files (games/catalogue), so the two can be compared.
+"""
+
+import json
+import os
+import subprocess
+import unittest
+
+from tree import ROOT
+
+BINARY = os.environ.get("RACEBEAM_BINARY", str(ROOT / "build/release/racebeam"))
+ALL_ACTIONS = 18
+
+
+def specified():
+    files = sorted((ROOT / "docs/spec/games").glob("*.json"))
+    return {game["rom"]: game for file in files for game in json.loads(file.read_text())}
+
+
+def offered():
+    listed = subprocess.run([BINARY, "games", "--json"], check=True, capture_output=True).stdout
+    return {game["name"]: game for game in json.loads(listed)}
+
+
+class Facts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.specified, cls.offered = specified(), offered()
+
+    def test_every_game_of_the_specification_is_offered(self):
+        self.assertEqual(len(self.specified), 104)
+        self.assertEqual(self.specified.keys() - self.offered.keys(), set())
+
+    def test_images_actions_modes_and_difficulties_are_the_same(self):
+        for name, game in self.specified.items():
+            ours = self.offered[name]
+            with self.subTest(game=name):
+                recognised = [image["md5"] for image in ours["images"] if image["recognised"]]
+                self.assertEqual(recognised, game["md5"])
+                self.assertEqual(ours["minimal_actions"], game["minimal_actions"])
+                self.assertEqual(ours["legal_actions"], game.get("legal_actions", ours["legal_actions"]))
+                if "legal_actions" not in game:
+                    self.assertEqual(len(ours["legal_actions"]), ALL_ACTIONS)
+                for fact in ("modes", "default_mode", "difficulties"):
+                    self.assertEqual(ours[fact], game[fact], fact)
+
+
+if __name__ == "__main__":
+    unittest.main()
