@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cli/png_file.hpp"
-#include "emulator/palette.hpp"
+#include "emulator/tia/palette.hpp"
 
 namespace racebeam {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "emulator/console_impl.hpp"
-#include "emulator/cpu.hpp"
+#include "emulator/cpu/cpu.hpp"
 #include "emulator/state_check.hpp"
 
 namespace racebeam {

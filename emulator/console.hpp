@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "emulator/inputs.hpp"
 #include "emulator/pace.hpp"
-#include "emulator/picture.hpp"
-#include "emulator/power_on.hpp"
-#include "emulator/properties.hpp"
-#include "emulator/sound.hpp"
-#include "emulator/state.hpp"
+#include "emulator/state/inputs.hpp"
+#include "emulator/state/power_on.hpp"
+#include "emulator/state/properties.hpp"
+#include "emulator/state/state.hpp"
+#include "emulator/tia/frame_buffer.hpp"
+#include "emulator/tia/sound.hpp"
 #include "emulator/translator/translator.hpp"
 
 namespace racebeam {

@@ -1,14 +1,14 @@
-// The inside of a Console. Its parts are in console.cpp and step.cpp.
+// The inside of a Console. Its parts are in console.cpp and frame_runner.cpp.
 #pragma once
 
 #include <algorithm>
 #include <memory>
 #include <utility>
 
-#include "emulator/board.hpp"
+#include "emulator/board/board.hpp"
 #include "emulator/console.hpp"
+#include "emulator/deferred_render_policy.hpp"
 #include "emulator/translator/translator.hpp"
-#include "emulator/unseen_frames.hpp"
 
 namespace racebeam {
 
@@ -49,7 +49,7 @@ struct Console::Impl {
   void take(const Pictures& others);
   void check_ram_size(std::span<const std::uint8_t> cartridge_ram) const;
 
-  // step.cpp
+  // frame_runner.cpp
   void step(bool looked_at, bool follow);
   bool step_over(FrameStart& start, bool draw, bool judged);
   bool run_step(Picture& picture, const FrameStart& start, Pixels pixels);

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "emulator/simd.hpp"
+#include "emulator/base/simd.hpp"
 
 namespace racebeam {
 

@@ -3,8 +3,8 @@
 #pragma once
 
 
-#include "emulator/mersenne_twister.hpp"
-#include "emulator/power_on.hpp"
+#include "emulator/base/mersenne_twister.hpp"
+#include "emulator/state/power_on.hpp"
 
 namespace racebeam {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "emulator/mersenne_twister.hpp"
-#include "emulator/palette.hpp"
+#include "emulator/base/mersenne_twister.hpp"
+#include "emulator/tia/palette.hpp"
 #include "environment/classic_power_on.hpp"
 #include "environment/impl.hpp"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "emulator/pace.hpp"
-#include "emulator/properties.hpp"
+#include "emulator/state/properties.hpp"
 #include "environment/settings.hpp"
 #include "games/game.hpp"
 #include "games/image.hpp"

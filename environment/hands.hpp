@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "emulator/inputs.hpp"
+#include "emulator/state/inputs.hpp"
 #include "environment/paddles.hpp"
 #include "environment/presses.hpp"
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "emulator/base/mersenne_twister.hpp"
 #include "emulator/console.hpp"
-#include "emulator/mersenne_twister.hpp"
 #include "environment/boot_study.hpp"
 #include "environment/environment.hpp"
 #include "environment/hands.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "emulator/mersenne_twister.hpp"
+#include "emulator/base/mersenne_twister.hpp"
 
 namespace racebeam {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "emulator/palette.hpp"
+#include "emulator/tia/palette.hpp"
 #include "environment/area_resize.hpp"
 #include "environment/environment.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "emulator/mersenne_twister.hpp"
+#include "emulator/base/mersenne_twister.hpp"
 
 namespace racebeam {
 

@@ -1,5 +1,5 @@
 // The way to the first frame of an episode (spec: environment.md, section 7).
-#include "emulator/scheme.hpp"
+#include "emulator/cartridge/cartridge.hpp"
 #include "environment/impl.hpp"
 #include "games/mode_program.hpp"
 

@@ -14,8 +14,8 @@
 #include <optional>
 #include <vector>
 
-#include "emulator/picture.hpp"
-#include "emulator/state.hpp"
+#include "emulator/state/state.hpp"
+#include "emulator/tia/frame_buffer.hpp"
 #include "environment/paddles.hpp"
 #include "games/rule.hpp"
 

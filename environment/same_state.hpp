@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "emulator/state.hpp"
+#include "emulator/state/state.hpp"
 #include "environment/play.hpp"
 #include "games/rule.hpp"
 

@@ -7,11 +7,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "emulator/mersenne_twister.hpp"
-#include "emulator/picture.hpp"
-#include "emulator/properties.hpp"
-#include "emulator/sound.hpp"
-#include "emulator/state.hpp"
+#include "emulator/base/mersenne_twister.hpp"
+#include "emulator/state/properties.hpp"
+#include "emulator/state/state.hpp"
+#include "emulator/tia/frame_buffer.hpp"
+#include "emulator/tia/sound.hpp"
 #include "environment/environment.hpp"
 #include "environment/play.hpp"
 #include "environment/same_state.hpp"

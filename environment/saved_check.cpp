@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "emulator/range_check.hpp"
+#include "emulator/base/range_check.hpp"
 
 namespace racebeam {
 namespace {

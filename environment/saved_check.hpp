@@ -2,7 +2,7 @@
 // nobody altered them by accident, not that the sender meant well.
 #pragma once
 
-#include "emulator/mersenne_twister.hpp"
+#include "emulator/base/mersenne_twister.hpp"
 #include "environment/saved.hpp"
 
 namespace racebeam {

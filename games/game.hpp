@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/properties.hpp"
+#include "emulator/state/properties.hpp"
 #include "games/actions.hpp"
 #include "games/mode_program.hpp"
 #include "games/rule.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "emulator/scheme.hpp"
+#include "emulator/cartridge/cartridge.hpp"
 #include "games/game_lists.hpp"
 #include "games/rule_compiler.hpp"
 #include "games/toml_section.hpp"

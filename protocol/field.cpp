@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "emulator/palette.hpp"
+#include "emulator/tia/palette.hpp"
 
 namespace racebeam {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/simd.hpp"
+#include "emulator/base/simd.hpp"
 
 namespace racebeam {
 

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "emulator/board.hpp"
-#include "emulator/cpu.hpp"
-#include "emulator/registers.hpp"
+#include "emulator/board/board.hpp"
+#include "emulator/cpu/cpu.hpp"
+#include "emulator/tia/registers/registers.hpp"
 
 namespace racebeam::test {
 

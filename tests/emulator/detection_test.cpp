@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "emulator/scheme.hpp"
+#include "emulator/cartridge/cartridge.hpp"
 
 namespace racebeam::test {
 namespace {

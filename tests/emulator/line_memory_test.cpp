@@ -3,8 +3,8 @@
 #include <functional>
 #include <set>
 
-#include "emulator/line_memory.hpp"
-#include "emulator/picture.hpp"
+#include "emulator/tia/line_cache/line_memory.hpp"
+#include "emulator/tia/frame_buffer.hpp"
 
 namespace racebeam::test {
 namespace {

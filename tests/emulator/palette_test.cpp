@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 
-#include "emulator/palette.hpp"
+#include "emulator/tia/palette.hpp"
 
 namespace racebeam {
 namespace {

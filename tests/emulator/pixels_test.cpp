@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "emulator/pixels.hpp"
+#include "emulator/tia/line/pixels.hpp"
 
 namespace racebeam::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/state.hpp"
+#include "emulator/state/state.hpp"
 #include "tests/emulator/reference_cpu.hpp"
 #include "tests/emulator/reference_tia.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "emulator/state.hpp"
+#include "emulator/state/state.hpp"
 
 namespace racebeam::test {
 namespace {

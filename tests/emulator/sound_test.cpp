@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/sound.hpp"
+#include "emulator/tia/sound.hpp"
 #include "tests/support/crc.hpp"
 
 namespace racebeam {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "emulator/console.hpp"
-#include "emulator/registers.hpp"
+#include "emulator/tia/registers/registers.hpp"
 
 namespace racebeam::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "emulator/opcodes.hpp"
+#include "emulator/base/opcodes.hpp"
 #include "tests/emulator/bench.hpp"
 #include "tests/emulator/vectors.hpp"
 
@@ -24,7 +24,7 @@ struct Names {
 
 constexpr std::array<Names, 256> kNames = {{
 #define OP(code, operation, mode, access, cycles) {#operation, #mode},
-#include "emulator/opcodes.inc"
+#include "emulator/base/opcodes.inc"
 #undef OP
 }};
 

@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "emulator/power_on.hpp"
+#include "emulator/state/power_on.hpp"
 #include "environment/legal_actions.hpp"
 #include "environment/presses.hpp"
 #include "games/actions.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "emulator/palette.hpp"
+#include "emulator/tia/palette.hpp"
 #include "environment/environment.hpp"
 #include "environment/saved.hpp"
 #include "tests/support/crc.hpp"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "emulator/mappers/dpc.hpp"
+#include "emulator/cartridge/mappers/dpc.hpp"
 #include "environment/saved.hpp"
 #include "environment/snapshot.hpp"
 #include "tests/environment/steered.hpp"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "emulator/board.hpp"
+#include "emulator/board/board.hpp"
 #include "emulator/translator/block_emitter.hpp"
 
 namespace {
@@ -16,7 +16,7 @@ using namespace racebeam;
 
 constexpr const char* kNames[] = {
 #define OP(code, operation, mode, access, cycles) #operation " " #mode,
-#include "emulator/opcodes.inc"
+#include "emulator/base/opcodes.inc"
 #undef OP
 };
 
