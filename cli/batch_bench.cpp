@@ -10,7 +10,7 @@
 #include <random>
 
 #include "cli/cpu_clock.hpp"
-#include "environment/batch.hpp"
+#include "environment/vector/batch.hpp"
 
 namespace racebeam {
 namespace {

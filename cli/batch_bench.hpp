@@ -1,4 +1,4 @@
-// How fast many machines run together: environment/batch.hpp.
+// How fast many machines run together: environment/vector/batch.hpp.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/cpu_clock.hpp"
-#include "environment/branch.hpp"
+#include "environment/vector/branch.hpp"
 
 namespace racebeam {
 namespace {

@@ -1,4 +1,4 @@
-// How long a planner waits: environment/branch.hpp.
+// How long a planner waits: environment/vector/branch.hpp.
 #pragma once
 
 #include <nlohmann/json.hpp>

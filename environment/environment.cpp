@@ -6,8 +6,8 @@
 
 #include "emulator/base/mersenne_twister.hpp"
 #include "emulator/tia/palette.hpp"
-#include "environment/classic_power_on.hpp"
 #include "environment/impl.hpp"
+#include "environment/reset/classic_power_on.hpp"
 
 namespace racebeam {
 namespace {

@@ -7,14 +7,14 @@
 
 #include "emulator/base/mersenne_twister.hpp"
 #include "emulator/console.hpp"
-#include "environment/boot_study.hpp"
 #include "environment/environment.hpp"
-#include "environment/hands.hpp"
-#include "environment/legal_actions.hpp"
-#include "environment/play.hpp"
-#include "environment/presses.hpp"
-#include "environment/reset_cache.hpp"
-#include "environment/saved.hpp"
+#include "environment/episode_state.hpp"
+#include "environment/input/controller_input.hpp"
+#include "environment/input/legal_actions.hpp"
+#include "environment/input/sticky_actions.hpp"
+#include "environment/reset/boot_study.hpp"
+#include "environment/reset/reset_cache.hpp"
+#include "environment/saved_state.hpp"
 #include "games/rule.hpp"
 
 namespace racebeam {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstring>
 
-#include "environment/state_hash.hpp"
+#include "emulator/state/state_hash.hpp"
 
 namespace racebeam {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "emulator/state/state.hpp"
-#include "environment/play.hpp"
+#include "environment/episode_state.hpp"
 #include "games/rule.hpp"
 
 namespace racebeam {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "environment/branch.hpp"
+#include "environment/vector/branch.hpp"
 #include "protocol/session.hpp"
 #include "protocol/session_recording.hpp"
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "environment/saved.hpp"
-#include "environment/snapshot.hpp"
+#include "environment/saved/saved_state_format.hpp"
+#include "environment/saved_state.hpp"
 #include "games/similar.hpp"
 #include "protocol/base64.hpp"
 #include "protocol/branch.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "environment/preprocess.hpp"
+#include "environment/observe/preprocess.hpp"
 #include "protocol/encoding.hpp"
 #include "protocol/words.hpp"
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "environment/autoreset.hpp"
+#include "environment/vector/autoreset.hpp"
 #include "protocol/player.hpp"
 
 namespace racebeam {

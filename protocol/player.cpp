@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "environment/saved.hpp"
+#include "environment/saved_state.hpp"
 
 namespace racebeam {
 

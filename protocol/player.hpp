@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "environment/noops.hpp"
+#include "environment/input/noops.hpp"
 #include "games/catalogue.hpp"
 #include "protocol/action.hpp"
 #include "protocol/field.hpp"

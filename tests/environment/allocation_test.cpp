@@ -8,7 +8,7 @@
 #include <new>
 #include <random>
 
-#include "environment/batch.hpp"
+#include "environment/vector/batch.hpp"
 #include "games/catalogue.hpp"
 
 namespace {

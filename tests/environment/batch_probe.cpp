@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "environment/batch.hpp"
+#include "environment/vector/batch.hpp"
 
 namespace racebeam {
 namespace {

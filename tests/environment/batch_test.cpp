@@ -1,12 +1,12 @@
 // Batch on our own image. Beside this, test_batch.py compares with the reference's vector environment.
-#include "environment/batch.hpp"
+#include "environment/vector/batch.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "environment/area_resize.hpp"
-#include "environment/thread_pool.hpp"
+#include "environment/observe/area_resize.hpp"
+#include "environment/vector/thread_pool.hpp"
 #include "tests/environment/steered.hpp"
 
 namespace racebeam {

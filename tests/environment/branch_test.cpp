@@ -1,4 +1,4 @@
-#include "environment/branch.hpp"
+#include "environment/vector/branch.hpp"
 
 #include <catch2/catch.hpp>
 

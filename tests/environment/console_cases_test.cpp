@@ -4,7 +4,7 @@
 
 #include "emulator/console.hpp"
 #include "environment/environment.hpp"
-#include "environment/hands.hpp"
+#include "environment/input/controller_input.hpp"
 #include "tests/support/counter_image.hpp"
 #include "tests/support/roms.hpp"
 

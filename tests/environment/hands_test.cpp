@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "environment/hands.hpp"
+#include "environment/input/controller_input.hpp"
 
 namespace racebeam {
 namespace {

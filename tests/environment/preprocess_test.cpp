@@ -1,5 +1,5 @@
 // Beside this, tests/clients/test_small_screens.py compares with OpenCV and the reference.
-#include "environment/preprocess.hpp"
+#include "environment/observe/preprocess.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "emulator/state/power_on.hpp"
-#include "environment/legal_actions.hpp"
-#include "environment/presses.hpp"
+#include "environment/input/legal_actions.hpp"
+#include "environment/input/sticky_actions.hpp"
 #include "games/actions.hpp"
 #include "tests/support/crc.hpp"
 

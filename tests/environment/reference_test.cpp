@@ -7,7 +7,7 @@
 
 #include "emulator/tia/palette.hpp"
 #include "environment/environment.hpp"
-#include "environment/saved.hpp"
+#include "environment/saved_state.hpp"
 #include "tests/support/crc.hpp"
 #include "tests/support/roms.hpp"
 

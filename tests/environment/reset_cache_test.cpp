@@ -1,11 +1,11 @@
 // A copied reset is what a run one would have been, on every game whose image is there.
-#include "environment/reset_cache.hpp"
+#include "environment/reset/reset_cache.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "environment/boot_study.hpp"
-#include "environment/saved.hpp"
+#include "environment/reset/boot_study.hpp"
+#include "environment/saved_state.hpp"
 #include "tests/environment/steered.hpp"
 #include "tests/support/observation.hpp"
 #include "tests/support/roms.hpp"

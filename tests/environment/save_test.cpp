@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "environment/saved.hpp"
-#include "environment/snapshot.hpp"
+#include "environment/saved/saved_state_format.hpp"
+#include "environment/saved_state.hpp"
 #include "tests/support/counter_image.hpp"
 #include "tests/support/observation.hpp"
 #include "tests/support/roms.hpp"

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "emulator/cartridge/mappers/dpc.hpp"
-#include "environment/saved.hpp"
-#include "environment/snapshot.hpp"
+#include "environment/saved/saved_state_format.hpp"
+#include "environment/saved_state.hpp"
 #include "tests/environment/steered.hpp"
 #include "tests/support/random_image.hpp"
 

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "environment/saved.hpp"
-#include "environment/snapshot.hpp"
+#include "environment/saved/saved_state_format.hpp"
+#include "environment/saved_state.hpp"
 #include "tests/support/counter_image.hpp"
 #include "tests/support/random_image.hpp"
 #include "tests/support/roms.hpp"

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 
-#include "environment/saved.hpp"
-#include "environment/snapshot.hpp"
+#include "environment/saved_state.hpp"
+#include "environment/saved/saved_state_format.hpp"
 #include "games/digest.hpp"
 #include "tests/support/counter_image.hpp"
 #include "tests/support/observation.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "environment/saved.hpp"
+#include "environment/saved_state.hpp"
 #include "games/catalogue.hpp"
 #include "protocol/text.hpp"
 #include "tests/support/counter_image.hpp"

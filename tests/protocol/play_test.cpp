@@ -30,7 +30,7 @@ struct Playing : LineClient {
   }
 };
 
-constexpr std::size_t kHeader = 24, kChecksum = 20;  // of a state's bytes, see snapshot.cpp
+constexpr std::size_t kHeader = 24, kChecksum = 20;  // of a state's bytes, see saved_state_format.cpp
 
 std::vector<std::uint8_t> exported(LineClient& client, const std::string& name) {
   return bytes_of_base64(value(client.ask("export " + name), "data")).value();

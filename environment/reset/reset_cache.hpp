@@ -16,7 +16,7 @@
 
 #include "emulator/state/state.hpp"
 #include "emulator/tia/frame_buffer.hpp"
-#include "environment/paddles.hpp"
+#include "environment/input/paddles.hpp"
 #include "games/rule.hpp"
 
 namespace racebeam {

@@ -1,4 +1,4 @@
-#include "environment/thread_pool.hpp"
+#include "environment/vector/thread_pool.hpp"
 
 #include "system/resources.hpp"
 

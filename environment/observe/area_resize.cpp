@@ -1,4 +1,4 @@
-#include "environment/area_resize.hpp"
+#include "environment/observe/area_resize.hpp"
 
 #include <algorithm>
 #include <bit>

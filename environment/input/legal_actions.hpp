@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "environment/presses.hpp"
+#include "environment/input/sticky_actions.hpp"
 
 namespace racebeam {
 

@@ -1,4 +1,4 @@
-#include "environment/batch.hpp"
+#include "environment/vector/batch.hpp"
 
 #include <algorithm>
 #include <exception>
@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "environment/lane.hpp"
-#include "environment/thread_pool.hpp"
+#include "environment/vector/lane.hpp"
+#include "environment/vector/thread_pool.hpp"
 
 namespace racebeam {
 namespace {

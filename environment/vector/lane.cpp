@@ -1,4 +1,4 @@
-#include "environment/lane.hpp"
+#include "environment/vector/lane.hpp"
 
 #include <algorithm>
 

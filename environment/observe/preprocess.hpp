@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "emulator/tia/palette.hpp"
-#include "environment/area_resize.hpp"
 #include "environment/environment.hpp"
+#include "environment/observe/area_resize.hpp"
 
 namespace racebeam {
 

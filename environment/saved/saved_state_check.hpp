@@ -3,7 +3,7 @@
 #pragma once
 
 #include "emulator/base/mersenne_twister.hpp"
-#include "environment/saved.hpp"
+#include "environment/saved_state.hpp"
 
 namespace racebeam {
 

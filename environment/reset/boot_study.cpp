@@ -1,4 +1,4 @@
-#include "environment/boot_study.hpp"
+#include "environment/reset/boot_study.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "environment/hands.hpp"
+#include "environment/input/controller_input.hpp"
 
 #include "games/actions.hpp"
 

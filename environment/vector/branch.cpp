@@ -1,9 +1,9 @@
-#include "environment/branch.hpp"
+#include "environment/vector/branch.hpp"
 
 #include <stdexcept>
 #include <string>
 
-#include "environment/saved.hpp"
+#include "environment/saved_state.hpp"
 
 namespace racebeam {
 

@@ -1,4 +1,4 @@
-#include "environment/legal_actions.hpp"
+#include "environment/input/legal_actions.hpp"
 
 #include <cmath>
 #include <stdexcept>

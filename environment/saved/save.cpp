@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "environment/impl.hpp"
-#include "environment/saved_check.hpp"
+#include "environment/saved/saved_state_check.hpp"
 
 namespace racebeam {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "emulator/state/inputs.hpp"
-#include "environment/paddles.hpp"
-#include "environment/presses.hpp"
+#include "environment/input/paddles.hpp"
+#include "environment/input/sticky_actions.hpp"
 
 namespace racebeam {
 

@@ -1,9 +1,9 @@
-#include "environment/reset_cache.hpp"
+#include "environment/reset/reset_cache.hpp"
 
 #include <algorithm>
 #include <cstring>
 
-#include "environment/state_hash.hpp"
+#include "emulator/state/state_hash.hpp"
 
 namespace racebeam {
 

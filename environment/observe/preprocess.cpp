@@ -1,4 +1,4 @@
-#include "environment/preprocess.hpp"
+#include "environment/observe/preprocess.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "environment/autoreset.hpp"
 #include "environment/environment.hpp"
+#include "environment/vector/autoreset.hpp"
 #include "games/catalogue.hpp"
 
 namespace racebeam {

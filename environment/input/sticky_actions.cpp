@@ -1,4 +1,4 @@
-#include "environment/presses.hpp"
+#include "environment/input/sticky_actions.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "environment/snapshot.hpp"
+#include "environment/saved/saved_state_format.hpp"
 
 #include <zlib.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "environment/saved_check.hpp"
+#include "environment/saved/saved_state_check.hpp"
 
 namespace racebeam {
 namespace {

@@ -1,4 +1,4 @@
-// What a saved state holds; see snapshot.hpp for its portable form.
+// What a saved state holds; see saved_state_format.hpp for its portable form.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 #include "emulator/tia/frame_buffer.hpp"
 #include "emulator/tia/sound.hpp"
 #include "environment/environment.hpp"
-#include "environment/play.hpp"
+#include "environment/episode_state.hpp"
 #include "environment/same_state.hpp"
 #include "games/rule.hpp"
 

@@ -1,4 +1,4 @@
-#include "environment/saved_check.hpp"
+#include "environment/saved/saved_state_check.hpp"
 
 #include <algorithm>
 #include <cmath>

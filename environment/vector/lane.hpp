@@ -1,9 +1,9 @@
 // One machine of a Batch: the frame loop of the reference's vector environment (spec: environment.md, section 15).
 #pragma once
 
-#include "environment/batch.hpp"
-#include "environment/noops.hpp"
-#include "environment/preprocess.hpp"
+#include "environment/input/noops.hpp"
+#include "environment/observe/preprocess.hpp"
+#include "environment/vector/batch.hpp"
 
 namespace racebeam {
 
