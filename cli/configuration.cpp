@@ -8,7 +8,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "games/toml.hpp"
+#include "games/files/toml.hpp"
 #include "system/input_file.hpp"
 
 namespace racebeam {

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "games/catalogue.hpp"
-#include "games/image.hpp"
+#include "games/rom_image.hpp"
 #include "system/printable.hpp"
 
 namespace racebeam {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "games/catalogue.hpp"
-#include "games/image.hpp"
+#include "games/rom_image.hpp"
 #include "system/printable.hpp"
 
 namespace racebeam {

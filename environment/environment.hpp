@@ -13,8 +13,8 @@
 #include "emulator/pace.hpp"
 #include "emulator/state/properties.hpp"
 #include "environment/settings.hpp"
-#include "games/game.hpp"
-#include "games/image.hpp"
+#include "games/game/game.hpp"
+#include "games/rom_image.hpp"
 
 namespace racebeam {
 

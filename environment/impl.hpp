@@ -15,7 +15,7 @@
 #include "environment/reset/boot_study.hpp"
 #include "environment/reset/reset_cache.hpp"
 #include "environment/saved_state.hpp"
-#include "games/rule.hpp"
+#include "games/game/rule.hpp"
 
 namespace racebeam {
 

@@ -1,7 +1,7 @@
 // The way to the first frame of an episode (spec: environment.md, section 7).
 #include "emulator/cartridge/cartridge.hpp"
 #include "environment/impl.hpp"
-#include "games/mode_program.hpp"
+#include "games/game/mode_program.hpp"
 
 namespace racebeam {
 namespace {

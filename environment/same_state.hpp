@@ -6,7 +6,7 @@
 
 #include "emulator/state/state.hpp"
 #include "environment/episode_state.hpp"
-#include "games/rule.hpp"
+#include "games/game/rule.hpp"
 
 namespace racebeam {
 

@@ -15,7 +15,7 @@
 #include "environment/environment.hpp"
 #include "environment/episode_state.hpp"
 #include "environment/same_state.hpp"
-#include "games/rule.hpp"
+#include "games/game/rule.hpp"
 
 namespace racebeam {
 

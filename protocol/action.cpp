@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "games/actions.hpp"
+#include "games/game/actions.hpp"
 #include "games/similar.hpp"
 #include "protocol/words.hpp"
 

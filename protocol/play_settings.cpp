@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "games/actions.hpp"
+#include "games/game/actions.hpp"
 
 namespace racebeam {
 namespace {

@@ -1,6 +1,6 @@
 #include "environment/input/controller_input.hpp"
 
-#include "games/actions.hpp"
+#include "games/game/actions.hpp"
 
 namespace racebeam {
 namespace {

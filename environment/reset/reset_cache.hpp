@@ -17,7 +17,7 @@
 #include "emulator/state/state.hpp"
 #include "emulator/tia/frame_buffer.hpp"
 #include "environment/input/paddles.hpp"
-#include "games/rule.hpp"
+#include "games/game/rule.hpp"
 
 namespace racebeam {
 

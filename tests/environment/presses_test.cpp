@@ -6,7 +6,7 @@
 #include "emulator/state/power_on.hpp"
 #include "environment/input/legal_actions.hpp"
 #include "environment/input/sticky_actions.hpp"
-#include "games/actions.hpp"
+#include "games/game/actions.hpp"
 #include "tests/support/crc.hpp"
 
 namespace racebeam {

@@ -1,4 +1,4 @@
-#include "games/program_builder.hpp"
+#include "games/language/program_builder.hpp"
 
 #include <stdexcept>
 #include <utility>

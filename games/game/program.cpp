@@ -1,4 +1,4 @@
-#include "games/program.hpp"
+#include "games/game/program.hpp"
 
 #include <algorithm>
 

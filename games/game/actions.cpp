@@ -1,4 +1,4 @@
-#include "games/actions.hpp"
+#include "games/game/actions.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "games/lexer.hpp"
+#include "games/language/lexer.hpp"
 
 #include <array>
 #include <cctype>

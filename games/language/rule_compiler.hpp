@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "games/expression.hpp"
-#include "games/mode_program.hpp"
-#include "games/rule.hpp"
+#include "games/game/mode_program.hpp"
+#include "games/game/rule.hpp"
+#include "games/language/expression.hpp"
 
 namespace racebeam {
 

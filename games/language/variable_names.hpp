@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "games/rule.hpp"
+#include "games/game/rule.hpp"
 
 namespace racebeam {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "games/game.hpp"
+#include "games/game/game.hpp"
 
 namespace racebeam {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "emulator/state/properties.hpp"
-#include "games/actions.hpp"
-#include "games/mode_program.hpp"
-#include "games/rule.hpp"
+#include "games/game/actions.hpp"
+#include "games/game/mode_program.hpp"
+#include "games/game/rule.hpp"
 
 namespace racebeam {
 

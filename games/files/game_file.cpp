@@ -1,13 +1,13 @@
-#include "games/game_file.hpp"
+#include "games/files/game_file.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "emulator/cartridge/cartridge.hpp"
-#include "games/game_lists.hpp"
-#include "games/rule_compiler.hpp"
-#include "games/toml_section.hpp"
+#include "games/files/game_lists.hpp"
+#include "games/files/toml_section.hpp"
+#include "games/language/rule_compiler.hpp"
 
 namespace racebeam {
 namespace {

@@ -1,9 +1,9 @@
-#include "games/rule.hpp"
+#include "games/game/rule.hpp"
 
 #include <algorithm>
 #include <type_traits>
 
-#include "games/game.hpp"
+#include "games/game/game.hpp"
 
 namespace racebeam {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "games/lexer.hpp"
-#include "games/names.hpp"
-#include "games/program_builder.hpp"
+#include "games/language/lexer.hpp"
+#include "games/language/program_builder.hpp"
+#include "games/language/variable_names.hpp"
 
 namespace racebeam {
 

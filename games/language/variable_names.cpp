@@ -1,11 +1,11 @@
-#include "games/names.hpp"
+#include "games/language/variable_names.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <stdexcept>
 
-#include "games/lexer.hpp"
+#include "games/language/lexer.hpp"
 
 namespace racebeam {
 namespace {

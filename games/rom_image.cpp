@@ -1,4 +1,4 @@
-#include "games/image.hpp"
+#include "games/rom_image.hpp"
 
 #include <zlib.h>
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "games/memory.hpp"
+#include "games/game/memory.hpp"
 
 namespace racebeam {
 

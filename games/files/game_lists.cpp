@@ -1,9 +1,9 @@
-#include "games/game_lists.hpp"
+#include "games/files/game_lists.hpp"
 
 #include <algorithm>
 #include <charconv>
 
-#include "games/actions.hpp"
+#include "games/game/actions.hpp"
 
 namespace racebeam {
 namespace {

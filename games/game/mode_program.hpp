@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "games/program.hpp"
-#include "games/rule.hpp"
+#include "games/game/program.hpp"
+#include "games/game/rule.hpp"
 
 namespace racebeam {
 

@@ -1,10 +1,10 @@
-#include "games/mode_compiler.hpp"
+#include "games/language/mode_compiler.hpp"
 
 #include <utility>
 
-#include "games/actions.hpp"
-#include "games/expression.hpp"
-#include "games/lexer.hpp"
+#include "games/game/actions.hpp"
+#include "games/language/expression.hpp"
+#include "games/language/lexer.hpp"
 
 namespace racebeam {
 namespace {

@@ -1,4 +1,4 @@
-#include "games/game.hpp"
+#include "games/game/game.hpp"
 
 #include <algorithm>
 #include <set>

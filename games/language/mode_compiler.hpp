@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-#include "games/mode_program.hpp"
-#include "games/names.hpp"
+#include "games/game/mode_program.hpp"
+#include "games/language/variable_names.hpp"
 
 namespace racebeam {
 

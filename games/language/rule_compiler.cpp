@@ -1,9 +1,9 @@
-#include "games/rule_compiler.hpp"
+#include "games/language/rule_compiler.hpp"
 
 #include <vector>
 
-#include "games/lexer.hpp"
-#include "games/mode_compiler.hpp"
+#include "games/language/lexer.hpp"
+#include "games/language/mode_compiler.hpp"
 
 namespace racebeam {
 namespace {

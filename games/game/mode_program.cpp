@@ -1,10 +1,10 @@
-#include "games/mode_program.hpp"
+#include "games/game/mode_program.hpp"
 
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 
-#include "games/game.hpp"
+#include "games/game/game.hpp"
 
 namespace racebeam {
 namespace {

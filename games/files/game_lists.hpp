@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "games/toml_section.hpp"
+#include "games/files/toml_section.hpp"
 
 namespace racebeam {
 

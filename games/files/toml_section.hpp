@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "games/lexer.hpp"
-#include "games/toml.hpp"
+#include "games/files/toml.hpp"
+#include "games/language/lexer.hpp"
 
 namespace racebeam {
 

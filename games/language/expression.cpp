@@ -1,11 +1,11 @@
-#include "games/expression.hpp"
+#include "games/language/expression.hpp"
 
 #include <array>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "games/mode_program.hpp"
+#include "games/game/mode_program.hpp"
 
 namespace racebeam {
 namespace {

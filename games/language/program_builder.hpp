@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "games/program.hpp"
+#include "games/game/program.hpp"
 
 namespace racebeam {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "games/memory.hpp"
-#include "games/program.hpp"
+#include "games/game/memory.hpp"
+#include "games/game/program.hpp"
 
 namespace racebeam {
 

@@ -1,4 +1,4 @@
-#include "games/toml_section.hpp"
+#include "games/files/toml_section.hpp"
 
 #include <algorithm>
 #include <limits>
