@@ -7,8 +7,8 @@
 
 #include "cli/configuration.hpp"
 #include "cli/options.hpp"
-#include "protocol/classic.hpp"
-#include "protocol/line_session.hpp"
+#include "protocol/classic/classic.hpp"
+#include "protocol/line/line_session.hpp"
 #include "server/log.hpp"
 #include "server/settings.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "protocol/command.hpp"
+#include "protocol/line/commands/command.hpp"
 #include "server/log.hpp"
 
 namespace racebeam {

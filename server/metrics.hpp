@@ -6,7 +6,7 @@
 #include <list>
 #include <string>
 
-#include "protocol/meter.hpp"
+#include "protocol/line/meter.hpp"
 
 namespace racebeam {
 

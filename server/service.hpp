@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "environment/environment.hpp"
-#include "protocol/line_session.hpp"
-#include "protocol/paced_classic.hpp"
+#include "protocol/classic/paced_classic.hpp"
+#include "protocol/line/line_session.hpp"
 
 namespace racebeam {
 

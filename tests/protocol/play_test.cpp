@@ -5,8 +5,8 @@
 #include <cstring>
 #include <thread>
 
-#include "protocol/base64.hpp"
-#include "protocol/words.hpp"
+#include "protocol/encoding/base64.hpp"
+#include "protocol/line/words.hpp"
 #include "tests/protocol/duel.hpp"
 
 using namespace racebeam;
