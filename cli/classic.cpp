@@ -9,7 +9,7 @@
 #include "cli/options.hpp"
 #include "cli/png_file.hpp"
 #include "games/catalogue.hpp"
-#include "server/log.hpp"
+#include "server/operation/log.hpp"
 #include "server/server.hpp"
 
 namespace racebeam {

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "server/log.hpp"
+#include "server/operation/log.hpp"
 #include "system/input_file.hpp"
 
 namespace racebeam {

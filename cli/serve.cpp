@@ -12,10 +12,10 @@
 #include "cli/serve_options.hpp"
 #include "emulator/translator/translator.hpp"
 #include "recording/recorder.hpp"
-#include "server/log.hpp"
-#include "server/ready_file.hpp"
+#include "server/operation/log.hpp"
+#include "server/operation/ready_file.hpp"
+#include "server/scheduling/workers.hpp"
 #include "server/server.hpp"
-#include "server/workers.hpp"
 #include "system/resources.hpp"
 
 namespace racebeam {

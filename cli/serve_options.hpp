@@ -9,8 +9,8 @@
 #include "cli/options.hpp"
 #include "protocol/classic/classic.hpp"
 #include "protocol/line/line_session.hpp"
-#include "server/log.hpp"
-#include "server/settings.hpp"
+#include "server/connections/settings.hpp"
+#include "server/operation/log.hpp"
 
 namespace racebeam {
 

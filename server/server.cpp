@@ -7,12 +7,12 @@
 #include <memory>
 
 #include "recording/recorder.hpp"
-#include "server/door.hpp"
-#include "server/http.hpp"
-#include "server/log.hpp"
-#include "server/ready_file.hpp"
-#include "server/streams.hpp"
-#include "server/watch.hpp"
+#include "server/connections/connection_acceptor.hpp"
+#include "server/connections/http.hpp"
+#include "server/connections/idle_monitor.hpp"
+#include "server/connections/streams.hpp"
+#include "server/operation/log.hpp"
+#include "server/operation/ready_file.hpp"
 
 namespace racebeam {
 namespace {
