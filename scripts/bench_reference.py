@@ -1,6 +1,6 @@
 """The reference's side of a measurement: ALE, through ale-py, in a process of its own.
 
-It answers the same commands as `racebeam bench --commands`, in the same words (cli/bench_session.hpp), and
+It answers the same commands as `racebeam bench --commands`, in the same words (cli/bench/bench_session.hpp), and
 one more, with which a measurement begins:
 
   open SKIP LOOK IMAGE    a new machine: frames of an act, 1 if the screen is looked at, the image's file

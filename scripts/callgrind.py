@@ -1,6 +1,6 @@
 """Counts the instructions of a play under valgrind's callgrind: the same in every run, on a busy machine too.
 
-Counted is the function `measured_act` of `racebeam bench --commands` (cli/bench_session.cpp): neither
+Counted is the function `measured_act` of `racebeam bench --commands` (cli/bench/bench_session.cpp): neither
 power-on, nor resets, nor the acts that come before. Code that is made while the program runs is counted as
 any other.
 """

@@ -1,4 +1,4 @@
-#include "cli/png.hpp"
+#include "cli/commands/png.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/png_file.hpp"
+#include "cli/commands/png_file.hpp"
 #include "emulator/tia/palette.hpp"
 
 namespace racebeam {

@@ -1,4 +1,4 @@
-#include "cli/bench_session.hpp"
+#include "cli/bench/bench_session.hpp"
 
 #include <zlib.h>
 
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/cpu_clock.hpp"
-#include "cli/snapshot_bench.hpp"
+#include "cli/bench/cpu_clock.hpp"
+#include "cli/bench/snapshot_bench.hpp"
 
 namespace racebeam {
 namespace {

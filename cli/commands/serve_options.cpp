@@ -1,4 +1,4 @@
-#include "cli/serve_options.hpp"
+#include "cli/commands/serve_options.hpp"
 
 #include <algorithm>
 #include <cstdint>

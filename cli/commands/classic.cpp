@@ -1,13 +1,13 @@
-#include "cli/classic.hpp"
+#include "cli/commands/classic.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <iostream>
 
-#include "cli/classic_settings.hpp"
-#include "cli/options.hpp"
-#include "cli/png_file.hpp"
+#include "cli/arguments/options.hpp"
+#include "cli/commands/classic_settings.hpp"
+#include "cli/commands/png_file.hpp"
 #include "games/catalogue.hpp"
 #include "server/operation/log.hpp"
 #include "server/server.hpp"

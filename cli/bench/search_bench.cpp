@@ -1,10 +1,10 @@
-#include "cli/search_bench.hpp"
+#include "cli/bench/search_bench.hpp"
 
 #include <algorithm>
 #include <random>
 #include <vector>
 
-#include "cli/cpu_clock.hpp"
+#include "cli/bench/cpu_clock.hpp"
 #include "environment/vector/branch.hpp"
 
 namespace racebeam {

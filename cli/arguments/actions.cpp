@@ -1,4 +1,4 @@
-#include "cli/actions.hpp"
+#include "cli/arguments/actions.hpp"
 
 #include <unistd.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-#include "cli/trace.hpp"
+#include "cli/commands/trace.hpp"
 
 #include <zlib.h>
 
@@ -9,8 +9,8 @@
 #include <span>
 #include <string>
 
-#include "cli/actions.hpp"
-#include "cli/options.hpp"
+#include "cli/arguments/actions.hpp"
+#include "cli/arguments/options.hpp"
 
 namespace racebeam {
 namespace {

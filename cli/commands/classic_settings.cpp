@@ -1,4 +1,4 @@
-#include "cli/classic_settings.hpp"
+#include "cli/commands/classic_settings.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cli/config.hpp"
+#include "cli/commands/config.hpp"
 
 #include <algorithm>
 #include <iomanip>
@@ -6,7 +6,7 @@
 #include <memory>
 #include <string_view>
 
-#include "cli/serve_options.hpp"
+#include "cli/commands/serve_options.hpp"
 
 namespace racebeam {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/configuration.hpp"
+#include "cli/arguments/settings_sources.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // What saving and restoring costs.
 #pragma once
 
-#include "cli/options.hpp"
+#include "cli/arguments/options.hpp"
 
 namespace racebeam {
 

@@ -1,4 +1,4 @@
-#include "cli/games.hpp"
+#include "cli/commands/games.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

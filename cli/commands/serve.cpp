@@ -1,4 +1,4 @@
-#include "cli/serve.hpp"
+#include "cli/commands/serve.hpp"
 
 #if __has_include(<malloc.h>)
 #include <malloc.h>
@@ -9,7 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "cli/serve_options.hpp"
+#include "cli/commands/serve_options.hpp"
 #include "emulator/translator/translator.hpp"
 #include "recording/recorder.hpp"
 #include "server/operation/log.hpp"

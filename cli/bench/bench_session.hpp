@@ -4,7 +4,7 @@
 
 #include <iosfwd>
 
-#include "cli/options.hpp"
+#include "cli/arguments/options.hpp"
 
 namespace racebeam {
 

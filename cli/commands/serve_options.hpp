@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/configuration.hpp"
-#include "cli/options.hpp"
+#include "cli/arguments/options.hpp"
+#include "cli/arguments/settings_sources.hpp"
 #include "protocol/classic/classic.hpp"
 #include "protocol/line/line_session.hpp"
 #include "server/connections/settings.hpp"

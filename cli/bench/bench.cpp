@@ -1,4 +1,4 @@
-#include "cli/bench.hpp"
+#include "cli/bench/bench.hpp"
 
 #include <zlib.h>
 
@@ -10,14 +10,14 @@
 #include <random>
 #include <span>
 
-#include "cli/actions.hpp"
-#include "cli/batch_bench.hpp"
-#include "cli/bench_session.hpp"
-#include "cli/cpu_clock.hpp"
-#include "cli/options.hpp"
-#include "cli/reset_bench.hpp"
-#include "cli/search_bench.hpp"
-#include "cli/snapshot_bench.hpp"
+#include "cli/arguments/actions.hpp"
+#include "cli/arguments/options.hpp"
+#include "cli/bench/batch_bench.hpp"
+#include "cli/bench/bench_session.hpp"
+#include "cli/bench/cpu_clock.hpp"
+#include "cli/bench/reset_bench.hpp"
+#include "cli/bench/search_bench.hpp"
+#include "cli/bench/snapshot_bench.hpp"
 
 namespace racebeam {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/png_file.hpp"
+#include "cli/commands/png_file.hpp"
 
 #include <png.h>
 

@@ -1,8 +1,8 @@
-#include "cli/snapshot_bench.hpp"
+#include "cli/bench/snapshot_bench.hpp"
 
 #include <array>
 
-#include "cli/cpu_clock.hpp"
+#include "cli/bench/cpu_clock.hpp"
 #include "emulator/console.hpp"
 
 namespace racebeam {

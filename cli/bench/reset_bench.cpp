@@ -1,10 +1,10 @@
-#include "cli/reset_bench.hpp"
+#include "cli/bench/reset_bench.hpp"
 
 #include <algorithm>
 #include <random>
 #include <vector>
 
-#include "cli/cpu_clock.hpp"
+#include "cli/bench/cpu_clock.hpp"
 
 namespace racebeam {
 namespace {

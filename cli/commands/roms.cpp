@@ -1,4 +1,4 @@
-#include "cli/roms.hpp"
+#include "cli/commands/roms.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "cli/batch_bench.hpp"
+#include "cli/bench/batch_bench.hpp"
 
 #include <unistd.h>
 #include <zlib.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <random>
 
-#include "cli/cpu_clock.hpp"
+#include "cli/bench/cpu_clock.hpp"
 #include "environment/vector/batch.hpp"
 
 namespace racebeam {
