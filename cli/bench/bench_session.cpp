@@ -74,7 +74,7 @@ class BenchSession {
   }
 
  private:
-  // The only function of `play` whose instructions are counted (scripts/callgrind.py names it): a function of
+  // The only function of `play` whose instructions are counted (scripts/measure/callgrind.py names it): a function of
   // its own therefore.
   [[gnu::noinline]] void measured_act(int action) {
     reward_ += environment_.act(action);

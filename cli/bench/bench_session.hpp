@@ -1,5 +1,5 @@
 // racebeam bench --commands: a measurement that another program conducts, chunk by chunk, so that it can let
-// the reference play the same acts in between (scripts/bench_core.py).
+// the reference play the same acts in between (scripts/measure/bench_core.py).
 #pragma once
 
 #include <iosfwd>

@@ -1,5 +1,5 @@
 // The published single-instruction vectors on the machine's own processor, wherever spec/cpu.md says that the
-// reference equals the chip. RACEBEAM_VECTORS names the folder that they are in; scripts/vectors runs this.
+// reference equals the chip. RACEBEAM_VECTORS names the folder that they are in; scripts/check/vectors runs this.
 //
 // The vectors are about a bus with 64K of plain memory. Here, the board's map of pages is pointed at plain
 // memory of 16K, for as many addresses as it decodes; but what is written goes where the board sends it, and

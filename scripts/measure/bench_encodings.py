@@ -12,7 +12,7 @@ import sys
 import time
 import zlib
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "clients/python"))
 import racebeam  # noqa: E402
 from bench_report import machine  # noqa: E402

@@ -25,7 +25,7 @@ try:
 except ImportError as error:
     import_error = error
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 RACEBEAM = ROOT / "build/release/racebeam"
 GAMES = ["breakout", "pong", "qbert", "seaquest", "space_invaders"]
 FRAME_SKIP = 4

@@ -16,7 +16,7 @@ import statistics
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build/release"
 RACEBEAM, WIRE_BENCH = BUILD / "racebeam", BUILD / "tests/server/wire_bench"
 GAMES = ["asterix", "beam_rider", "breakout", "freeway", "montezuma_revenge", "ms_pacman", "pong", "qbert", "seaquest",

@@ -3,7 +3,7 @@ import importlib.util
 import os
 import pathlib
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 OURS = ("beamfall", "updraft")
 WITHOUT_RULE = ("combat", "joust", "maze_craze", "warlords")  # the reference has images of them, and can't play them
 
