@@ -1,6 +1,6 @@
 // Many machines, of one game or of several, stepped together on a few threads. With the defaults it shows what
 // ale_py.vector_env.AtariVectorEnv of ALE 0.12 shows, byte for byte (spec: environment.md, section 15), as
-// tests/environment/test_batch.py checks.
+// tests/environment/vector/test_batch.py checks.
 #pragma once
 
 #include <cstdint>

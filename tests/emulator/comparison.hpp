@@ -7,7 +7,7 @@
 
 #include "emulator/tia/line/objects.hpp"
 #include "tests/emulator/bench.hpp"
-#include "tests/emulator/reference_tia.hpp"
+#include "tests/emulator/reference/reference_tia.hpp"
 
 namespace racebeam::test {
 

@@ -1,7 +1,7 @@
 // What a register write does: tia.md, sections 4 and 7 to 9.
 #include <algorithm>
 
-#include "tests/emulator/reference_tia.hpp"
+#include "tests/emulator/reference/reference_tia.hpp"
 
 namespace racebeam::test {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "emulator/base/opcodes.hpp"
 #include "tests/emulator/bench.hpp"
-#include "tests/emulator/vectors.hpp"
+#include "tests/emulator/cpu/vectors.hpp"
 
 namespace racebeam::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/emulator/reference_cpu.hpp"
+#include "tests/emulator/reference/reference_cpu.hpp"
 
 #include <array>
 #include <sstream>

@@ -5,7 +5,7 @@ import subprocess
 import sys
 import unittest
 
-SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 PROBE = os.environ.get("RACEBEAM_BATCH_PROBE", os.path.join(SOURCE, "build/release/tests/environment/batch_probe"))
 
 sys.path.insert(0, os.path.join(SOURCE, "tests", "support"))

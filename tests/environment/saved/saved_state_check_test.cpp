@@ -1,4 +1,4 @@
-// What is wrong in a state is named. That whatever passes does no harm is snapshot_fuzz_test.cpp's business.
+// What is wrong in a state is named. That whatever passes does no harm is saved_state_fuzz_test.cpp's business.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <functional>

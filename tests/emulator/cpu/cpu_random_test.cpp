@@ -5,7 +5,7 @@
 #include <random>
 
 #include "tests/emulator/bench.hpp"
-#include "tests/emulator/reference_machine.hpp"
+#include "tests/emulator/reference/reference_machine.hpp"
 
 namespace racebeam::test {
 namespace {

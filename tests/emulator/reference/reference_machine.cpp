@@ -1,4 +1,4 @@
-#include "tests/emulator/reference_machine.hpp"
+#include "tests/emulator/reference/reference_machine.hpp"
 
 #include <sstream>
 

@@ -1,4 +1,4 @@
-#include "tests/emulator/vectors.hpp"
+#include "tests/emulator/cpu/vectors.hpp"
 
 #include <algorithm>
 #include <cctype>

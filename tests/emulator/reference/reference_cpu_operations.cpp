@@ -1,5 +1,5 @@
 // What instructions do with their operands: cpu.md, sections 6 to 8.
-#include "tests/emulator/reference_cpu.hpp"
+#include "tests/emulator/reference/reference_cpu.hpp"
 
 namespace racebeam::test {
 namespace {

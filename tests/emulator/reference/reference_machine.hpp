@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "emulator/state/state.hpp"
-#include "tests/emulator/reference_cpu.hpp"
-#include "tests/emulator/reference_tia.hpp"
+#include "tests/emulator/reference/reference_cpu.hpp"
+#include "tests/emulator/reference/reference_tia.hpp"
 
 namespace racebeam::test {
 

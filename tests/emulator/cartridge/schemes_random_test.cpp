@@ -6,7 +6,7 @@
 #include <random>
 
 #include "tests/emulator/bench.hpp"
-#include "tests/emulator/reference_cartridges.hpp"
+#include "tests/emulator/reference/reference_cartridges.hpp"
 
 namespace racebeam::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "tests/emulator/bench.hpp"
-#include "tests/emulator/reference_cpu.hpp"
+#include "tests/emulator/reference/reference_cpu.hpp"
 
 namespace racebeam::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/emulator/reference_tia.hpp"
+#include "tests/emulator/reference/reference_tia.hpp"
 
 #include <algorithm>
 #include <sstream>

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/emulator/bench.hpp"
-#include "tests/emulator/reference_cpu.hpp"
+#include "tests/emulator/reference/reference_cpu.hpp"
 
 namespace racebeam::test {
 namespace {
