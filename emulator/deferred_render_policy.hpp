@@ -8,7 +8,7 @@
 
 namespace racebeam {
 
-class UnseenFrames {
+class DeferredRenderPolicy {
  public:
   // For the next one.
   bool draws() {

@@ -49,10 +49,10 @@ void Console::Impl::step(bool looked_at, bool follow) {
 // Runs a frame without a look at what its picture shows so far. It must fill the whole window: false if it does not, or
 // does not close, and the machine stands at its start again.
 bool Console::Impl::step_over(FrameStart& start, bool draw, bool judged) {
-  std::shared_ptr<Picture>& current = pictures.current;
+  std::shared_ptr<FrameBuffer>& current = pictures.current;
   if (!spare.current) std::swap(spare.current, spare.previous);
-  std::shared_ptr<Picture>& place = is_own(current) ? current : spare.current;
-  if (!is_own(place)) place = std::make_shared<Picture>();
+  std::shared_ptr<FrameBuffer>& place = is_own(current) ? current : spare.current;
+  if (!is_own(place)) place = std::make_shared<FrameBuffer>();
   bool closes;
   do closes = run_step(*place, start, draw ? Pixels::kDrawn : Pixels::kNone) && !state().frame.open;
   while (reads_unknown_latches(start, draw));
@@ -70,9 +70,10 @@ bool Console::Impl::step_over(FrameStart& start, bool draw, bool judged) {
 
 // From `start` on. What the reference draws ahead of the beam is seen in few steps: such a one is run once more, access
 // by access; but false, and all is left as it is, if its pixels are not wanted.
-bool Console::Impl::run_step(Picture& picture, const FrameStart& start, Pixels pixels) {
+bool Console::Impl::run_step(FrameBuffer& picture, const FrameStart& start, Pixels pixels) {
   thread_local WriteLog log;
-  const Picture* const other = (&picture == pictures.previous.get() ? pictures.current : pictures.previous).get();
+  const FrameBuffer* const other =
+      (&picture == pictures.previous.get() ? pictures.current : pictures.previous).get();
   const auto repeat = [&](Pixels how) {
     go_back(start);
     board.begin_step(picture, other, log, how, latches.sought);
@@ -100,7 +101,7 @@ void Console::Impl::go_back(const FrameStart& start) {
 }
 
 // Gives a picture its pixels. The machine is the same afterwards.
-void Console::Impl::draw_now(std::shared_ptr<Picture>& picture) {
+void Console::Impl::draw_now(std::shared_ptr<FrameBuffer>& picture) {
   if (!picture->is_undrawn && picture->rows() >= rows()) return;
   if (!is_own(picture)) picture = own_copy(*picture);
   picture->make_room(rows());
@@ -154,17 +155,17 @@ void Console::Impl::settle_latches() {
   latches.unknown = 0;
 }
 
-std::shared_ptr<Picture> Console::Impl::own_copy(const Picture& picture) {
-  for (std::shared_ptr<Picture>* const kept : {&spare.current, &spare.previous}) {
+std::shared_ptr<FrameBuffer> Console::Impl::own_copy(const FrameBuffer& picture) {
+  for (std::shared_ptr<FrameBuffer>* const kept : {&spare.current, &spare.previous}) {
     if (!is_own(*kept)) continue;
     **kept = picture;
     return std::move(*kept);
   }
-  return std::make_shared<Picture>(picture);
+  return std::make_shared<FrameBuffer>(picture);
 }
 
 // The picture that is drawn on: the console's own, not one that a snapshot holds too.
-Picture& Console::Impl::canvas() {
+FrameBuffer& Console::Impl::canvas() {
   if (!is_own(pictures.current)) pictures.current = own_copy(*pictures.current);
   return *pictures.current;
 }

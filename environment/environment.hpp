@@ -19,7 +19,7 @@
 namespace racebeam {
 
 struct Sound;
-class Picture;
+class FrameBuffer;
 
 // Which frames of an act are drawn as they run.
 enum class Drawing { kEvery, kLastTwo, kLast, kNone };
@@ -100,7 +100,7 @@ class Environment {
   std::shared_ptr<const Saved> save(bool with_random = false) const;
 
   // A picture of a state that is one of this environment's image and game, with its pixels.
-  std::shared_ptr<const Picture> drawn(const std::shared_ptr<Picture>& picture) const;
+  std::shared_ptr<const FrameBuffer> drawn(const std::shared_ptr<FrameBuffer>& picture) const;
   void restore(const Saved& saved);
 
   // For planners, who meet the same state by different ways: two environments of the same image, game and

@@ -11,7 +11,7 @@
 
 namespace racebeam {
 
-struct Play {
+struct EpisodeState {
   Presses held;  // what a sticky frame repeats
   PaddleValues paddles{};
   std::uint32_t frames = 0;  // counted since loading
@@ -23,6 +23,6 @@ struct Play {
   std::array<std::uint8_t, 128> stale_ram{};
 };
 
-static_assert(std::is_trivially_copyable_v<Play>);
+static_assert(std::is_trivially_copyable_v<EpisodeState>);
 
 }  // namespace racebeam

@@ -36,9 +36,9 @@ struct Environment::Impl {
   Rule rule;
   const LegalActions legal;
   const Sticky sticky;
-  const Hands hands;
+  const ControllerInput controller_input;
   const int lives_at_start;
-  Play play;
+  EpisodeState play;
   std::array<std::uint8_t, kAudioSize> audio{};
   std::optional<BootFacts> boot_facts;  // of the image; studied at the first reset
   bool drew_at_reset = false;           // the generator took part in the last one

@@ -13,7 +13,7 @@ namespace racebeam {
 // Where the parts are that count. Of `play` not all does.
 struct StateParts {
   const State& machine;
-  const Play& play;
+  const EpisodeState& play;
   const Tally& tally;
   std::span<const std::uint8_t> cartridge_ram;
 };

@@ -36,7 +36,7 @@ class Environment::Saved {
  public:
   struct Values {
     State machine;
-    Play play;
+    EpisodeState play;
     Tally tally;
     Sound sound;
     std::array<std::uint8_t, kAudioSize> audio{};
@@ -46,7 +46,7 @@ class Environment::Saved {
   Values values;
   std::vector<std::uint8_t> cartridge_ram;  // Console::cartridge_ram()
   Properties properties;  // of the console
-  Pictures pictures;      // shared with it until it draws again
+  FrameBuffers pictures;  // shared with it until it draws again
   int height = 0;         // rows of them that are shown
   std::optional<MersenneTwister> random;
 

@@ -181,8 +181,8 @@ void add_games(CLI::App& command, ServeOptions& options) {
       ->type_name("DIR");
 }
 
-template <typename Names>
-void refuse_any_of(const std::vector<Setting>& settings, const Names& names, const std::string& why) {
+template <typename VariableNames>
+void refuse_any_of(const std::vector<Setting>& settings, const VariableNames& names, const std::string& why) {
   for (const Setting& setting : settings) {
     const bool named = std::ranges::find(names, key_of(*setting.option)) != std::end(names);
     if (named && setting.source == Source::kCommandLine)

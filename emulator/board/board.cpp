@@ -91,7 +91,8 @@ void Board::turn_back_clocks(std::int32_t cycles) {
   state.cycle -= cycles;
 }
 
-void Board::begin_step(Picture& picture, const Picture* other, WriteLog& scratch, Pixels pixels, Collisions sought) {
+void Board::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& scratch, Pixels pixels,
+                       Collisions sought) {
   log = &scratch;
   log->begin(state.cycle);
   last_access_ = kNever;

@@ -77,8 +77,8 @@ class Board {
   // A step: begin_step(), then what the CPU does, then end_step(), which leaves the picture drawn as far as the
   // reference has drawn it. If needs_exact_step(), what the reference draws ahead of the beam can be seen: then the
   // same is to be done again, from the state before the step, with Pixels::kExact.
-  void begin_step(Picture& picture, const Picture* other, WriteLog& scratch, Pixels pixels = Pixels::kDrawn,
-                  Collisions sought = kAllPairs);
+  void begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& scratch,
+                  Pixels pixels = Pixels::kDrawn, Collisions sought = kAllPairs);
   void end_step();
   bool needs_exact_step() const;
   void set_format_limits();  // after `video` or the frame's origin have changed

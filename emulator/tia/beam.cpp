@@ -49,7 +49,7 @@ void Beam::begin_frame() {
   tia_.pixel = 0;
 }
 
-void Beam::aim(Picture& picture, const Picture* other, Pixels pixels, Collisions sought) {
+void Beam::aim(FrameBuffer& picture, const FrameBuffer* other, Pixels pixels, Collisions sought) {
   picture_ = &picture;
   other_ = other;
   pixels_ = pixels;

@@ -38,7 +38,7 @@ class Beam {
   void begin_frame();  // cursor to the window's start
 
   // Where pixels go, and where there may be rows to copy; without them, which pairs are looked for if they meet.
-  void aim(Picture& picture, const Picture* other, Pixels pixels, Collisions sought);
+  void aim(FrameBuffer& picture, const FrameBuffer* other, Pixels pixels, Collisions sought);
 
   // Everything derived from the registers is made anew: after a reset or a restored state.
   void forget();
@@ -163,8 +163,8 @@ class Beam {
   TiaState& tia_;
   const Video& video_;
   const DrawPixels draw_pixels_;
-  Picture* picture_ = nullptr;
-  const Picture* other_ = nullptr;
+  FrameBuffer* picture_ = nullptr;
+  const FrameBuffer* other_ = nullptr;
   LineMemory lines_;
   std::int32_t start_ = 0, end_ = 0;
   alignas(64) Line line_;

@@ -24,7 +24,7 @@ struct FrameStart {
 };
 
 // Rows that have never been drawn are black, and take no memory.
-class Picture {
+class FrameBuffer {
  public:
   // All of its rows, one after the other: those of the window, and those that a reset has shifted it down by, if ever
   // (tia.md, section 2).
@@ -49,7 +49,7 @@ class Picture {
   LineNumber& shows(std::size_t row) { return shows_[row]; }
 
   // A row shows that line now, if the other picture does.
-  bool copy_row(const Picture* other, std::size_t row, LineNumber line) {
+  bool copy_row(const FrameBuffer* other, std::size_t row, LineNumber line) {
     if (other == nullptr || row >= other->rows() || other->shows_[row] != line) return false;
     rows_[row] = other->rows_[row];
     shows_[row] = line;
@@ -72,7 +72,7 @@ class Picture {
 };
 
 // Nobody else holds it. A snapshot may have been let go in another thread, after it had looked at the picture.
-inline bool is_own(const std::shared_ptr<Picture>& picture) {
+inline bool is_own(const std::shared_ptr<FrameBuffer>& picture) {
   if (!picture || picture.use_count() > 1) return false;
 #if defined(__SANITIZE_THREAD__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wtsan"  // fences are all the same to it
@@ -82,8 +82,8 @@ inline bool is_own(const std::shared_ptr<Picture>& picture) {
 }
 
 // The one drawn last, and the one before it.
-struct Pictures {
-  std::shared_ptr<Picture> current, previous;
+struct FrameBuffers {
+  std::shared_ptr<FrameBuffer> current, previous;
 };
 
 }  // namespace racebeam

@@ -60,7 +60,8 @@ void Tia::begin_frame() {
   for (std::uint8_t& color : tia_.color) color = static_cast<std::uint8_t>((color & 0xFE) | loss);
 }
 
-void Tia::begin_step(Picture& picture, const Picture* other, WriteLog& log, Pixels pixels, Collisions sought) {
+void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, Pixels pixels,
+                     Collisions sought) {
   beam_.aim(picture, other, pixels, sought);
   asked_ = 0;
   work_ = 0;
@@ -275,7 +276,7 @@ void Tia::close_record() {
 }
 
 // tia.md, section 2, "Greying": what is seen when the processor stands still in the middle of a picture.
-void Tia::grey(Picture& picture, std::int32_t cycle) const {
+void Tia::grey(FrameBuffer& picture, std::int32_t cycle) const {
   const int line = (3 * cycle - tia_.origin) / kLineClocks;
   const int first = std::clamp(line - video_.ystart, 0, video_.height);
   const auto window = picture.pixels().first(static_cast<std::size_t>(video_.height * kLinePixels));

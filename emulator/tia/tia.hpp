@@ -20,7 +20,8 @@ class Tia {
   // Pixels go to `picture`, writes come in `log`. Pixels::kExact: the picture shows what the reference has drawn ahead
   // of the beam at every access; then each write must be played, and each read touched, before the next.
   // Pixels::kNone: of collisions, only the pairs `sought` are found.
-  void begin_step(Picture& picture, const Picture* other, WriteLog& log, Pixels pixels, Collisions sought);
+  void begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, Pixels pixels,
+                  Collisions sought);
   void play_log(std::int32_t cycle) { play_log(cycle, kWholePicture); }  // all that was written up to `cycle`
   void empty_log(std::int32_t cycle);    // the same, and makes room; its cycles count from `cycle` from now on
   void touch(std::int32_t cycle);        // an access that changes nothing: draws up to it
@@ -35,7 +36,7 @@ class Tia {
   bool stopped_inside(std::int32_t cycle) const;  // would a picture that stops here show what was drawn ahead?
   void forget() { beam_.forget(); }      // the registers were replaced as a whole
   void forget_lines() { beam_.forget_lines(); }
-  void grey(Picture& picture, std::int32_t cycle) const;  // rows not drawn when a step ended open
+  void grey(FrameBuffer& picture, std::int32_t cycle) const;  // rows not drawn when a step ended open
 
  private:
   static constexpr Collisions kWholePicture = 0xFFFF;  // asked: not collisions alone

@@ -51,14 +51,15 @@ void hold(Inputs& inputs, std::uint8_t console_switch) {
 
 }  // namespace
 
-void Hands::press(Inputs& inputs, const Presses& presses, int difficulty, PaddleValues& paddles) const {
+void ControllerInput::press(Inputs& inputs, const Presses& presses, int difficulty,
+                            PaddleValues& paddles) const {
   release_all(inputs, difficulty);
   if (presses.a.action == kResetAction) hold(inputs, kSwitchReset);
   if (use_paddles_) return turn_paddles(inputs, presses, paddles);
   inputs.joystick = {stick(presses.a.action, 0), stick(presses.b.action, kActions)};
 }
 
-void Hands::turn_paddles(Inputs& inputs, const Presses& presses, PaddleValues& paddles) const {
+void ControllerInput::turn_paddles(Inputs& inputs, const Presses& presses, PaddleValues& paddles) const {
   const std::uint8_t a = stick(presses.a.action, 0), b = stick(presses.b.action, kActions);
   paddles = {limits_.turn(paddles[0], direction(a), presses.a.strength),
              limits_.turn(paddles[1], direction(b), presses.b.strength)};
@@ -68,7 +69,7 @@ void Hands::turn_paddles(Inputs& inputs, const Presses& presses, PaddleValues& p
       static_cast<std::uint8_t>(((a & kStickFire) != 0 ? 1 : 0) | ((b & kStickFire) != 0 ? 2 : 0));
 }
 
-void Hands::press_select(Inputs& inputs, int difficulty) {
+void ControllerInput::press_select(Inputs& inputs, int difficulty) {
   release_all(inputs, difficulty);
   hold(inputs, kSwitchSelect);
 }

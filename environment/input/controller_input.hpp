@@ -10,9 +10,9 @@
 
 namespace racebeam {
 
-class Hands {
+class ControllerInput {
  public:
-  Hands(bool use_paddles, PaddleLimits limits) : use_paddles_(use_paddles), limits_(limits) {}
+  ControllerInput(bool use_paddles, PaddleLimits limits) : use_paddles_(use_paddles), limits_(limits) {}
 
   const PaddleLimits& limits() const { return limits_; }
   PaddleValues middle() const { return limits_.middle(); }

@@ -43,7 +43,7 @@ struct ResetEnd {
   Tally tally;
   PaddleValues paddles{};
   std::uint32_t frames = 0;  // that were counted
-  Pictures pictures;
+  FrameBuffers pictures;
 };
 
 class ResetCache {

@@ -85,7 +85,7 @@ void Environment::Impl::check_values(const Saved& saved) const {
 // in 0.6 also how far the present frame has come.
 void Environment::Impl::restore_classic(const Saved& saved) {
   check(saved);
-  Play restored = saved.values.play;
+  EpisodeState restored = saved.values.play;
   restored.held = play.held;
   restored.ram_is_stale = 1;
   restored.stale_ram = play.stale_ram;

@@ -30,7 +30,7 @@ void check_strength(const Press& press) {
 }  // namespace
 
 // A held action may be any number: with paddles so may an agent's, and one that nobody has presses nothing.
-void check_play(const Play& play, const Game& game) {
+void check_play(const EpisodeState& play, const Game& game) {
   check_strength(play.held.a);
   check_strength(play.held.b);
   for (const std::int32_t ohms : play.paddles) check_range("a turned paddle", ohms, 0, kMaxInt);

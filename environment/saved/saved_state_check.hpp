@@ -9,7 +9,7 @@ namespace racebeam {
 
 // Throws std::invalid_argument, naming what is wrong, for values of `play` that acts and resets of `game`
 // could not have left. Settings are not looked at: a state may be restored under others.
-void check_play(const Play& play, const Game& game);
+void check_play(const EpisodeState& play, const Game& game);
 
 // The same for a rule's variables and for the sound channels. Any value of a variable is possible.
 void check_tally(const Tally& tally, const Game& game);

@@ -103,13 +103,13 @@ void check(const Prefix& prefix, std::size_t size, const Environment& environmen
   if (prefix.has_random > 1 || size != prefix.size_of_rest()) refuse("the state contradicts itself about its size");
 }
 
-void append_pixels(std::vector<std::uint8_t>& bytes, const Picture& picture, std::size_t size) {
+void append_pixels(std::vector<std::uint8_t>& bytes, const FrameBuffer& picture, std::size_t size) {
   const auto pixels = picture.pixels().first(size);
   bytes.insert(bytes.end(), pixels.begin(), pixels.end());
 }
 
-std::shared_ptr<Picture> take_picture(std::span<const std::uint8_t>& bytes, std::size_t size) {
-  auto picture = std::make_shared<Picture>();
+std::shared_ptr<FrameBuffer> take_picture(std::span<const std::uint8_t>& bytes, std::size_t size) {
+  auto picture = std::make_shared<FrameBuffer>();
   picture->make_room(size / kLinePixels);
   std::ranges::copy(bytes.first(size), picture->pixels().begin());
   bytes = bytes.subspan(size);

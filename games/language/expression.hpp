@@ -20,7 +20,7 @@ enum class Purpose {
 // What names mean at one place of a rule.
 struct Scope {
   Purpose purpose;
-  Names& names;
+  VariableNames& names;
   std::map<std::string, int, std::less<>> locals{};       // slots of a mode program's own variables
   std::map<std::string, Register, std::less<>> values{};  // what was assigned so far, and what sum() binds
   bool draws = false;                                     // rng() was met

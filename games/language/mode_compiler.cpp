@@ -15,7 +15,8 @@ constexpr int kDeepestBlock = 50;
 
 class Compiler {
  public:
-  Compiler(const std::vector<Token>& tokens, Names& names) : in_(tokens), scope_{Purpose::kMode, names} {
+  Compiler(const std::vector<Token>& tokens, VariableNames& names)
+      : in_(tokens), scope_{Purpose::kMode, names} {
     scope_.locals.emplace("mode", kModeSlot);
   }
 
@@ -68,7 +69,7 @@ class Compiler {
   int target(const Token& name) {
     try {
       if (scope_.names.knows(name.text)) return scope_.names.slot(name.text);
-      Names().declare(name.text);  // is it a name at all?
+      VariableNames().declare(name.text);  // is it a name at all?
     } catch (const std::invalid_argument& error) {
       throw SourceError(name.line, error.what());
     }
@@ -131,7 +132,7 @@ class Compiler {
 
 }  // namespace
 
-ModeProgram compile_mode_program(std::string_view source, Names& names) {
+ModeProgram compile_mode_program(std::string_view source, VariableNames& names) {
   const std::vector<Token> tokens = tokens_of(source);
   return {Compiler(tokens, names).program()};
 }

@@ -9,6 +9,6 @@
 namespace racebeam {
 
 // `names` are the variables of the game's rule. Throws SourceError.
-ModeProgram compile_mode_program(std::string_view source, Names& names);
+ModeProgram compile_mode_program(std::string_view source, VariableNames& names);
 
 }  // namespace racebeam

@@ -12,7 +12,7 @@ bool starts_assignment(const TokenReader& reader) {
   return reader.peek().kind == Token::Kind::kName && reader.is("=", 1);
 }
 
-void declare(Names& names, const Token& name) {
+void declare(VariableNames& names, const Token& name) {
   try {
     names.declare(name.text);
   } catch (const std::invalid_argument& error) {

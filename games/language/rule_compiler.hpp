@@ -40,7 +40,7 @@ class RuleCompiler {
   void imply_reward(const char* reward, const char* score);
   Program answer(std::string_view source);
 
-  Names names_;
+  VariableNames names_;
   Scope step_scope_{Purpose::kStep, names_};
   ProgramBuilder step_;
   RuleProgram rule_;

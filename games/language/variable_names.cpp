@@ -22,14 +22,14 @@ bool is_name(std::string_view text) {
 
 }  // namespace
 
-Names::Names() {
+VariableNames::VariableNames() {
   declare("reward");
   declare("terminal");
   slot("reward");
   slot("terminal");
 }
 
-void Names::declare(std::string_view name) {
+void VariableNames::declare(std::string_view name) {
   if (!is_name(name))
     throw std::invalid_argument(quoted(name) + " is not a name: letters, digits and _ make one");
   if (std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end())
@@ -37,19 +37,19 @@ void Names::declare(std::string_view name) {
   if (!knows(name)) all_[std::string(name)].variable.name = name;
 }
 
-void Names::reset_to(std::string_view name, std::int32_t initial) {
+void VariableNames::reset_to(std::string_view name, std::int32_t initial) {
   declare(name);
   entry(name).variable.initial = initial;
 }
 
-void Names::keep(std::string_view name) {
+void VariableNames::keep(std::string_view name) {
   declare(name);
   entry(name).variable.kept = true;
 }
 
-Names::Entry& Names::entry(std::string_view name) { return all_.find(name)->second; }
+VariableNames::Entry& VariableNames::entry(std::string_view name) { return all_.find(name)->second; }
 
-int Names::slot(std::string_view name) {
+int VariableNames::slot(std::string_view name) {
   int& place = entry(name).slot;
   if (place < 0 && slots_ == kMaxVariables)
     throw std::invalid_argument("more than " + std::to_string(kMaxVariables) +
@@ -58,12 +58,12 @@ int Names::slot(std::string_view name) {
   return place;
 }
 
-std::optional<int> Names::slot_if_used(std::string_view name) const {
+std::optional<int> VariableNames::slot_if_used(std::string_view name) const {
   const auto found = all_.find(name);
   return found == all_.end() || found->second.slot < 0 ? std::nullopt : std::optional(found->second.slot);
 }
 
-std::vector<Variable> Names::variables() const {
+std::vector<Variable> VariableNames::variables() const {
   std::vector<Variable> list(static_cast<std::size_t>(slots_));
   for (const auto& [name, entry] : all_)
     if (entry.slot >= 0) list[static_cast<std::size_t>(entry.slot)] = entry.variable;

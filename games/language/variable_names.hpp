@@ -13,9 +13,9 @@
 
 namespace racebeam {
 
-class Names {
+class VariableNames {
  public:
-  Names();  // with reward and terminal, in their slots
+  VariableNames();  // with reward and terminal, in their slots
 
   // Throws std::invalid_argument for a word that the language needs itself, or that is no name.
   void declare(std::string_view name);

@@ -73,10 +73,10 @@ net::awaitable<void> take_leave(Stream& stream, Client& client) {
   throw std::runtime_error("closed: " + client.reason());
 }
 
-LookAhead look_ahead(Socket& socket) { return LookAhead(&socket); }
-LookAhead look_ahead(TlsStream&) { return LookAhead(nullptr); }
+RequestPeeker look_ahead(Socket& socket) { return RequestPeeker(&socket); }
+RequestPeeker look_ahead(TlsStream&) { return RequestPeeker(nullptr); }
 
-bool found_more(LookAhead& ahead, Client& client, LineSession& session) {
+bool found_more(RequestPeeker& ahead, Client& client, LineSession& session) {
   const std::size_t count = client.ending() ? 0 : ahead.look(session.space());
   if (count == 0) return false;  // the end and errors are left to receive()
   client.received(count);
@@ -135,7 +135,7 @@ net::awaitable<void> work(Client& client, PacedClassic& session) {
 }
 
 template <typename Stream>
-net::awaitable<void> converse(Stream& stream, Client& client, PacedClassic& session, Metrics&) {
+net::awaitable<void> serve_connection(Stream& stream, Client& client, PacedClassic& session, Metrics&) {
   error_code error;
   bool piece = false;  // of a line
   while (!session.ended()) {
@@ -166,9 +166,10 @@ net::awaitable<void> await_recording(Client& client) {
 // Between two slices of a long request, or of many that were sent ahead, the loop's other sessions have their
 // turn. Of the latter a slice has some parts, each of which ends with replies that are sent.
 template <typename Stream>
-net::awaitable<void> converse(Stream& stream, Client& client, LineSession& session, Metrics& metrics) {
+net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSession& session,
+                                      Metrics& metrics) {
   constexpr int kMostParts = 4;
-  LookAhead ahead = look_ahead(stream);
+  RequestPeeker ahead = look_ahead(stream);
   Departure departure;
   Turns& turns = client.loop.turns;
   bool piece = false;  // all that came last is a piece of a line
@@ -261,7 +262,7 @@ net::awaitable<void> play(Stream& stream, Client& client, const ClassicService& 
   session.check_machine();
   log(client.name + ": " + describe(session.machine()), {{"client", client.name}, {"event", "came"}});
   const Resting resting(client, [&session] { session.rest(); });
-  co_await converse(stream, client, session, metrics);
+  co_await serve_connection(stream, client, session, metrics);
 }
 
 template <typename Stream>
@@ -269,7 +270,7 @@ net::awaitable<void> play(Stream& stream, Client& client, const LineService& ser
   LineSession session(service, &client.loop.meter);
   log(client.name + ": came", {{"client", client.name}, {"event", "came"}});
   const Resting resting(client, [&session] { session.rest(); });
-  co_await converse(stream, client, session, metrics);
+  co_await serve_connection(stream, client, session, metrics);
   log(client.name + ": " + session.summary(), {{"client", client.name}, {"event", "left"}});
 }
 
@@ -294,8 +295,8 @@ net::awaitable<void> play_over_tls(std::shared_ptr<Client> client, const Service
 
 }  // namespace
 
-net::awaitable<void> converse(std::shared_ptr<Client> client, const Service& service,
-                              std::shared_ptr<net::ssl::context> tls, Metrics& metrics) {
+net::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Service& service,
+                                      std::shared_ptr<net::ssl::context> tls, Metrics& metrics) {
   client->came_in();
   try {
     if (tls) {

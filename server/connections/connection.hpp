@@ -14,8 +14,9 @@ namespace racebeam {
 
 // The whole session, to its end, on the client's loop. `service` outlives it; `tls` is null for a plain
 // socket. Never throws.
-boost::asio::awaitable<void> converse(std::shared_ptr<Client> client, const Service& service,
-                                      std::shared_ptr<boost::asio::ssl::context> tls, Metrics& metrics);
+boost::asio::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Service& service,
+                                              std::shared_ptr<boost::asio::ssl::context> tls,
+                                              Metrics& metrics);
 
 // Closes; before that it says why there is no session, if a plain line is what the client would understand.
 boost::asio::awaitable<void> turn_away(std::shared_ptr<Client> client, bool understands);

@@ -61,7 +61,8 @@ void read_again(std::optional<Part>& part, const std::string& what) {
 
 }  // namespace
 
-Door::Door(const ServerSettings& settings, const Services& services, Loops& loops, Metrics& metrics)
+ConnectionAcceptor::ConnectionAcceptor(const ServerSettings& settings, const Services& services, Loops& loops,
+                                       Metrics& metrics)
     : settings_(settings),
       services_(services),
       loops_(loops),
@@ -84,11 +85,11 @@ Door::Door(const ServerSettings& settings, const Services& services, Loops& loop
   }
 }
 
-void Door::listen(const Endpoint& endpoint) {
+void ConnectionAcceptor::listen(const Endpoint& endpoint) {
   check(listeners_.emplace_back(loops_.first().context.get_executor(), endpoint));
 }
 
-void Door::listen_inherited(const Endpoint& endpoint, const std::string& name) {
+void ConnectionAcceptor::listen_inherited(const Endpoint& endpoint, const std::string& name) {
   bool found = false;
   for (const InheritedSocket& socket : inherited_sockets()) {
     if (!name.empty() && socket.name != name) continue;
@@ -103,7 +104,7 @@ void Door::listen_inherited(const Endpoint& endpoint, const std::string& name) {
                            " (LISTEN_FDS, LISTEN_FDNAMES); start the unit's socket, not its service");
 }
 
-void Door::check(const Listener& listener) const {
+void ConnectionAcceptor::check(const Listener& listener) const {
   const std::string& name = listener.name();
   if (listener.endpoint().tls && !tls_) throw std::runtime_error(name + " needs --tls-cert and --tls-key");
   if (listener.is_loopback()) return;
@@ -125,35 +126,35 @@ void Door::check(const Listener& listener) const {
 }
 
 // The file system guards a Unix socket.
-const Service& Door::service_of(const Listener& listener) const {
+const Service& ConnectionAcceptor::service_of(const Listener& listener) const {
   if (listener.endpoint().classic) return *services_.classic;
   return guarded_ && !listener.is_local() ? *guarded_ : *services_.line;
 }
 
-std::vector<std::string> Door::names() const {
+std::vector<std::string> ConnectionAcceptor::names() const {
   std::vector<std::string> all;
   for (const Listener& listener : listeners_) all.push_back(listener.full_name());
   return all;
 }
 
-void Door::open() {
+void ConnectionAcceptor::open() {
   for (Listener& listener : listeners_) {
     net::co_spawn(loops_.first().context, welcome(listener), net::detached);
     log("listening on " + listener.name(), {{"event", "listening"}, {"address", listener.full_name()}});
   }
 }
 
-void Door::close() {
+void ConnectionAcceptor::close() {
   closed_ = true;
   for (Listener& listener : listeners_) listener.close();
 }
 
-void Door::read_again() {
+void ConnectionAcceptor::read_again() {
   racebeam::read_again(tokens_, "token file");
   racebeam::read_again(tls_, "certificate");
 }
 
-net::awaitable<void> Door::welcome(Listener& listener) {
+net::awaitable<void> ConnectionAcceptor::welcome(Listener& listener) {
   for (int number = 1; !closed_; ++number) {
     Loop& loop = loops_.idlest();
     error_code error;
@@ -170,7 +171,7 @@ net::awaitable<void> Door::welcome(Listener& listener) {
   }
 }
 
-void Door::admit(Socket socket, Loop& loop, const Listener& listener, int number) {
+void ConnectionAcceptor::admit(Socket socket, Loop& loop, const Listener& listener, int number) {
   std::string name = listener.name() + " client " + std::to_string(number);
   auto client = std::make_shared<Client>(std::move(socket), loop, std::move(name));
   const bool has_memory = has_memory_for_one_more(service_of(listener));
@@ -190,7 +191,8 @@ void Door::admit(Socket socket, Loop& loop, const Listener& listener, int number
   const Service& service = service_of(listener);
   if (guarded_ && &service == &*guarded_) client->guesser.emplace(wrong_tokens_, source_of(client->socket));
   auto tls = listener.endpoint().tls ? tls_->context() : nullptr;
-  net::co_spawn(loop.context, converse(std::move(client), service, std::move(tls), metrics_), net::detached);
+  net::co_spawn(loop.context, serve_connection(std::move(client), service, std::move(tls), metrics_),
+                net::detached);
 }
 
 }  // namespace racebeam

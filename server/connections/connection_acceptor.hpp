@@ -20,11 +20,12 @@
 
 namespace racebeam {
 
-class Door {
+class ConnectionAcceptor {
  public:
   // Listens on every socket of the settings; all outlive it. Throws std::runtime_error for what can't be had
   // or is not safe.
-  Door(const ServerSettings& settings, const Services& services, Loops& loops, Metrics& metrics);
+  ConnectionAcceptor(const ServerSettings& settings, const Services& services, Loops& loops,
+                     Metrics& metrics);
 
   std::vector<std::string> names() const;  // of the listeners
   bool empty() const { return listeners_.empty(); }

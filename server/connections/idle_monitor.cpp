@@ -17,11 +17,11 @@ constexpr auto kPause = 2s;  // of a client, after which its session is at rest
 
 }  // namespace
 
-void Watch::start() {
+void IdleMonitor::start() {
   for (Loop& loop : loops_.all()) net::co_spawn(loop.context, look_after(loop), net::detached);
 }
 
-void Watch::end_all() {
+void IdleMonitor::end_all() {
   for (Loop& loop : loops_.all()) {
     net::post(loop.context, [this, &loop] {
       for (Client* client : loop.clients) {
@@ -32,7 +32,7 @@ void Watch::end_all() {
   }
 }
 
-net::awaitable<void> Watch::look_after(Loop& loop) {
+net::awaitable<void> IdleMonitor::look_after(Loop& loop) {
   net::steady_timer timer(loop.context);
   for (;;) {
     timer.expires_after(kBetweenLooks);
@@ -42,7 +42,7 @@ net::awaitable<void> Watch::look_after(Loop& loop) {
   }
 }
 
-void Watch::look_at(Client& client) {
+void IdleMonitor::look_at(Client& client) {
   const auto now = Clock::now();
   const auto idle = seconds(settings_.idle_seconds), handshake = seconds(settings_.handshake_seconds);
   if (client.ending()) {

@@ -11,9 +11,9 @@
 
 namespace racebeam {
 
-class Watch {
+class IdleMonitor {
  public:
-  Watch(const ServerSettings& settings, Loops& loops, Metrics& metrics)  // which outlive it
+  IdleMonitor(const ServerSettings& settings, Loops& loops, Metrics& metrics)  // which outlive it
       : settings_(settings), loops_(loops), metrics_(metrics) {}
 
   void start();    // on each loop

@@ -72,7 +72,7 @@ void Listener::listen(const UnixAddress& address) {
   }
   remove_stale(address.path);
   bind(Unix::endpoint(address.path));
-  file_ = OwnFile(address.path);
+  file_ = UnlinkOnExit(address.path);
 }
 
 void Listener::bind(const Protocol::endpoint& endpoint) {

@@ -48,7 +48,7 @@ class Listener {
   Acceptor acceptor_;
   std::string name_, host_;
   bool local_ = true;
-  OwnFile file_;  // of a Unix socket
+  UnlinkOnExit file_;  // of a Unix socket
 };
 
 }  // namespace racebeam

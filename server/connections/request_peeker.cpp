@@ -8,16 +8,16 @@ namespace racebeam {
 namespace net = boost::asio;
 using boost::system::error_code;
 
-LookAhead::LookAhead(Socket* socket) : socket_(socket) {
+RequestPeeker::RequestPeeker(Socket* socket) : socket_(socket) {
   error_code ignored;
   wakes_ = socket != nullptr && socket->local_endpoint(ignored).protocol().family() == AF_UNIX;
 }
 
-Socket::message_flags LookAhead::flags(bool client_sleeps) const {
+Socket::message_flags RequestPeeker::flags(bool client_sleeps) const {
   return wakes_ && client_sleeps ? Socket::message_peek : 0;
 }
 
-std::size_t LookAhead::look(std::span<char> space) {
+std::size_t RequestPeeker::look(std::span<char> space) {
   if (socket_ == nullptr || space.empty()) return 0;
   error_code nothing;
   if (seen_ > 0 && socket_->available(nothing) == seen_) return 0;  // nothing new: it stays where it is
@@ -27,7 +27,7 @@ std::size_t LookAhead::look(std::span<char> space) {
 }
 
 // A socket that fails now fails for the next reader, too.
-void LookAhead::take() {
+void RequestPeeker::take() {
   std::array<char, 4096> unused;
   while (seen_ > 0) {
     error_code error;

@@ -11,9 +11,9 @@
 
 namespace racebeam {
 
-class LookAhead {
+class RequestPeeker {
  public:
-  explicit LookAhead(Socket* socket);  // null: there is none to look into, nothing is found
+  explicit RequestPeeker(Socket* socket);  // null: there is none to look into, nothing is found
 
   // Bytes that have come by now, also seen by the next reader until take(); 0: none, or nothing will come.
   std::size_t look(std::span<char> space);

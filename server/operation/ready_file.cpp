@@ -83,7 +83,7 @@ void ReadyFile::write(const std::string& path, const std::string& text) {
   const bool written = ::write(lock_, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
                        ::fchmod(lock_, 0644) == 0 && ::fsync(lock_) == 0;
   if (written && ::rename(temporary.c_str(), path.c_str()) == 0) {
-    file_ = OwnFile(path);
+    file_ = UnlinkOnExit(path);
     return;
   }
   const int reason = errno;

@@ -28,7 +28,7 @@ class ReadyFile {
   void write(const std::string& path, const std::string& text);
 
   int lock_;  // the file's descriptor, which has the lock
-  OwnFile file_;
+  UnlinkOnExit file_;
 };
 
 }  // namespace racebeam

@@ -9,10 +9,10 @@
 
 namespace racebeam {
 
-class OwnFile {
+class UnlinkOnExit {
  public:
-  OwnFile() = default;  // none
-  explicit OwnFile(std::string path) : path_(std::move(path)), mark_(mark_of(path_)) {}
+  UnlinkOnExit() = default;  // none
+  explicit UnlinkOnExit(std::string path) : path_(std::move(path)), mark_(mark_of(path_)) {}
 
   // Unless it is gone, or another's. Once.
   void remove() {

@@ -18,11 +18,11 @@
 namespace racebeam::test {
 namespace {
 
-struct Names {
+struct VariableNames {
   std::string_view operation, mode;
 };
 
-constexpr std::array<Names, 256> kNames = {{
+constexpr std::array<VariableNames, 256> kNames = {{
 #define OP(code, operation, mode, access, cycles) {#operation, #mode},
 #include "emulator/base/opcodes.inc"
 #undef OP

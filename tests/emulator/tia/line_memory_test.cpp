@@ -61,8 +61,8 @@ TEST_CASE("No two lines have the same number, on different machines either") {
 }
 
 TEST_CASE("A row is copied from the other picture if that shows the line, and not else") {
-  Picture picture, other;
-  for (Picture* one : {&picture, &other}) one->make_room(2);
+  FrameBuffer picture, other;
+  for (FrameBuffer* one : {&picture, &other}) one->make_room(2);
   other.pixels()[kLinePixels] = 0x42;
   other.shows(1) = 7;
   CHECK_FALSE(picture.copy_row(&other, 1, 8));

@@ -99,7 +99,7 @@ struct Snapshot {
     console.restore_pictures(pictures);
   }
   State state;
-  Pictures pictures;
+  FrameBuffers pictures;
 };
 
 void play(unsigned seed, int frames) {
@@ -124,7 +124,7 @@ void play(unsigned seed, int frames) {
       of_other.restore_to(other.console);
       compare(drawn.console, other.console, random, looks);
       if (random.percent(30)) {
-        const Picture& theirs = *drawn.console.pictures().current;
+        const FrameBuffer& theirs = *drawn.console.pictures().current;
         REQUIRE(same(theirs.pixels(), other.console.drawn(of_other.pictures.current)->pixels()));
       }
     }

@@ -7,7 +7,7 @@ namespace {
 
 // What is pressed, and where the paddles end up.
 struct Player {
-  Hands hands;
+  ControllerInput hands;
   Inputs inputs{};
   PaddleValues paddles = hands.middle();
 
@@ -21,8 +21,8 @@ struct Player {
   }
 };
 
-Player with_joysticks() { return {Hands(false, {})}; }
-Player with_paddles() { return {Hands(true, {})}; }
+Player with_joysticks() { return {ControllerInput(false, {})}; }
+Player with_paddles() { return {ControllerInput(true, {})}; }
 
 constexpr int kRight = 3, kLeft = 4;
 
@@ -59,7 +59,7 @@ TEST_CASE("Each action presses the stick as its name says") {
 
 TEST_CASE("Every frame starts with everything released") {
   Player player = with_joysticks();
-  Hands::press_select(player.inputs, 0);
+  ControllerInput::press_select(player.inputs, 0);
   player.press(17, 1.0F, 35);
   player.press(40);
   CHECK(player.inputs.joystick == std::array<std::uint8_t, 2>{});
@@ -84,7 +84,7 @@ TEST_CASE("The difficulty sets the switches, also while SELECT is held") {
     const int bits = (difficulty & 1 ? kSwitchLeftA : 0) | (difficulty & 2 ? kSwitchRightA : 0);
     player.press(0, 1.0F, 18, 0.0F, difficulty);
     CHECK(player.inputs.switches == (kSwitchesAtRest | bits));
-    Hands::press_select(player.inputs, difficulty);
+    ControllerInput::press_select(player.inputs, difficulty);
     CHECK(player.inputs.switches == ((kSwitchesAtRest & ~kSwitchSelect) | bits));
   }
 }
@@ -137,13 +137,13 @@ TEST_CASE("With paddles, up and down do nothing and the sticks are not driven") 
 TEST_CASE("SELECT leaves the paddles where they are") {
   Player player = with_paddles();
   player.press(kRight, 1.0F, 19, 0.0F);
-  Hands::press_select(player.inputs, 0);
+  ControllerInput::press_select(player.inputs, 0);
   CHECK(player.inputs.paddle[0] == 385823);
   CHECK(player.inputs.paddle_fire == 0);
 }
 
 TEST_CASE("A paddle never leaves its limits, however strong the turn") {
-  Player player{Hands(true, {100, 1000})};
+  Player player{ControllerInput(true, {100, 1000})};
   CHECK(player.paddles[0] == 550);
   CHECK(player.paddle_after(kLeft, 3.0e38F) == 1000);
   CHECK(player.paddle_after(kRight, -3.0e38F) == 100);
