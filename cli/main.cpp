@@ -8,15 +8,15 @@
 #include <iostream>
 #include <vector>
 
-#include "cli/bench.hpp"
-#include "cli/classic.hpp"
-#include "cli/config.hpp"
-#include "cli/games.hpp"
-#include "cli/options.hpp"
-#include "cli/png.hpp"
-#include "cli/roms.hpp"
-#include "cli/serve.hpp"
-#include "cli/trace.hpp"
+#include "cli/arguments/options.hpp"
+#include "cli/bench/bench.hpp"
+#include "cli/commands/classic.hpp"
+#include "cli/commands/config.hpp"
+#include "cli/commands/games.hpp"
+#include "cli/commands/png.hpp"
+#include "cli/commands/roms.hpp"
+#include "cli/commands/serve.hpp"
+#include "cli/commands/trace.hpp"
 #include "system/printable.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "emulator/console_impl.hpp"
-#include "emulator/cpu.hpp"
+#include "emulator/cpu/cpu.hpp"
 #include "emulator/state_check.hpp"
 
 namespace racebeam {
@@ -63,15 +63,15 @@ void Console::Impl::reset() {
 }
 
 // A black picture; one that a snapshot holds too is left as it is.
-void Console::Impl::blank(std::shared_ptr<Picture>& picture) {
+void Console::Impl::blank(std::shared_ptr<FrameBuffer>& picture) {
   if (is_own(picture)) picture->blank();
-  else picture = std::make_shared<Picture>();
+  else picture = std::make_shared<FrameBuffer>();
 }
 
 // The console's own buffers are kept for the frames to come, if nobody else holds them.
-void Console::Impl::take(const Pictures& others) {
-  const auto displace = [](std::shared_ptr<Picture>& own, const std::shared_ptr<Picture>& other,
-                           std::shared_ptr<Picture>& kept) {
+void Console::Impl::take(const FrameBuffers& others) {
+  const auto displace = [](std::shared_ptr<FrameBuffer>& own, const std::shared_ptr<FrameBuffer>& other,
+                           std::shared_ptr<FrameBuffer>& kept) {
     if (own != other && own.use_count() == 1) kept = std::move(own);
     own = other;
   };
@@ -147,10 +147,10 @@ std::span<const std::uint8_t> Console::previous_picture() const {
   return impl_->pictures.previous->pixels().first(impl_->picture_size());
 }
 
-const Pictures& Console::pictures() const { return impl_->pictures; }
-void Console::restore_pictures(const Pictures& pictures) { impl_->take(pictures); }
+const FrameBuffers& Console::pictures() const { return impl_->pictures; }
+void Console::restore_pictures(const FrameBuffers& pictures) { impl_->take(pictures); }
 
-std::shared_ptr<const Picture> Console::drawn(std::shared_ptr<Picture> picture) const {
+std::shared_ptr<const FrameBuffer> Console::drawn(std::shared_ptr<FrameBuffer> picture) const {
   impl_->draw_now(picture);
   return picture;
 }

@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "emulator/inputs.hpp"
 #include "emulator/pace.hpp"
-#include "emulator/picture.hpp"
-#include "emulator/power_on.hpp"
-#include "emulator/properties.hpp"
-#include "emulator/sound.hpp"
-#include "emulator/state.hpp"
+#include "emulator/state/inputs.hpp"
+#include "emulator/state/power_on.hpp"
+#include "emulator/state/properties.hpp"
+#include "emulator/state/state.hpp"
+#include "emulator/tia/frame_buffer.hpp"
+#include "emulator/tia/sound.hpp"
 #include "emulator/translator/translator.hpp"
 
 namespace racebeam {
@@ -61,15 +61,15 @@ class Console {
   // Both buffers with their order, for a snapshot; undrawn ones as they are. They are shared until the console draws on
   // one of them again, so that taking and putting back cost nothing. What is put back must come from a console with the
   // same image and properties.
-  const Pictures& pictures() const;
-  void restore_pictures(const Pictures& pictures);
+  const FrameBuffers& pictures() const;
+  void restore_pictures(const FrameBuffers& pictures);
 
   // Gives back what only makes drawing faster, half of a console's memory: for one that will not run for a while. It
   // comes back with the next frames.
   void rest();
 
   // A picture of such a snapshot with its pixels: the same, or a copy that has been drawn.
-  std::shared_ptr<const Picture> drawn(std::shared_ptr<Picture> picture) const;
+  std::shared_ptr<const FrameBuffer> drawn(std::shared_ptr<FrameBuffer> picture) const;
 
   std::span<const std::uint8_t, 128> ram() const;  // $80-$FF
   void set_ram(int index, std::uint8_t value);

@@ -1,14 +1,14 @@
-// The inside of a Console. Its parts are in console.cpp and step.cpp.
+// The inside of a Console. Its parts are in console.cpp and frame_runner.cpp.
 #pragma once
 
 #include <algorithm>
 #include <memory>
 #include <utility>
 
-#include "emulator/board.hpp"
+#include "emulator/board/board.hpp"
 #include "emulator/console.hpp"
+#include "emulator/deferred_render_policy.hpp"
 #include "emulator/translator/translator.hpp"
-#include "emulator/unseen_frames.hpp"
 
 namespace racebeam {
 
@@ -22,8 +22,8 @@ struct Console::Impl {
   Pace* const pace;  // null: none
   Board board;
   Format format;
-  Pictures pictures;
-  Pictures spare;  // buffers of the console's own that a snapshot's have displaced, or null
+  FrameBuffers pictures;
+  FrameBuffers spare;  // buffers of the console's own that a snapshot's have displaced, or null
   // Collisions are looked for where the picture is drawn, and else only those that the game has read so far. What the
   // others would be can be found out: nobody sees a state in which they are not known.
   struct {
@@ -32,7 +32,7 @@ struct Console::Impl {
     FrameStart step;         // the step that would tell, if any are
   } latches;
 
-  UnseenFrames unseen;
+  DeferredRenderPolicy unseen;
 
   const std::unique_ptr<Translator> translator;  // null: the interpreter runs all
 
@@ -44,23 +44,23 @@ struct Console::Impl {
   void power_up();
   void set_timer();
   void reset();
-  void blank(std::shared_ptr<Picture>& picture);
+  void blank(std::shared_ptr<FrameBuffer>& picture);
   Format detect_format();
-  void take(const Pictures& others);
+  void take(const FrameBuffers& others);
   void check_ram_size(std::span<const std::uint8_t> cartridge_ram) const;
 
-  // step.cpp
+  // frame_runner.cpp
   void step(bool looked_at, bool follow);
   bool step_over(FrameStart& start, bool draw, bool judged);
-  bool run_step(Picture& picture, const FrameStart& start, Pixels pixels);
+  bool run_step(FrameBuffer& picture, const FrameStart& start, Pixels pixels);
   FrameStart here() const { return {board.state, board.cartridge_ram, board.sound}; }
   bool reads_unknown_latches(FrameStart& start, bool drew);
   void note_latches(FrameStart& start, Collisions looked_for);
   void settle_latches();
   void go_back(const FrameStart& start);
-  void draw_now(std::shared_ptr<Picture>& picture);
-  std::shared_ptr<Picture> own_copy(const Picture& picture);
-  Picture& canvas();
+  void draw_now(std::shared_ptr<FrameBuffer>& picture);
+  std::shared_ptr<FrameBuffer> own_copy(const FrameBuffer& picture);
+  FrameBuffer& canvas();
 };
 
 }  // namespace racebeam

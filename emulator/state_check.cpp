@@ -4,9 +4,9 @@
 #include <span>
 #include <string>
 
-#include "emulator/objects.hpp"
-#include "emulator/range_check.hpp"
-#include "emulator/riot.hpp"
+#include "emulator/base/range_check.hpp"
+#include "emulator/board/riot.hpp"
+#include "emulator/tia/line/objects.hpp"
 
 namespace racebeam {
 namespace {

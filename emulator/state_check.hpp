@@ -2,9 +2,9 @@
 // nonsense, but runs within bounds, like any other.
 #pragma once
 
-#include "emulator/beam.hpp"
-#include "emulator/scheme.hpp"
-#include "emulator/state.hpp"
+#include "emulator/cartridge/cartridge.hpp"
+#include "emulator/state/state.hpp"
+#include "emulator/tia/beam.hpp"
 
 namespace racebeam {
 

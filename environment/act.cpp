@@ -49,7 +49,7 @@ int Environment::Impl::act(const Presses& asked, int frames) {
 }
 
 void Environment::Impl::run_frame(const Presses& presses, bool draw) {
-  hands.press(console.inputs(), presses, play.difficulty, play.paddles);
+  controller_input.press(console.inputs(), presses, play.difficulty, play.paddles);
   step_console(draw);
   rule.step(memory());
 }

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "emulator/mersenne_twister.hpp"
-#include "emulator/palette.hpp"
-#include "environment/classic_power_on.hpp"
+#include "emulator/base/mersenne_twister.hpp"
+#include "emulator/tia/palette.hpp"
 #include "environment/impl.hpp"
+#include "environment/reset/classic_power_on.hpp"
 
 namespace racebeam {
 namespace {
@@ -76,7 +76,7 @@ Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_pt
       rule(*game),
       legal(game->legal_actions, console.has_paddles()),
       sticky(settings.sticky),
-      hands(console.has_paddles(), paddle_limits(settings, *game)),
+      controller_input(console.has_paddles(), paddle_limits(settings, *game)),
       lives_at_start(rule.initial_lives()),
       drawing(settings.color_averaging ? Drawing::kLastTwo : Drawing::kLast),
       blend(settings.color_averaging ? &racebeam::blend(console.format()) : nullptr) {
@@ -193,7 +193,7 @@ const Game& Environment::game() const { return *impl_->game; }
 const Image& Environment::image() const { return *impl_->image; }
 const Settings& Environment::settings() const { return impl_->settings; }
 
-std::shared_ptr<const Picture> Environment::drawn(const std::shared_ptr<Picture>& picture) const {
+std::shared_ptr<const FrameBuffer> Environment::drawn(const std::shared_ptr<FrameBuffer>& picture) const {
   return impl_->console.drawn(picture);
 }
 

@@ -11,15 +11,15 @@
 #include <vector>
 
 #include "emulator/pace.hpp"
-#include "emulator/properties.hpp"
+#include "emulator/state/properties.hpp"
 #include "environment/settings.hpp"
-#include "games/game.hpp"
-#include "games/image.hpp"
+#include "games/game/game.hpp"
+#include "games/rom_image.hpp"
 
 namespace racebeam {
 
 struct Sound;
-class Picture;
+class FrameBuffer;
 
 // Which frames of an act are drawn as they run.
 enum class Drawing { kEvery, kLastTwo, kLast, kNone };
@@ -100,7 +100,7 @@ class Environment {
   std::shared_ptr<const Saved> save(bool with_random = false) const;
 
   // A picture of a state that is one of this environment's image and game, with its pixels.
-  std::shared_ptr<const Picture> drawn(const std::shared_ptr<Picture>& picture) const;
+  std::shared_ptr<const FrameBuffer> drawn(const std::shared_ptr<FrameBuffer>& picture) const;
   void restore(const Saved& saved);
 
   // For planners, who meet the same state by different ways: two environments of the same image, game and

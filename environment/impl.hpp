@@ -5,17 +5,17 @@
 #include <memory>
 #include <vector>
 
+#include "emulator/base/mersenne_twister.hpp"
 #include "emulator/console.hpp"
-#include "emulator/mersenne_twister.hpp"
-#include "environment/boot_study.hpp"
 #include "environment/environment.hpp"
-#include "environment/hands.hpp"
-#include "environment/legal_actions.hpp"
-#include "environment/play.hpp"
-#include "environment/presses.hpp"
-#include "environment/reset_cache.hpp"
-#include "environment/saved.hpp"
-#include "games/rule.hpp"
+#include "environment/episode_state.hpp"
+#include "environment/input/controller_input.hpp"
+#include "environment/input/legal_actions.hpp"
+#include "environment/input/sticky_actions.hpp"
+#include "environment/reset/boot_study.hpp"
+#include "environment/reset/reset_cache.hpp"
+#include "environment/saved_state.hpp"
+#include "games/game/rule.hpp"
 
 namespace racebeam {
 
@@ -36,9 +36,9 @@ struct Environment::Impl {
   Rule rule;
   const LegalActions legal;
   const Sticky sticky;
-  const Hands hands;
+  const ControllerInput controller_input;
   const int lives_at_start;
-  Play play;
+  EpisodeState play;
   std::array<std::uint8_t, kAudioSize> audio{};
   std::optional<BootFacts> boot_facts;  // of the image; studied at the first reset
   bool drew_at_reset = false;           // the generator took part in the last one

@@ -1,7 +1,7 @@
 // The way to the first frame of an episode (docs/spec/environment.md, 7).
-#include "emulator/scheme.hpp"
+#include "emulator/cartridge/cartridge.hpp"
 #include "environment/impl.hpp"
-#include "games/mode_program.hpp"
+#include "games/game/mode_program.hpp"
 
 namespace racebeam {
 namespace {
@@ -13,9 +13,10 @@ constexpr int kNoop = 0;
 
 void Environment::Impl::reset() {
   play.episode_frames = 0;
-  play.paddles = hands.middle();
+  play.paddles = controller_input.middle();
   console.reset();
-  hands.press(console.inputs(), {}, play.difficulty, play.paddles);  // as the first frame does again
+  controller_input.press(console.inputs(), {}, play.difficulty,
+                         play.paddles);  // as the first frame does again
   if (!may_copy_reset()) return run_reset();
   const ResetStart start = reset_start();
   if (const auto end = reset_cache().find(start)) return copy_reset(*end);
@@ -32,7 +33,7 @@ bool Environment::Impl::may_copy_reset() const {
 
 ResetStart Environment::Impl::reset_start() {
   if (!boot_facts) boot_facts = study_boot(console, scheme_of(*image->bytes, properties.scheme).name);
-  ResetStart start{image, game, hands.limits(), play.mode, play.difficulty, {}, console.state()};
+  ResetStart start{image, game, controller_input.limits(), play.mode, play.difficulty, {}, console.state()};
   start.machine.drawn = 0;  // counts only: nothing is drawn any more
   if (boot_facts->clears_ram) start.machine.riot.ram = {};
   if (boot_facts->sets_timer) start.machine.riot.timer = 0;
@@ -83,7 +84,7 @@ void Environment::Impl::soft_reset() {
 
 // Only the frame after it is seen by the rule, and counts.
 void Environment::Impl::select(int frames) {
-  Hands::press_select(console.inputs(), play.difficulty);
+  ControllerInput::press_select(console.inputs(), play.difficulty);
   for (int n = 0; n < frames; ++n) step_console(false);
   run_frames(kNoop, 1);
   count_frame();

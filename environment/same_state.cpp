@@ -4,14 +4,14 @@
 #include <bit>
 #include <cstring>
 
-#include "environment/state_hash.hpp"
+#include "emulator/state/state_hash.hpp"
 
 namespace racebeam {
 namespace {
 
-// What of Play decides the future, as words. -0.0 and 0.0 are told apart, which does no harm.
+// What of EpisodeState decides the future, as words. -0.0 and 0.0 are told apart, which does no harm.
 using PlayWords = std::array<std::uint32_t, 8>;
-PlayWords words_of(const Play& play) {
+PlayWords words_of(const EpisodeState& play) {
   const auto word = [](auto value) { return std::bit_cast<std::uint32_t>(value); };
   return {word(play.held.a.action), word(play.held.a.strength), word(play.held.b.action),
           word(play.held.b.strength), word(play.paddles[0]), word(play.paddles[1]),

@@ -4,16 +4,16 @@
 #include <cstdint>
 #include <span>
 
-#include "emulator/state.hpp"
-#include "environment/play.hpp"
-#include "games/rule.hpp"
+#include "emulator/state/state.hpp"
+#include "environment/episode_state.hpp"
+#include "games/game/rule.hpp"
 
 namespace racebeam {
 
 // Where the parts are that count. Of `play` not all does.
 struct StateParts {
   const State& machine;
-  const Play& play;
+  const EpisodeState& play;
   const Tally& tally;
   std::span<const std::uint8_t> cartridge_ram;
 };

@@ -1,7 +1,7 @@
 // A session of the classic protocol. The first byte is the options, the rest what a client sends.
 #include "fuzz/target.hpp"
 #include "games/catalogue.hpp"
-#include "protocol/classic.hpp"
+#include "protocol/classic/classic.hpp"
 
 namespace racebeam::fuzz {
 namespace {

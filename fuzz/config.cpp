@@ -1,6 +1,6 @@
 // A file of settings for `racebeam serve --config`: what is accepted is printed by `racebeam config`, and
 // that is read again as it was.
-#include "cli/config.hpp"
+#include "cli/commands/config.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // Bytes as text and back, in every encoding of the wire; numbers, actions and lines out of text.
-#include "protocol/encoding.hpp"
+#include "protocol/encoding/encoding.hpp"
 
 #include <zlib.h>
 
@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "fuzz/target.hpp"
-#include "protocol/action.hpp"
-#include "protocol/base64.hpp"
-#include "protocol/line_reader.hpp"
-#include "protocol/text.hpp"
-#include "protocol/words.hpp"
+#include "protocol/encoding/base64.hpp"
+#include "protocol/encoding/text.hpp"
+#include "protocol/line/action.hpp"
+#include "protocol/line/line_reader.hpp"
+#include "protocol/line/words.hpp"
 
 namespace racebeam::fuzz {
 namespace {

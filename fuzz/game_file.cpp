@@ -1,11 +1,11 @@
 // A game file: read, and, if it is accepted, its rule and its modes tried on random memory.
-#include "games/game_file.hpp"
+#include "games/files/game_file.hpp"
 
 #include <array>
 
 #include "fuzz/target.hpp"
-#include "games/mode_program.hpp"
-#include "games/rule.hpp"
+#include "games/game/mode_program.hpp"
+#include "games/game/rule.hpp"
 
 namespace racebeam::fuzz {
 namespace {

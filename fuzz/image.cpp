@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "emulator/cartridge/cartridge.hpp"
 #include "emulator/console.hpp"
-#include "emulator/scheme.hpp"
 #include "fuzz/target.hpp"
 #include "tests/translator/pair.hpp"
 

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <vector>
 
-#include "emulator/sound.hpp"
+#include "emulator/tia/sound.hpp"
 #include "fuzz/folder.hpp"
 #include "fuzz/gif_reader.hpp"
 #include "fuzz/target.hpp"

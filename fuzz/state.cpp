@@ -6,8 +6,8 @@
 #include <cstring>
 #include <vector>
 
-#include "environment/saved.hpp"
-#include "environment/snapshot.hpp"
+#include "environment/saved/saved_state_format.hpp"
+#include "environment/saved_state.hpp"
 #include "fuzz/target.hpp"
 #include "games/catalogue.hpp"
 #include "tests/support/random_image.hpp"
@@ -18,7 +18,7 @@ namespace {
 using State = std::vector<std::uint8_t>;
 
 constexpr std::uint8_t kWhole = 0xFF;
-constexpr std::size_t kHeader = 24, kChecksum = 20;  // snapshot.cpp
+constexpr std::size_t kHeader = 24, kChecksum = 20;  // saved_state_format.cpp
 constexpr int kActs = 3;
 
 // Finding the format out would take a second of frames.

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "games/game_file.hpp"
+#include "games/files/game_file.hpp"
 #include "games/similar.hpp"
 #include "system/input_file.hpp"
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "games/game.hpp"
-#include "games/image.hpp"
+#include "games/game/game.hpp"
+#include "games/rom_image.hpp"
 
 namespace racebeam {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "games/digest.hpp"
-#include "games/game_file.hpp"
+#include "games/files/game_file.hpp"
 
 namespace racebeam {
 namespace {

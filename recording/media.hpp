@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/palette.hpp"
+#include "emulator/tia/palette.hpp"
 #include "recording/kept.hpp"
 
 namespace racebeam {

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "emulator/sound.hpp"
+#include "emulator/tia/sound.hpp"
 #include "environment/environment.hpp"
 #include "recording/claim.hpp"
 #include "recording/media.hpp"

@@ -1,7 +1,7 @@
 // WAV: 8-bit mono, 512 samples a frame, as the reference records (docs/spec/environment.md, 12).
 #include <vector>
 
-#include "emulator/sound.hpp"
+#include "emulator/tia/sound.hpp"
 #include "recording/media.hpp"
 
 namespace racebeam {

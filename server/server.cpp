@@ -7,12 +7,12 @@
 #include <memory>
 
 #include "recording/recorder.hpp"
-#include "server/door.hpp"
-#include "server/http.hpp"
-#include "server/log.hpp"
-#include "server/ready_file.hpp"
-#include "server/streams.hpp"
-#include "server/watch.hpp"
+#include "server/connections/connection_acceptor.hpp"
+#include "server/connections/http.hpp"
+#include "server/connections/idle_monitor.hpp"
+#include "server/connections/streams.hpp"
+#include "server/operation/log.hpp"
+#include "server/operation/ready_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -64,9 +64,9 @@ class Server {
   Loops loops_;
   net::io_context& first_;
   net::signal_set signals_;
-  Watch watch_;
+  IdleMonitor idle_monitor_;
   std::optional<ReadyFile> ready_file_;
-  Door door_;
+  ConnectionAcceptor acceptor_;
   std::shared_ptr<Recorder> recorder_;  // null: nothing is recorded
   std::list<StreamSession> streams_;
   std::unique_ptr<Http> http_;
@@ -79,8 +79,8 @@ Server::Server(const ServerSettings& settings, const Services& services)
       loops_(static_cast<unsigned>(settings.threads), settings.busy_poll, metrics_),
       first_(loops_.first().context),
       signals_(first_, SIGTERM, SIGINT, SIGHUP),
-      watch_(settings, loops_, metrics_),
-      door_(settings, services, loops_, metrics_),
+      idle_monitor_(settings, loops_, metrics_),
+      acceptor_(settings, services, loops_, metrics_),
       recorder_(recorder_of(services)) {
   for (const Endpoint& endpoint : settings.endpoints) {
     if (!is_stream(endpoint.address)) continue;
@@ -94,13 +94,13 @@ Server::Server(const ServerSettings& settings, const Services& services)
 }
 
 void Server::announce() {
-  if (!door_.empty()) {
+  if (!acceptor_.empty()) {
     log("threads that serve: " + std::to_string(settings_.threads) + ", limited by " +
             settings_.threads_limited_by,
         {{"event", "threads"}});
   }
-  door_.open();
-  std::vector<std::string> names = door_.names();
+  acceptor_.open();
+  std::vector<std::string> names = acceptor_.names();
   for (const StreamSession& stream : streams_) names.push_back(stream.name());
   if (http_) {
     log("health and metrics on " + http_->name(), {{"event", "listening"}, {"address", http_->name()}});
@@ -120,7 +120,7 @@ void Server::announce() {
 int Server::run() {
   net::co_spawn(first_, obey(), net::detached);
   announce();
-  watch_.start();
+  idle_monitor_.start();
   loops_.run();
   return status();
 }
@@ -129,7 +129,7 @@ net::awaitable<void> Server::obey() {
   for (;;) {
     const int number = co_await signals_.async_wait(use_awaitable);
     if (number == SIGHUP) {
-      door_.read_again();
+      acceptor_.read_again();
     } else if (told_to_stop_) {
       patient_ = false;
     } else {
@@ -150,13 +150,13 @@ net::awaitable<void> Server::wind_down() {
   ready_ = false;
   ready_file_.reset();  // its addresses are dead from now on
   notify_manager("STOPPING=1");
-  door_.close();
+  acceptor_.close();
   log("told to stop: " + std::to_string(metrics_.sessions_open) + " sessions have " +
           std::to_string(settings_.grace_seconds) + " seconds to end",
       {{"event", "stopping"}});
   const auto grace = Clock::now() + std::chrono::seconds(settings_.grace_seconds);
   for (; !all_ended() && patient_ && Clock::now() < grace; co_await pause()) stop_streams(false);
-  watch_.end_all();
+  idle_monitor_.end_all();
   const auto farewell = Clock::now() + kFarewell;
   for (; !all_ended() && Clock::now() < farewell; co_await pause()) stop_streams(true);
   // Connections that are being closed: what was sent last is on its way.
@@ -168,7 +168,7 @@ net::awaitable<void> Server::wind_down() {
 bool Server::all_ended() const { return sessions_ended() && (!recorder_ || recorder_->idle()); }
 
 bool Server::sessions_ended() const {
-  return streams_ended() && (told_to_stop_ || door_.empty()) && metrics_.sessions_open == 0;
+  return streams_ended() && (told_to_stop_ || acceptor_.empty()) && metrics_.sessions_open == 0;
 }
 
 void Server::stop_streams(bool at_once) {

@@ -1,8 +1,8 @@
 // A server: sessions for all who come to its endpoints, until it is told to stop.
 #pragma once
 
-#include "server/service.hpp"
-#include "server/settings.hpp"
+#include "server/connections/service.hpp"
+#include "server/connections/settings.hpp"
 
 namespace racebeam {
 

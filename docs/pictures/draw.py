@@ -47,7 +47,7 @@ FRAME = {
         "spans": (1, 2, 1, "Beam: spans", ["from one change", "to the next"], "code"),
         "masks": (2, 2, 1, "six masks", ["160 bits for each object"], "data"),
         "pixels": (1, 3, 1, "pixels, collisions", ["layers to colours: AVX-512,", "AVX2 or plain; 15 ANDs"], "code"),
-        "picture": (0, 3, 1, "Picture", ["160 bytes a row,", "one palette index a pixel"], "data"),
+        "picture": (0, 3, 1, "FrameBuffer", ["160 bytes a row,", "one palette index a pixel"], "data"),
     },
     "arrows": [("cpu", "log", ""), ("log", "end", ""), ("end", "lines", ""), ("lines", "known", ""),
                ("known", "recall", "yes"), ("known", "spans", "no"), ("spans", "masks", ""),

@@ -1,6 +1,6 @@
 #include "emulator/translator/assembler.hpp"
 
-#include "emulator/board.hpp"
+#include "emulator/board/board.hpp"
 
 namespace racebeam::translator {
 

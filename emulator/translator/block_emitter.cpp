@@ -1,6 +1,6 @@
 #include "emulator/translator/block_emitter.hpp"
 
-#include "emulator/timer_loop.hpp"
+#include "emulator/cpu/timer_loop.hpp"
 #include "emulator/translator/addresses.hpp"
 #include "emulator/translator/bus_calls.hpp"
 

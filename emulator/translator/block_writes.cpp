@@ -1,12 +1,12 @@
 // Writes: to RAM, to the TIA's log, and to what only the machine knows.
 #include <cstddef>
 
-#include "emulator/line_key.hpp"
-#include "emulator/registers.hpp"
+#include "emulator/tia/line_cache/line_dependencies.hpp"
+#include "emulator/tia/registers/registers.hpp"
+#include "emulator/tia/registers/write_log.hpp"
 #include "emulator/translator/addresses.hpp"
 #include "emulator/translator/block_emitter.hpp"
 #include "emulator/translator/bus_calls.hpp"
-#include "emulator/write_log.hpp"
 
 namespace racebeam::translator {
 namespace {

@@ -1,8 +1,8 @@
 #include "emulator/translator/bus_calls.hpp"
 
-#include "emulator/board.hpp"
-#include "emulator/decimal.hpp"
-#include "emulator/timer_loop.hpp"
+#include "emulator/board/board.hpp"
+#include "emulator/cpu/decimal.hpp"
+#include "emulator/cpu/timer_loop.hpp"
 
 namespace racebeam::translator {
 namespace {

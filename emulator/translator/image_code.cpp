@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "emulator/board.hpp"
+#include "emulator/board/board.hpp"
 #include "emulator/translator/block_emitter.hpp"
 #include "emulator/translator/program.hpp"
 

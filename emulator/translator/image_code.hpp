@@ -6,9 +6,9 @@
 #include <mutex>
 #include <vector>
 
-#include "emulator/memory_map.hpp"
-#include "emulator/scheme.hpp"
-#include "emulator/state.hpp"
+#include "emulator/cartridge/cartridge.hpp"
+#include "emulator/cartridge/memory_map.hpp"
+#include "emulator/state/state.hpp"
 #include "emulator/translator/assembler.hpp"
 #include "emulator/translator/code_memory.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "emulator/opcodes.hpp"
+#include "emulator/base/opcodes.hpp"
 
 namespace racebeam::translator {
 namespace {
@@ -16,7 +16,7 @@ struct Row {
 
 constexpr std::array<Row, 256> kRows = {{
 #define OP(code, operation, mode, access, cycles) {Operation::operation, Mode::mode, Access::access, cycles},
-#include "emulator/opcodes.inc"
+#include "emulator/base/opcodes.inc"
 #undef OP
 }};
 

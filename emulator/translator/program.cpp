@@ -1,6 +1,6 @@
 #include "emulator/translator/program.hpp"
 
-#include "emulator/registers.hpp"
+#include "emulator/tia/registers/registers.hpp"
 
 namespace racebeam::translator {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "emulator/memory_map.hpp"
+#include "emulator/cartridge/memory_map.hpp"
 #include "emulator/translator/instruction.hpp"
 
 namespace racebeam::translator {

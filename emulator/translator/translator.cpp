@@ -6,8 +6,8 @@
 #include <string>
 #include <system_error>
 
-#include "emulator/board.hpp"
-#include "emulator/cpu.hpp"
+#include "emulator/board/board.hpp"
+#include "emulator/cpu/cpu.hpp"
 #include "emulator/translator/image_code.hpp"
 #include "emulator/translator/program.hpp"
 

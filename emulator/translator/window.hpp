@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "emulator/memory_map.hpp"
-#include "emulator/scheme.hpp"
+#include "emulator/cartridge/cartridge.hpp"
+#include "emulator/cartridge/memory_map.hpp"
 
 namespace racebeam::translator {
 

@@ -99,7 +99,7 @@ class Measuring(unittest.TestCase):
     def measure(self, binary, *words):
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder) / "core.json"
-            done = subprocess.run([PYTHON, "-B", SOURCE / "scripts/bench_core.py", "--games", "pong",
+            done = subprocess.run([PYTHON, "-B", SOURCE / "scripts/measure/bench_core.py", "--games", "pong",
                                    "--frames", "1000", "--out", out, *words], capture_output=True, text=True,
                                   env=os.environ | {"RACEBEAM_BINARY": str(binary)})
             return done, json.loads(out.read_text()) if out.exists() else None

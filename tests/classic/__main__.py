@@ -22,7 +22,7 @@ IDENTICAL, UNKNOWN = "identical", "unknown to the reference"
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="scripts/classic-conformance", description=__doc__,
+    parser = argparse.ArgumentParser(prog="scripts/check/classic-conformance", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
     add("--reference", required=True, metavar="PATH", help="the program `ale` of ALE 0.6.0")
@@ -73,7 +73,7 @@ def main():
     try:
         runs = chosen_runs(options)
     except ValueError as error:
-        print(f"scripts/classic-conformance: {error}", file=sys.stderr)
+        print(f"scripts/check/classic-conformance: {error}", file=sys.stderr)
         return 2
     results = compare_all(options, runs)
     if options.keep:

@@ -6,6 +6,7 @@ import markdown
 from tree import ROOT, documents
 
 WIDTH = 100
+TREE_PATH = re.compile(r"`([a-z.][\w.-]*/[\w./-]*\w\.(?:cpp|hpp|inc|md|py|txt|toml|svg)|scripts/[\w/-]+)[ `]")
 
 
 def link_faults(root, path, text):
@@ -23,13 +24,13 @@ def link_faults(root, path, text):
             yield number, f"{name or path.name} has no heading #{anchor}"
 
 
-def path_faults(root, text):
-    """Paths of the tree in backticks, such as `emulator/state.hpp`, that are not there. Patterns and names in capitals,
-    which stand for any name, are left out."""
+def path_faults(root, document, text):
+    """Paths in backticks that are not there, from the root of the tree or from the document's folder. Names in
+    capitals stand for any name, and are left out."""
     for number, line in markdown.prose(text):
-        for path in re.findall(r"`([a-z.][\w.-]*/[\w./-]*\w\.(?:cpp|hpp|inc|md|py|txt|toml|svg))`", line):
+        for path in TREE_PATH.findall(line):
             ours = (root / path.split("/")[0]).is_dir() and not re.search(r"NAME|TARGET", path)
-            if ours and not (root / path).exists():
+            if ours and not (root / path).exists() and not (root / document.parent / path).exists():
                 yield number, f"there is no {path}"
 
 
@@ -55,7 +56,7 @@ def faults(root=ROOT):
     wrong = []
     for path in documents(root):
         text = (root / path).read_text()
-        for number, problem in [*link_faults(root, path, text), *path_faults(root, text), *width_faults(text),
+        for number, problem in [*link_faults(root, path, text), *path_faults(root, path, text), *width_faults(text),
                                 *table_faults(text)]:
             wrong.append(f"{path}:{number}: {problem}")
     return len(documents(root)), wrong

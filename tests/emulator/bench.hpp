@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "emulator/board.hpp"
-#include "emulator/cpu.hpp"
-#include "emulator/registers.hpp"
+#include "emulator/board/board.hpp"
+#include "emulator/cpu/cpu.hpp"
+#include "emulator/tia/registers/registers.hpp"
 
 namespace racebeam::test {
 
@@ -30,7 +30,7 @@ struct Bench {
 
   explicit Bench(Rom rom = Rom(4096, 0xEA), const Properties& properties = ntsc())
       : whole_(std::make_unique<Whole>(std::make_shared<const Rom>(std::move(rom)), properties)) {
-    for (Picture& buffer : pictures()) buffer.make_room(kMostRows);
+    for (FrameBuffer& buffer : pictures()) buffer.make_room(kMostRows);
     board.slot.scheme.reset(board.slot);
     board.map_memory();
     reset_cpu(board);
@@ -60,7 +60,7 @@ struct Bench {
   struct Whole {
     Whole(std::shared_ptr<const Rom> rom, const Properties& properties) : board(std::move(rom), properties) {}
     Board board;
-    std::array<Picture, 2> pictures;
+    std::array<FrameBuffer, 2> pictures;
     WriteLog log;
   };
   std::unique_ptr<Whole> whole_;  // too large for a stack
@@ -73,8 +73,8 @@ struct Bench {
   State& state = board.state;
   CpuState& cpu = state.cpu;
 
-  Picture& picture() { return whole_->pictures[current_]; }
-  std::array<Picture, 2>& pictures() { return whole_->pictures; }
+  FrameBuffer& picture() { return whole_->pictures[current_]; }
+  std::array<FrameBuffer, 2>& pictures() { return whole_->pictures; }
   std::span<const std::uint8_t> row(int number) {
     return picture().pixels().subspan(static_cast<std::size_t>(number * kLinePixels), kLinePixels);
   }
@@ -147,7 +147,7 @@ struct Bench {
     state.tia = TiaState{};
     state.frame = FrameState{};
     state.frame.open = 1;
-    for (Picture& buffer : pictures()) {
+    for (FrameBuffer& buffer : pictures()) {
       buffer.blank();
       buffer.make_room(kMostRows);
     }

@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "emulator/objects.hpp"
+#include "emulator/tia/line/objects.hpp"
 #include "tests/emulator/bench.hpp"
-#include "tests/emulator/reference_tia.hpp"
+#include "tests/emulator/reference/reference_tia.hpp"
 
 namespace racebeam::test {
 

@@ -81,7 +81,7 @@ TEST_CASE("A restored machine goes on as the saved one did") {
   Machine machine(frames_of(129));
   for (int i = 0; i < 7; ++i) machine.console.step();
   const State saved = machine.console.state();
-  const Pictures pictures = machine.console.pictures();
+  const FrameBuffers pictures = machine.console.pictures();
   const Bytes current(machine.console.picture().begin(), machine.console.picture().end());
   const Bytes previous(machine.console.previous_picture().begin(), machine.console.previous_picture().end());
   std::vector<std::uint32_t> first, second;

@@ -8,7 +8,7 @@
 #include <new>
 #include <random>
 
-#include "environment/batch.hpp"
+#include "environment/vector/batch.hpp"
 #include "games/catalogue.hpp"
 
 namespace {
@@ -41,9 +41,10 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { rel
 namespace racebeam {
 namespace {
 
-struct Play {
-  explicit Play(const BatchSettings& settings, std::size_t machines = 8)
-      : batch(std::vector<Cartridge>(machines, {load_image("builtin:beamfall"), find_game("beamfall")}), settings),
+struct EpisodeState {
+  explicit EpisodeState(const BatchSettings& settings, std::size_t machines = 8)
+      : batch(std::vector<Cartridge>(machines, {load_image("builtin:beamfall"), find_game("beamfall")}),
+              settings),
         actions(batch.size()) {}
 
   void step(int times) {
@@ -58,7 +59,7 @@ struct Play {
   std::mt19937 random{3};
 };
 
-long allocated(Play& play) {
+long allocated(EpisodeState& play) {
   const long before = allocations;
   play.step(200);
   return allocations - before;
@@ -73,7 +74,7 @@ TEST_CASE("A batch soon allocates nothing while it runs, episodes that end and b
       settings.autoreset = autoreset;
       settings.screens = true;
       settings.threads = threads;
-      Play play(settings);
+      EpisodeState play(settings);
       INFO("autoreset " << static_cast<int>(autoreset) << ", threads " << threads);
       int quiet = 0;
       for (int round = 0; round < 40 && quiet < 5; ++round) quiet = allocated(play) == 0 ? quiet + 1 : 0;
@@ -87,7 +88,7 @@ long taken(std::size_t machines) {
   const long before = bytes_in_use;
   BatchSettings settings;
   settings.threads = 1;
-  Play play(settings, machines);
+  EpisodeState play(settings, machines);
   play.step(200);
   return bytes_in_use - before;
 }

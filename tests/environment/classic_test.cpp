@@ -1,8 +1,8 @@
 // Seeding and resets as in ALE 0.4 to 0.6 (docs/spec/classic-protocol.md, 6).
 #include <catch2/catch.hpp>
 
-#include "environment/classic_power_on.hpp"
-#include "environment/saved.hpp"
+#include "environment/reset/classic_power_on.hpp"
+#include "environment/saved_state.hpp"
 #include "tests/support/counter_image.hpp"
 
 namespace racebeam {

@@ -4,7 +4,7 @@
 
 #include "emulator/console.hpp"
 #include "environment/environment.hpp"
-#include "environment/hands.hpp"
+#include "environment/input/controller_input.hpp"
 #include "tests/support/counter_image.hpp"
 #include "tests/support/roms.hpp"
 
@@ -27,7 +27,7 @@ constexpr Reset kResets[] = {
 int completed_frames(const Image& image, const Game& game, int soft_resets) {
   SystemGenerator random(4753849);
   Console console(image.bytes, game.properties_for(image.md5), random);
-  const Hands hands(console.has_paddles(), {});
+  const ControllerInput hands(console.has_paddles(), {});
   PaddleValues paddles = hands.middle();
   int completed = 0;
   const auto step = [&](int action) {

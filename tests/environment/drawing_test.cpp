@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "environment/snapshot.hpp"
+#include "environment/saved/saved_state_format.hpp"
 #include "tests/support/counter_image.hpp"
 #include "tests/support/observation.hpp"
 #include "tests/support/roms.hpp"

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "emulator/palette.hpp"
+#include "emulator/tia/palette.hpp"
 #include "tests/environment/steered.hpp"
 #include "tests/support/crc.hpp"
 

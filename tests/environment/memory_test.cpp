@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "environment/saved.hpp"
-#include "environment/snapshot.hpp"
+#include "environment/saved/saved_state_format.hpp"
+#include "environment/saved_state.hpp"
 #include "tests/environment/steered.hpp"
 
 namespace racebeam {

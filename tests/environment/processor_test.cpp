@@ -1,4 +1,4 @@
-// Interpreted and translated, the same is shown; snapshot_fuzz_test.cpp has the same for altered states.
+// Interpreted and translated, the same is shown; saved_state_fuzz_test.cpp has the same for altered states.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <list>

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "emulator/palette.hpp"
+#include "emulator/tia/palette.hpp"
 #include "environment/environment.hpp"
-#include "environment/saved.hpp"
+#include "environment/saved_state.hpp"
 #include "tests/support/crc.hpp"
 #include "tests/support/roms.hpp"
 

@@ -1,4 +1,4 @@
-#include "environment/state_hash.hpp"
+#include "emulator/state/state_hash.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "environment/environment.hpp"
-#include "environment/saved.hpp"
+#include "environment/saved_state.hpp"
 #include "tests/support/counter_image.hpp"
 
 namespace racebeam::test {

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "games/lexer.hpp"
-#include "games/rule_compiler.hpp"
+#include "games/language/lexer.hpp"
+#include "games/language/rule_compiler.hpp"
 #include "tests/games/game_text.hpp"
 
 using namespace racebeam;

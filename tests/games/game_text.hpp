@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "games/game_file.hpp"
+#include "games/files/game_file.hpp"
 
 namespace racebeam {
 

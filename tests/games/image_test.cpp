@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "games/catalogue.hpp"
-#include "games/image.hpp"
+#include "games/rom_image.hpp"
 #include "tests/games/scratch.hpp"
 
 using namespace racebeam;

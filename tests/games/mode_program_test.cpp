@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "games/catalogue.hpp"
-#include "games/mode_program.hpp"
+#include "games/game/mode_program.hpp"
 #include "tests/games/game_text.hpp"
 
 using namespace racebeam;

@@ -22,7 +22,7 @@ std::string report(const std::vector<Work>& works, bool states = false) {
 
 std::string golden_text(const std::string& game) {
   return "# What builtin:" + game +
-         " shows, folded line by line. scripts/golden compares, scripts/golden --rebaseline writes.\n" +
+         " shows, folded line by line. scripts/check/golden compares, scripts/check/golden --rebaseline writes.\n" +
          report(works_of(game));
 }
 
@@ -30,7 +30,7 @@ std::string file_of(const std::string& game) { return RACEBEAM_SOURCE_DIR "/test
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("can't read " + path + "; scripts/golden --rebaseline makes it");
+  if (!file) throw std::runtime_error("can't read " + path + "; scripts/check/golden --rebaseline makes it");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <span>
 
-#include "environment/snapshot.hpp"
+#include "environment/saved/saved_state_format.hpp"
 
 namespace racebeam::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "games/catalogue.hpp"
 #include "games/digest.hpp"
-#include "games/game_file.hpp"
+#include "games/files/game_file.hpp"
 #include "tests/support/random_image.hpp"
 #include "tests/support/roms.hpp"
 

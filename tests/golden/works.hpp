@@ -12,7 +12,7 @@ namespace racebeam::test {
 std::vector<Work> works_of(const std::string& game);
 
 // Random programs, in every scheme and television standard, with sticks and with paddles; and the program
-// that checks the processor (tests/emulator/functional.asm).
+// that checks the processor (tests/emulator/cpu/functional.asm).
 std::vector<Work> works_of_programs();
 
 // Every game whose image is here (tests/support/roms.hpp), in its first mode and its last; our own are not among them.

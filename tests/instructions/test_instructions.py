@@ -21,7 +21,7 @@ events: Ir
 summary: 47
 
 ob=(1) /somewhere/racebeam
-fl=(1) {root}/emulator/tia.cpp
+fl=(1) {root}/emulator/tia/tia.cpp
 fn=(1) draw
 10 7
 +2 3
@@ -34,7 +34,7 @@ cfi=(3) ???
 cfn=(2) 0x0000000000abc000
 calls=3 0
 12 1000
-fi=(4) {root}/emulator/beam.hpp
+fi=(4) {root}/emulator/tia/beam.hpp
 30 2
 ob=(2)
 fl=(3)
@@ -59,7 +59,7 @@ class Reading(unittest.TestCase):
         self.assertEqual(self.counts.functions, {"draw": 18, callgrind.MADE_AT_RUN_TIME: 20, "memset": 9})
 
     def test_what_is_inlined_counts_for_its_file_and_the_standard_library_for_its_user(self):
-        self.assertEqual(self.counts.files, {"emulator/tia.cpp": 16, "emulator/beam.hpp": 2,
+        self.assertEqual(self.counts.files, {"emulator/tia/tia.cpp": 16, "emulator/tia/beam.hpp": 2,
                                              callgrind.MADE_AT_RUN_TIME: 20, "libc.so.6 (not in the tree)": 9})
 
 

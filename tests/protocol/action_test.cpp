@@ -1,4 +1,4 @@
-#include "protocol/action.hpp"
+#include "protocol/line/action.hpp"
 
 #include <catch2/catch.hpp>
 

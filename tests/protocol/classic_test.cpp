@@ -1,11 +1,11 @@
-#include "protocol/classic.hpp"
+#include "protocol/classic/classic.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "environment/saved.hpp"
+#include "environment/saved_state.hpp"
 #include "games/catalogue.hpp"
-#include "protocol/text.hpp"
+#include "protocol/encoding/text.hpp"
 #include "tests/support/counter_image.hpp"
 
 using namespace racebeam;

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/base64.hpp"
+#include "protocol/encoding/base64.hpp"
 
 namespace {
 

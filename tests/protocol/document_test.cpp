@@ -5,10 +5,10 @@
 #include <iterator>
 #include <string>
 
-#include "protocol/command.hpp"
-#include "protocol/encoding.hpp"
-#include "protocol/field.hpp"
-#include "protocol/play_settings.hpp"
+#include "protocol/encoding/encoding.hpp"
+#include "protocol/line/commands/command.hpp"
+#include "protocol/line/field.hpp"
+#include "protocol/line/play_settings.hpp"
 #include "protocol/refusal.hpp"
 
 using namespace racebeam;

@@ -6,11 +6,11 @@
 #include <map>
 #include <set>
 
-#include "protocol/base64.hpp"
-#include "protocol/command.hpp"
-#include "protocol/encoding.hpp"
-#include "protocol/field.hpp"
-#include "protocol/play_settings.hpp"
+#include "protocol/encoding/base64.hpp"
+#include "protocol/encoding/encoding.hpp"
+#include "protocol/line/commands/command.hpp"
+#include "protocol/line/field.hpp"
+#include "protocol/line/play_settings.hpp"
 #include "recording/recorder.hpp"
 #include "tests/protocol/duel.hpp"
 

@@ -1,12 +1,12 @@
-#include "protocol/encoding.hpp"
+#include "protocol/encoding/encoding.hpp"
 
 #include <zlib.h>
 
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "protocol/base64.hpp"
-#include "protocol/words.hpp"
+#include "protocol/encoding/base64.hpp"
+#include "protocol/line/words.hpp"
 
 using namespace racebeam;
 

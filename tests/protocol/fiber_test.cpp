@@ -1,4 +1,4 @@
-#include "protocol/fiber.hpp"
+#include "protocol/running/fiber.hpp"
 
 #include <catch2/catch.hpp>
 #include <memory>

@@ -1,13 +1,13 @@
 // help, suggestions and comments: what a person meets.
-#include "protocol/help.hpp"
+#include "protocol/line/commands/help.hpp"
 
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "protocol/command.hpp"
-#include "protocol/encoding.hpp"
-#include "protocol/field.hpp"
-#include "protocol/play_settings.hpp"
+#include "protocol/encoding/encoding.hpp"
+#include "protocol/line/commands/command.hpp"
+#include "protocol/line/field.hpp"
+#include "protocol/line/play_settings.hpp"
 #include "tests/protocol/duel.hpp"
 
 using namespace racebeam;

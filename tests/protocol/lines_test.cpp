@@ -1,4 +1,4 @@
-#include "protocol/lines.hpp"
+#include "protocol/classic/classic_line_buffer.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // What a game is loaded with: its image, settings, presets and rules.
 #include <catch2/catch.hpp>
 
-#include "protocol/base64.hpp"
+#include "protocol/encoding/base64.hpp"
 #include "tests/protocol/line_client.hpp"
 
 using namespace racebeam;

@@ -1,4 +1,4 @@
-#include "protocol/memory.hpp"
+#include "protocol/running/memory_budget.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
-#include "protocol/meter.hpp"
+#include "protocol/line/meter.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "protocol/command.hpp"
+#include "protocol/line/commands/command.hpp"
 #include "tests/protocol/line_client.hpp"
 
 using namespace racebeam;

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <thread>
 
-#include "protocol/base64.hpp"
-#include "protocol/words.hpp"
+#include "protocol/encoding/base64.hpp"
+#include "protocol/line/words.hpp"
 #include "tests/protocol/duel.hpp"
 
 using namespace racebeam;
@@ -30,7 +30,7 @@ struct Playing : LineClient {
   }
 };
 
-constexpr std::size_t kHeader = 24, kChecksum = 20;  // of a state's bytes, see snapshot.cpp
+constexpr std::size_t kHeader = 24, kChecksum = 20;  // of a state's bytes, see saved_state_format.cpp
 
 std::vector<std::uint8_t> exported(LineClient& client, const std::string& name) {
   return bytes_of_base64(value(client.ask("export " + name), "data")).value();

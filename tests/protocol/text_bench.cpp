@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "environment/environment.hpp"
-#include "protocol/text.hpp"
+#include "protocol/encoding/text.hpp"
 #include "tests/support/roms.hpp"
 
 namespace racebeam {

@@ -1,4 +1,4 @@
-#include "protocol/text.hpp"
+#include "protocol/encoding/text.hpp"
 
 #include <array>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "server/address.hpp"
+#include "server/access/address.hpp"
 
 #include <catch2/catch.hpp>
 #include <stdexcept>

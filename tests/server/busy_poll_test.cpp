@@ -1,4 +1,4 @@
-#include "server/busy_poll.hpp"
+#include "server/scheduling/busy_poll.hpp"
 
 #include <catch2/catch.hpp>
 #include <thread>

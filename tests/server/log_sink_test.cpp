@@ -1,4 +1,4 @@
-#include "server/log_sink.hpp"
+#include "server/operation/log_sink.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

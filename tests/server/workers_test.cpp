@@ -1,4 +1,4 @@
-#include "server/workers.hpp"
+#include "server/scheduling/workers.hpp"
 
 #include <atomic>
 #include <catch2/catch.hpp>

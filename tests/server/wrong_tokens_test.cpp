@@ -1,4 +1,4 @@
-#include "server/wrong_tokens.hpp"
+#include "server/access/wrong_tokens.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "environment/saved.hpp"
-#include "environment/snapshot.hpp"
+#include "environment/saved/saved_state_format.hpp"
+#include "environment/saved_state.hpp"
 #include "games/catalogue.hpp"
 #include "tests/snapshots/run.hpp"
 

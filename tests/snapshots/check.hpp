@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "games/game.hpp"
-#include "games/image.hpp"
+#include "games/game/game.hpp"
+#include "games/rom_image.hpp"
 
 namespace racebeam::test {
 

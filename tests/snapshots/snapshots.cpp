@@ -1,4 +1,4 @@
-// The property of states, over all games: see check.hpp. scripts/snapshots runs this.
+// The property of states, over all games: see check.hpp. scripts/check/snapshots runs this.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>

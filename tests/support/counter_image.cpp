@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "games/game_file.hpp"
+#include "games/files/game_file.hpp"
 
 namespace racebeam::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "emulator/opcodes.hpp"
+#include "emulator/base/opcodes.hpp"
 #include "games/digest.hpp"
 
 namespace racebeam::test {

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "games/game.hpp"
-#include "games/image.hpp"
+#include "games/game/game.hpp"
+#include "games/rom_image.hpp"
 
 namespace racebeam::test {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "games/catalogue.hpp"
-#include "games/image.hpp"
+#include "games/rom_image.hpp"
 
 namespace racebeam::test {
 

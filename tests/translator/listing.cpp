@@ -1,5 +1,5 @@
 // translator_listing IMAGE ADDRESS FILE: the 6507 instructions of the block at an address of a 2K or 4K image, and in
-// FILE the x86-64 code made from them. scripts/translated shows both.
+// FILE the x86-64 code made from them. scripts/check/translated shows both.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "emulator/board.hpp"
+#include "emulator/board/board.hpp"
 #include "emulator/translator/block_emitter.hpp"
 
 namespace {
@@ -16,7 +16,7 @@ using namespace racebeam;
 
 constexpr const char* kNames[] = {
 #define OP(code, operation, mode, access, cycles) #operation " " #mode,
-#include "emulator/opcodes.inc"
+#include "emulator/base/opcodes.inc"
 #undef OP
 };
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <random>
 
-#include "emulator/opcodes.hpp"
+#include "emulator/base/opcodes.hpp"
 
 namespace racebeam::test {
 namespace {

@@ -1,4 +1,4 @@
-// The interpreter against the translator. scripts/programs runs as many as are asked for.
+// The interpreter against the translator. scripts/check/programs runs as many as are asked for.
 #include <catch2/catch.hpp>
 
 #include "emulator/translator/translator.hpp"

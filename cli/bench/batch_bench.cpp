@@ -1,0 +1,104 @@
+#include "cli/bench/batch_bench.hpp"
+
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <random>
+
+#include "cli/bench/cpu_clock.hpp"
+#include "environment/vector/batch.hpp"
+
+namespace racebeam {
+namespace {
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Of this process; 0 where the kernel does not tell.
+double resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  double pages = 0;
+  file >> pages >> pages;
+  return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+std::string crc(const std::vector<std::uint8_t>& bytes) {
+  char text[9];
+  std::snprintf(text, sizeof text, "%08lx", crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
+  return text;
+}
+
+BatchSettings batch_settings(const MachineOptions& machine, const BatchBenchOptions& options) {
+  BatchSettings settings;
+  settings.machine = machine.settings;
+  settings.mode = machine.mode;
+  settings.difficulty = machine.difficulty;
+  settings.frame_skip = machine.settings.frame_skip;
+  settings.threads = static_cast<unsigned>(options.threads);
+  if (options.same_step) settings.autoreset = Autoreset::kSameStep;
+  return settings;
+}
+
+// The next step's actions, from the list or drawn.
+class Dealer {
+ public:
+  Dealer(const std::vector<int>& list, std::size_t choices) : list_(list), choices_(choices) {}
+
+  void deal(std::vector<int>& actions) {
+    for (int& action : actions)
+      action = list_.empty() ? static_cast<int>(random_() % choices_) : list_[at_++ % list_.size()];
+  }
+
+ private:
+  const std::vector<int>& list_;
+  std::size_t choices_, at_ = 0;
+  std::mt19937 random_{1};
+};
+
+}  // namespace
+
+nlohmann::ordered_json time_batch(const Cartridge& cartridge, const MachineOptions& machine,
+                                  const BatchBenchOptions& options, int frames,
+                                  const std::vector<int>& actions) {
+  const BatchSettings settings = batch_settings(machine, options);
+  const auto count = static_cast<std::size_t>(options.machines);
+  const double memory_before = resident_bytes();
+  Batch batch(std::vector<Cartridge>(count, cartridge), settings);
+
+  Dealer dealer(actions, batch.actions(0).size());
+  std::vector<int> dealt(count);
+  const int steps = std::max(1, frames / (options.machines * settings.frame_skip));
+  int resets = 0;
+  const double wall = wall_seconds(), cpu = cpu_seconds();
+  for (int step = 0; step < steps; ++step) {
+    dealer.deal(dealt);
+    batch.step(dealt);
+    resets += static_cast<int>(std::ranges::count(batch.results().finished, 1));
+  }
+  const double wall_used = wall_seconds() - wall, cpu_used = cpu_seconds() - cpu;
+  const double memory = resident_bytes() - memory_before;
+  const double run = static_cast<double>(steps) * options.machines * settings.frame_skip;
+  return {
+      {"game", cartridge.game->name},
+      {"machines", options.machines},
+      {"threads", options.threads},
+      {"frame_skip", settings.frame_skip},
+      {"steps", steps},
+      {"frames", run},
+      {"seconds", wall_used},
+      {"cpu_seconds", cpu_used},
+      {"frames_per_second", run / wall_used},
+      {"frames_per_cpu_second", run / cpu_used},
+      {"episodes_ended", resets},
+      {"resident_bytes_per_machine", memory / options.machines},
+      {"observation_crc", crc(batch.results().observations)},
+      {"ram_crc", crc(batch.results().ram)},
+  };
+}
+
+}  // namespace racebeam

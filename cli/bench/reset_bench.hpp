@@ -1,0 +1,13 @@
+// What a reset costs, and whether it is a copy.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "cli/arguments/options.hpp"
+
+namespace racebeam {
+
+// Plays 50 random frames before each of `resets` resets, after as many that are not timed.
+nlohmann::ordered_json time_resets(const Cartridge& cartridge, const MachineOptions& options, int resets);
+
+}  // namespace racebeam

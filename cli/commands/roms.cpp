@@ -1,0 +1,132 @@
+#include "cli/commands/roms.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "games/catalogue.hpp"
+#include "games/rom_image.hpp"
+#include "system/printable.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto kFooter =
+    R"(Looked at are the files of the folder itself that end in .bin, .a26 or .rom, also with .gz after it.
+Each is one of:
+  known     its MD5 is in the catalogue: it plays as this game
+  by-name   another image, but the file is called like a game: it plays as that game, with a warning
+  unknown   it plays without a score; --game NAME or --game-file FILE gives it one
+  unusable  it can't be read, or is no cartridge image
+After them come the games of the catalogue that no image of the folder was recognised as.
+
+Example:
+  racebeam roms ~/atari)";
+
+struct Finding {
+  std::string file;
+  std::string verdict;  // known, by-name, unknown, unusable
+  std::string game;     // known, by-name
+  std::string md5;      // "" if unusable
+  std::string note;
+};
+
+// The game that lists this MD5, though it is not recognised by it; "" if there is none.
+std::string other_dump_of(const std::string& md5) {
+  for (const CatalogueImage& image : catalogue_images()) {
+    if (image.md5 == md5) return std::string{catalogue()[image.entry].name};
+  }
+  return "";
+}
+
+Finding judge(const Image& image) {
+  const Recognition recognition = recognise(image);
+  const std::string& name = recognition.game->name;
+  if (recognition.how == RecognisedBy::kMd5) return {"", "known", name, image.md5, ""};
+  if (recognition.how == RecognisedBy::kFileName)
+    return {"", "by-name", name, image.md5, "not the image its rule is for"};
+  const std::string dump = other_dump_of(image.md5);
+  return {"", "unknown", "", image.md5,
+          dump.empty() ? "needs --game" : "another dump of " + dump + ": try --game " + dump};
+}
+
+Finding examine(const fs::path& path) {
+  Finding finding;
+  try {
+    finding = judge(*load_image(path.string()));
+  } catch (const std::exception& error) {
+    finding = {"", "unusable", "", "", error.what()};
+  }
+  finding.file = path.filename().string();
+  return finding;
+}
+
+std::vector<std::string> games_without(const std::vector<Finding>& findings) {
+  std::set<std::string> found;
+  for (const Finding& finding : findings) found.insert(finding.game);
+  std::vector<std::string> missing;
+  for (const CatalogueEntry& entry : catalogue()) {
+    const std::string name{entry.name};
+    if (!entry.built_in && !found.contains(name)) missing.push_back(name);
+  }
+  return missing;
+}
+
+void print_text(const std::vector<Finding>& findings, const std::vector<std::string>& missing) {
+  for (const Finding& finding : findings) {
+    const std::string game = finding.game.empty() ? "-" : finding.game;
+    std::printf("%-8s  %-20s %-32s  %s%s%s\n", finding.verdict.c_str(), game.c_str(),
+                finding.md5.empty() ? "-" : finding.md5.c_str(), printable(finding.file).c_str(),
+                finding.note.empty() ? "" : ": ", printable(finding.note).c_str());
+  }
+  for (const std::string& name : missing) std::printf("missing   %s\n", name.c_str());
+  std::printf("%zu images; %zu games without one\n", findings.size(), missing.size());
+}
+
+void print_json(const std::vector<Finding>& findings, const std::vector<std::string>& missing) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const Finding& finding : findings) {
+    rows.push_back({{"file", finding.file},
+                    {"verdict", finding.verdict},
+                    {"game", finding.game},
+                    {"md5", finding.md5},
+                    {"note", finding.note}});
+  }
+  // A file's name need not be UTF-8. Beyond ASCII all is escaped: some characters are control characters.
+  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+  std::cout << nlohmann::ordered_json{{"images", rows}, {"missing", missing}}.dump(1, ' ', true, kReplace)
+            << '\n';
+}
+
+void run(const std::string& folder, bool json) {
+  std::vector<Finding> findings;
+  for (const fs::path path : image_files(folder)) findings.push_back(examine(path));
+  const auto missing = games_without(findings);
+  json ? print_json(findings, missing) : print_text(findings, missing);
+}
+
+}  // namespace
+
+void add_roms(CLI::App& app) {
+  struct Options {
+    std::string folder;
+    bool json = false;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App& command =
+      *app.add_subcommand("roms", "Say which images of a folder are known, and which games lack one");
+  command.add_option("DIR", options->folder, "The folder with the images")->required();
+  command.add_flag("--json", options->json, "Print a JSON object instead of text");
+  command.footer(kFooter);
+  command.callback([options] { run(options->folder, options->json); });
+}
+
+}  // namespace racebeam

@@ -1,0 +1,168 @@
+#include "cli/commands/serve.hpp"
+
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "cli/commands/serve_options.hpp"
+#include "emulator/translator/translator.hpp"
+#include "recording/recorder.hpp"
+#include "server/operation/log.hpp"
+#include "server/operation/ready_file.hpp"
+#include "server/scheduling/workers.hpp"
+#include "server/server.hpp"
+#include "system/resources.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr auto kFooter =
+    R"(Without --classic it speaks the racebeam line protocol (protocol/PROTOCOL.md): a line of text asks, a
+line of text answers, and every client loads the game that it wants. By hand: racebeam serve --stdio, then
+type help.
+
+--classic is the text protocol of ALE 0.4 to 0.6 (protocol/CLASSIC.md): the server says 160-210; the client
+answers with four flags, 1,1,0,1 for screen, RAM and reward; from then on it sends actions, 3,18, and gets a
+line for each. The game and its settings are those of the command line, the same for all.
+
+Examples:
+  racebeam serve --stdio
+      one session on standard input and output; try printf 'load beamfall\nact FIRE\n' | racebeam serve ...
+  racebeam serve --stdio --strict <requests >replies
+      for scripts: ends with status 1 after the first error, which is the last reply
+  racebeam serve --listen tcp://127.0.0.1:0 --listen unix:racebeam.sock --roms ~/atari
+      until it is told to stop (SIGTERM), a session for everyone who connects
+  racebeam serve --classic --stdio --rom tetris.bin --seed 1
+      one session; try printf '0,0,0,1\n3,18\n' | racebeam serve ...
+  racebeam serve --classic --pipes /run/user/1000/tetris --rom tetris.bin
+      one session over the named pipes tetris_out and tetris_in; open tetris_out first, for reading
+  racebeam serve --listen tcp://127.0.0.1:0 --listen classic+unix:tetris.sock --rom tetris.bin
+      both protocols at once; a machine of its own for everyone who connects
+  racebeam serve --listen tls://0.0.0.0:7800 --token-file tokens --tls-cert cert.pem --tls-key key.pem
+      for other machines; server/README.md is for those who run it
+
+Each option --some-name is also the environment variable RACEBEAM_SOME_NAME and the key some_name of the TOML
+file of --config, in this order; racebeam config shows what is in effect.
+
+With --classic one generator serves the machine and what is random in play, as it did then: --system-seed is
+not used. The seed of each session is in the log, on standard error.
+
+Standard output carries the protocol and nothing else. SIGTERM and SIGINT stop the server: nobody comes in any
+more, sessions on sockets have --grace seconds to end, requests are finished; a second one ends it at once.
+SIGHUP reads tokens and certificate again. A server without sockets ends with its sessions.
+
+Exit status: 0 the sessions ended, or SIGTERM or SIGINT came; 1 the start failed, or the client of --stdio or
+--pipes stopped reading, was refused with --strict or, with --classic, sent what makes no sense; 2 the command line or the configuration
+makes no sense; 255 a classic client asked for an action that does not exist.)";
+
+ClassicService classic_service(const ServeOptions& options) {
+  const auto tell = [](const std::string& sentence) { log_warning(sentence); };
+  const auto power_on_one = [options, cartridge = open_cartridge(options.machine, tell)](Pace* pace) {
+    MachineOptions machine = options.machine;
+    machine.settings.classic = true;
+    machine.settings.random_seed = resolve_seed(machine.settings.random_seed);
+    return power_on(cartridge, machine, pace);
+  };
+  return {power_on_one, options.protocol, nullptr};
+}
+
+LineService line_service(const ServeOptions& options, Workers& workers) {
+  const auto images = std::make_shared<Images>();
+  if (!options.machine.rom.empty())
+    images->add_file(options.machine.rom, options.machine.game, options.machine.game_file);
+  if (!options.roms.empty()) images->add_folder(options.roms);
+  if (!options.record_folder.empty() && !std::filesystem::is_directory(options.record_folder))
+    throw std::invalid_argument("--record-dir " + options.record_folder + " is not a folder");
+  LineService service;
+  service.version = RACEBEAM_VERSION;
+  service.images = images;
+  service.limits = options.limits;
+  if (!options.record_folder.empty()) service.recorder = std::make_shared<Recorder>(options.record_folder);
+  service.threads = static_cast<std::size_t>(options.server.threads);
+  service.cpu = options.machine.settings.cpu;
+  service.strict = options.strict;
+  service.parallel = [&workers](std::size_t count, const std::function<void(std::size_t)>& task) {
+    workers.run(count, task);
+  };
+  return service;
+}
+
+// Said once, since it is the same for all machines.
+void tell_obstacle(CpuKind cpu) {
+  const std::string obstacle = Translator::obstacle();
+  if (cpu == CpuKind::kAuto && !obstacle.empty())
+    log("instructions are interpreted, not translated: " + obstacle);
+}
+
+// What decided how many threads there are, for the log.
+std::string limit_of_threads(const std::vector<Setting>& settings) {
+  const auto is_threads = [](const Setting& setting) { return key_of(*setting.option) == "threads"; };
+  const bool given = std::ranges::find_if(settings, is_threads)->source != Source::kDefault;
+  return given ? "--threads" : usable_processors().limited_by;
+}
+
+// Blocks as large as a picture or the records of its lines go back to the system as soon as they are let go;
+// else a server would stay as large as its sessions ever were together.
+void return_large_blocks() {
+#if defined(M_MMAP_THRESHOLD)  // the C library is GNU's
+  mallopt(M_MMAP_THRESHOLD, 32 << 10);
+#endif
+}
+
+// What the server holds without a session counts, and so does room for what sessions share: resets that were kept, code.
+void limit_memory(Services& services, std::uint64_t most) {
+  if (most == 0) return;
+  constexpr std::uint64_t kShared = 24 << 20;
+  const auto budget = std::make_shared<MemoryBudget>(most);
+  budget->take_anyway(resident_memory() + kShared);
+  if (budget->taken() >= most) {
+    throw std::invalid_argument("--max-memory " + std::to_string(most) + " is too little: the server itself takes " +
+                                std::to_string(budget->taken()) + " bytes");
+  }
+  if (services.classic) std::get<ClassicService>(*services.classic).memory = budget;
+  if (services.line) std::get<LineService>(*services.line).memory = budget;
+}
+
+int serve(const ServeOptions& options) {
+  Workers workers(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1,
+                  options.server.busy_poll);
+  Services services;
+  if (serves(options, true)) services.classic = classic_service(options);
+  if (serves(options, false)) services.line = line_service(options, workers);
+  limit_memory(services, options.server.max_memory);
+  return serve(options.server, services);
+}
+
+int serve(ServeOptions& options, CLI::App& command) {
+  return_large_blocks();
+  const std::vector<Setting> settings = complete(command);
+  remove_stale_ready_file(options.server.ready_file);  // before anything that may be slow, or fail
+  finish(options, settings);
+  set_up_log(options.log_level, options.log_format);
+  options.server.threads_limited_by = limit_of_threads(settings);
+  tell_obstacle(options.machine.settings.cpu);
+  try {
+    return serve(options);
+  } catch (const std::exception& error) {  // main would write it as text
+    if (options.log_format != LogFormat::kJson) throw;
+    log(LogLevel::kError, error.what());
+    return kExitFailure;
+  }
+}
+
+}  // namespace
+
+void add_serve(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("serve", "Serve games to agents, over a pipe or a socket");
+  command->footer(kFooter);
+  const auto options = std::make_shared<ServeOptions>();
+  add_serve_options(*command, *options);
+  command->callback([options, command] { throw CLI::RuntimeError(serve(*options, *command)); });
+}
+
+}  // namespace racebeam

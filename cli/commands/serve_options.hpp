@@ -1,0 +1,36 @@
+// What `racebeam serve` can be told, on the command line, in the environment and in a file.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/arguments/options.hpp"
+#include "cli/arguments/settings_sources.hpp"
+#include "protocol/classic/classic.hpp"
+#include "protocol/line/line_session.hpp"
+#include "server/connections/settings.hpp"
+#include "server/operation/log.hpp"
+
+namespace racebeam {
+
+struct ServeOptions {
+  MachineOptions machine;
+  ClassicOptions protocol;
+  LineLimits limits;
+  ServerSettings server;
+  bool classic = false, standard_streams = false, full_screen = false, strict = false;
+  std::string pipes, roms, record_folder;
+  std::vector<std::string> addresses;
+  LogLevel log_level = LogLevel::kInfo;
+  LogFormat log_format = LogFormat::kText;
+};
+
+void add_serve_options(CLI::App& command, ServeOptions& options);  // which outlives the parsing
+
+// After complete(): works out the endpoints, and checks that all goes together. Throws CLI::ValidationError.
+void finish(ServeOptions& options, const std::vector<Setting>& settings);
+
+bool serves(const ServeOptions& options, bool classic);  // on some endpoint
+
+}  // namespace racebeam

@@ -1,0 +1,28 @@
+// How long each instruction is, in bytes that are fetched in order and in cycles without penalties.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace racebeam {
+
+struct Opcode {
+  std::uint8_t length;
+  std::uint8_t cycles;
+};
+
+// JSR counts two: it reads its high operand byte after it has pushed.
+constexpr std::uint8_t opcode_length(std::string_view operation, std::string_view mode) {
+  if (operation == "jsr") return 2;
+  if (mode == "implied" || mode == "accumulator") return 1;
+  return mode.starts_with("absolute") || mode == "indirect" ? 3 : 2;
+}
+
+inline constexpr std::array<Opcode, 256> kOpcodes = {{
+#define OP(code, operation, mode, access, cycles) {opcode_length(#operation, #mode), cycles},
+#include "emulator/base/opcodes.inc"
+#undef OP
+}};
+
+}  // namespace racebeam

@@ -1,0 +1,308 @@
+#include "emulator/board/board.hpp"
+
+#include <bit>
+#include <limits>
+
+#include "emulator/base/opcodes.hpp"
+#include "emulator/board/riot.hpp"
+#include "emulator/tia/line_cache/line_dependencies.hpp"
+#include "emulator/tia/registers/motion.hpp"
+#include "emulator/tia/registers/registers.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::uint64_t bit(unsigned reg) { return std::uint64_t{1} << reg; }
+
+// Of those that draw: with an effect on more than the picture, or on other registers.
+constexpr std::uint64_t kSpecialRegisters = bit(VBLANK) | bit(HMCLR);
+
+std::size_t ram_beside_state(const Scheme& scheme) { return scheme.ram > kRamInState ? scheme.ram : 0; }
+
+constexpr int kLineLimit = 290, kLineLimitPal = 342;
+constexpr std::uint64_t kHash = 0x9E3779B97F4A7C15;
+constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::min() / 4;
+
+}  // namespace
+
+Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
+    : video{properties.ystart, properties.height, properties.hmove_blanks, false},
+      tia(state.tia, state.frame, video),
+      slot{*rom, scheme_of(*rom, properties.scheme), state, {}, map},
+      cartridge_ram(ram_beside_state(slot.scheme)),
+      rom_(std::move(rom)),
+      ports_(properties) {
+  slot.ram = cartridge_ram.empty() ? std::span(state.cartridge.ram).first(slot.scheme.ram) : std::span(cartridge_ram);
+  if (slot.scheme.power_on != nullptr) slot.scheme.power_on(slot);
+  map_memory();
+}
+
+// RAM shows wherever bits 12, 9 and 7 say so; the cartridge maps itself.
+void Board::map_memory() {
+  for (std::size_t page = 0; page < map.page.size(); ++page) {
+    const std::size_t address = page * MemoryMap::kPageSize;
+    map.page[page] = (address & 0x1280) == 0x0080 ? state.riot.ram.data() + (address & 0x40) : nullptr;
+  }
+  slot.scheme.map(slot);
+  code = {};
+  known_windows_.fill({});
+  tia.forget();
+  set_format_limits();
+}
+
+// What a cartridge shows depends on its banks alone, and they are mostly the same. RAM is always where it was.
+void Board::restore(const State& other) {
+  const bool same_banks = state.cartridge.bank == other.cartridge.bank;
+  state = other;
+  if (!same_banks) {
+    slot.scheme.map(slot);
+    code = {};
+  }
+  tia.forget();
+  set_format_limits();
+}
+
+void Board::set_format_limits() {
+  const int limit = video.pal ? kLineLimitPal : kLineLimit;
+  overlong_cycle_ = state.tia.origin / 3 + kLineCycles * (limit + 1);
+}
+
+std::uint64_t Board::plain_registers() const {
+  return slot.scheme.watches_tia ? 0 : kDrawingRegisters & ~kSpecialRegisters;
+}
+
+void Board::open_frame() {
+  const std::int32_t phase = (3 * state.cycle - state.tia.origin) % kLineClocks;
+  turn_back_clocks(state.cycle);
+  state.tia.origin = -phase;
+  tia.begin_frame();
+  set_format_limits();
+}
+
+// All that is counted from the frame's start, but its origin.
+void Board::turn_back_clocks(std::int32_t cycles) {
+  const auto passed = static_cast<std::uint32_t>(cycles);
+  state.riot.timer_set -= passed;
+  state.riot.late_read -= passed;
+  state.frame.dump_release -= passed;
+  state.frame.vsync_finish -= 3 * passed;
+  state.frame.cartridge_clock -= passed;
+  state.tia.hmove_clock -= 3 * passed;
+  state.cycle -= cycles;
+}
+
+void Board::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& scratch, Pixels pixels,
+                       Collisions sought) {
+  log = &scratch;
+  log->begin(state.cycle);
+  last_access_ = kNever;
+  exact_ = pixels == Pixels::kExact;
+  fetched_latches_ = false;
+  plain_registers_ = exact_ ? 0 : plain_registers();
+  tia.begin_step(picture, other, scratch, pixels, sought);
+}
+
+// Writes that repeat what a register holds leave no trace in the log, but they end a span of drawing, up to 5 clocks
+// ahead (docs/spec/tia.md, 4), and that is seen where the picture stops in the window. An access that closes
+// the frame is at least 9 clocks later.
+void Board::end_step() {
+  const bool closed = !state.frame.open && last_access_ == state.cycle;
+  if (closed && !exact_) {
+    is_exact_ = tia.end_picture(last_access_);
+  } else {
+    tia.catch_up(last_access_);
+    is_exact_ = exact_ || !tia.stopped_inside(state.cycle);
+  }
+}
+
+// An opcode that is fetched from a collision register sees what a write in the same cycle drew ahead.
+bool Board::needs_exact_step() const {
+  const bool untouched = last_access_ == kNever && log->size() == 0;
+  return !exact_ && (fetched_latches_ || (!untouched && !is_exact_));
+}
+
+// What the map shows depends on the banks alone, so that a window that was found once is found again by them; there is
+// mostly one window for a 1K slice of memory.
+bool Board::find_code(std::uint16_t pc) {
+  const std::uint64_t banks = selected_banks();
+  const unsigned slice = pc >> 10;
+  const auto distance = [pc](const KnownWindow& window) { return static_cast<std::uint16_t>(pc - window.first); };
+  KnownWindow& known = known_windows_[((banks * kHash + slice) * kHash >> 56) % known_windows_.size()];
+  if (known.slice != slice || known.banks != banks || distance(known) >= known.span + 2) {
+    if (!map.may_hold_code(pc)) return false;
+    const CodeWindow window = map.window_around(pc);
+    known = {banks, window.memory, window.first, window.span, slice};
+  }
+  if (distance(known) >= known.span) return false;
+  code = {known.memory, known.first, known.span};
+  return true;
+}
+
+const std::uint8_t* Board::locate_code(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
+  return find_code(pc) ? code.memory + static_cast<std::uint16_t>(pc - code.first) : fetch_slowly(pc, latch, cycle);
+}
+
+// The opcode is read before its cycles are counted, the operand after (docs/spec/cpu.md, 3).
+const std::uint8_t* Board::fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
+  fetched_latches_ |= (pc & 0x1088) == 0;
+  const std::uint8_t opcode = fetched_[0] = read(pc, latch, cycle);
+  latch = opcode;
+  for (unsigned i = 1; i < kOpcodes[opcode].length; ++i)
+    fetched_[i] = latch = read(static_cast<std::uint16_t>(pc + i), latch, cycle + kOpcodes[opcode].cycles);
+  code = {fetched_.data(), pc, 0, nullptr};
+  return fetched_.data();
+}
+
+std::uint8_t Board::read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
+  const std::uint8_t* page = map.page_of(address);
+  return page != nullptr ? page[address & 0x3F] : read_device(address, latch, cycle);
+}
+
+// The CPU must look for its code again if a cartridge's access has changed what it sees.
+std::uint8_t Board::read_cartridge(std::uint16_t address, std::int32_t cycle) {
+  const std::uint64_t banks = selected_banks();
+  const std::uint8_t value = slot.scheme.read(slot, address, cycle);
+  if (selected_banks() != banks) code.close();
+  return value;
+}
+
+Delivery Board::write_cartridge(std::uint16_t address, std::uint8_t value) {
+  const std::uint64_t banks = selected_banks();
+  const Delivery delivery = slot.scheme.write(slot, address, value);
+  if (selected_banks() != banks) code.close();
+  return delivery;
+}
+
+std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
+  if (address & 0x1000) return read_cartridge(address, cycle);
+  if (address & 0x0080) return read_riot(address, cycle);
+  if (slot.scheme.watches_tia) [[unlikely]] read_cartridge(address, cycle);
+  return read_tia(address, latch, cycle);
+}
+
+// WSYNC, which most lines have, goes the shortest way.
+std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
+  const bool plain = address == WSYNC && cycle < overlong_cycle_ && !slot.scheme.watches_tia;
+  return plain ? write_wsync(cycle, after_read) : write_anywhere(address, value, cycle, after_read);
+}
+
+std::int32_t Board::write_anywhere(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
+  const bool to_cartridge = (address & 0x1000) != 0;
+  if (!to_cartridge && (address & 0x0080) != 0) {
+    write_riot(address, value, cycle);
+    return cycle;
+  }
+  if (to_cartridge || slot.scheme.watches_tia) {
+    if (write_cartridge(address, value) == Delivery::kTaken) return cycle;
+  }
+  return write_tia(address, value, cycle, after_read);
+}
+
+std::uint8_t Board::read_riot(std::uint16_t address, std::int32_t cycle) {
+  switch (address & 7) {
+    case 0: return ports_.swcha(state.inputs);
+    case 1: return state.riot.swacnt;
+    case 2: return state.inputs.switches;
+    case 3: return 0;
+    case 4: case 6: return Timer(state.riot, cycle).intim();
+    default: return Timer(state.riot, cycle).instat();
+  }
+}
+
+// The ports come first and ignore A4 (docs/spec/riot.md, 1).
+void Board::write_riot(std::uint16_t address, std::uint8_t value, std::int32_t cycle) {
+  if ((address & 7) == 1) state.riot.swacnt = value;
+  else if ((address & 0x14) == 0x14) Timer(state.riot, cycle).set(value, kTimerShift[address & 3]);
+}
+
+// An access that draws up to its clock and changes nothing.
+void Board::touch_tia(std::int32_t cycle) {
+  last_access_ = cycle;
+  if (exact_) tia.catch_up(cycle);
+}
+
+void Board::make_room(std::int32_t cycle) {
+  if (log->is_short_of_room(cycle)) tia.empty_log(cycle);
+}
+
+std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
+  const unsigned reg = address & 0x0F;
+  const FrameState& frame = state.frame;
+  std::uint8_t driven = 0;
+  if (reg < 8) {
+    driven = collision_bits(reg, cycle);
+  } else {
+    touch_tia(cycle);
+    if (reg < 12) {
+      driven = ports_.pot(state.inputs, static_cast<int>(reg - 8), static_cast<std::uint32_t>(cycle),
+                          frame.dump_release, frame.dumping) ? 0x80 : 0;
+    } else if (reg < 14) {
+      driven = ports_.fire_pin(state.inputs, static_cast<int>(reg - 12)) ? 0x80 : 0;
+    }
+  }
+  return static_cast<std::uint8_t>(driven | (latch & 0x3F));
+}
+
+// The only reads that need the picture: the log is played up to now.
+std::uint8_t Board::collision_bits(unsigned reg, std::int32_t cycle) {
+  last_access_ = cycle;
+  tia.find_collisions(cycle, static_cast<Collisions>(3U << (2 * reg)));
+  return static_cast<std::uint8_t>((state.tia.collisions >> (2 * reg) & 3) << 6);
+}
+
+std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
+  const unsigned reg = address & 0x3F;
+  if (cycle >= overlong_cycle_) {
+    close_frame();
+  }
+  switch (reg) {
+    case VSYNC: write_vsync(value, cycle); break;
+    case VBLANK: write_dump((value & 0x80) != 0, cycle); break;
+    case AUDC0: case AUDC1: case AUDF0: case AUDF1: case AUDV0: case AUDV1: sound.write(reg, value); break;
+    default: break;
+  }
+  if (reg == WSYNC) return write_wsync(cycle, after_read);
+  if (!(kDrawingRegisters >> reg & 1)) {
+    touch_tia(cycle);
+    return cycle;
+  }
+  last_access_ = cycle;
+  make_room(cycle);
+  log->append(cycle, reg, value);
+  if (exact_) tia.play_log(cycle);
+  return cycle;
+}
+
+// The CPU stands still until the next line starts, if it was about to read.
+std::int32_t Board::write_wsync(std::int32_t cycle, bool after_read) {
+  touch_tia(cycle);
+  make_room(cycle);
+  if (!after_read) return cycle;
+  const std::int32_t into = (cycle - state.tia.origin / 3) % kLineCycles;
+  return into == 0 ? cycle : cycle + kLineCycles - into;
+}
+
+void Board::write_vsync(std::uint8_t value, std::int32_t cycle) {
+  FrameState& frame = state.frame;
+  const auto clock = 3 * static_cast<std::uint32_t>(cycle);
+  if (value & 2) {
+    frame.vsync_finish = clock + kLineClocks;
+  } else if (static_cast<std::int32_t>(clock) >= static_cast<std::int32_t>(frame.vsync_finish)) {
+    frame.vsync_finish = 0x7FFFFFFF;
+    close_frame();
+  }
+}
+
+void Board::close_frame() {
+  state.frame.open = 0;
+  stop = true;
+  code.close();
+}
+
+void Board::write_dump(bool on, std::int32_t cycle) {
+  FrameState& frame = state.frame;
+  if (frame.dumping && !on) frame.dump_release = static_cast<std::uint32_t>(cycle);
+  frame.dumping = on;
+}
+
+}  // namespace racebeam

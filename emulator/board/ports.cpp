@@ -1,0 +1,53 @@
+#include "emulator/board/ports.hpp"
+
+#include <utility>
+
+namespace racebeam {
+namespace {
+
+constexpr std::uint8_t kDirections = kStickUp | kStickDown | kStickLeft | kStickRight;
+
+// Cycles until the capacitor behind a pot of `ohms` is charged.
+std::uint32_t charge_cycles(std::int32_t ohms) {
+  return static_cast<std::uint32_t>(((1.6 * ohms) * 0.01e-6) * 1.19e6);
+}
+
+}  // namespace
+
+Ports::Ports(const Properties& properties)
+    : side_{Port{properties.left, 0}, Port{properties.right, 1}}, swap_paddles_(properties.swap_paddles ? 1 : 0) {
+  if (properties.swap_ports) std::swap(side_[0], side_[1]);
+}
+
+std::uint8_t Ports::swcha(const Inputs& inputs) const {
+  return static_cast<std::uint8_t>(nibble(inputs, side_[0]) << 4 | nibble(inputs, side_[1]));
+}
+
+// Pins 4 to 1: right, left, down, up of a stick; of paddles only the two buttons.
+std::uint8_t Ports::nibble(const Inputs& inputs, const Port& port) const {
+  if (port.controller == Controller::kJoystick) {
+    const std::uint8_t pressed = inputs.joystick[static_cast<std::size_t>(port.player)] & kDirections;
+    return static_cast<std::uint8_t>(~pressed & 0x0F);
+  }
+  const int first = inputs.paddle_fire >> paddle(port, 0) & 1;
+  const int second = inputs.paddle_fire >> paddle(port, 1) & 1;
+  return static_cast<std::uint8_t>(~(first << 3 | second << 2) & 0x0F);
+}
+
+bool Ports::fire_pin(const Inputs& inputs, int side) const {
+  const Port& port = side_[static_cast<std::size_t>(side)];
+  if (port.controller != Controller::kJoystick) return true;
+  return (inputs.joystick[static_cast<std::size_t>(port.player)] & kStickFire) == 0;
+}
+
+bool Ports::pot(const Inputs& inputs, int number, std::uint32_t cycle, std::uint32_t release, bool dumping) const {
+  const Port& port = side_[static_cast<std::size_t>(number / 2)];
+  if (port.controller == Controller::kJoystick) return false;
+  const std::int32_t ohms = inputs.paddle[static_cast<std::size_t>(paddle(port, number % 2))];
+  if (ohms == 0) return true;
+  // Unsigned on purpose: a release in an earlier frame is a huge number and never reached (docs/spec/tia.md,
+  // 11).
+  return !dumping && cycle > release + charge_cycles(ohms);
+}
+
+}  // namespace racebeam

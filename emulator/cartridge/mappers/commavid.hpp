@@ -1,0 +1,29 @@
+// CommaVid's CV. 2K of ROM at $1800, 1K of RAM read at $1000-$13FF and written at $1400-$17FF; the write port reads as
+// ROM. An image of 4K brings the RAM's first contents (of MagiCard, a saved program) in front of the ROM.
+#pragma once
+
+#include <algorithm>
+
+#include "emulator/cartridge/cartridge.hpp"
+
+namespace racebeam::commavid {
+
+constexpr unsigned kRomSize = 2048, kRamSize = 1024;
+
+inline void reset_empty(Slot&) {}
+
+inline void reset_filled(Slot& slot) { std::copy_n(slot.rom.begin(), kRamSize, slot.ram.begin()); }
+
+inline void map(Slot& slot) {
+  const std::uint8_t* rom = slot.rom.data() + slot.scheme.image - kRomSize;
+  slot.map.show(0, slot.ram.data(), kRamSize);
+  slot.map.show(kRamSize, rom + kRamSize, kRamSize);
+  slot.map.show(2 * kRamSize, rom, kRomSize);
+}
+
+inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t value) {
+  if ((address & 0xC00) == kRamSize) slot.ram[address & (kRamSize - 1)] = value;
+  return Delivery::kTaken;
+}
+
+}  // namespace racebeam::commavid

@@ -1,0 +1,211 @@
+// Activision's DPC, the chip of Pitfall II: two banks of 4K, as F8, and eight fetchers that count down through 2K of
+// display data. A fetcher has a flag, which a counter between its top and bottom keeps set: a mask for graphics. Three
+// of them make music instead, counting at 15750 Hz by themselves. There is a random number too, clocked by accesses.
+//
+//   $1000-$103F read: function (address >> 3 & 7) of fetcher (address & 7); $1040-$107F written: its registers
+//
+// (docs/spec/cartridges.md, 8)
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <new>
+
+#include "emulator/cartridge/mappers/atari.hpp"
+
+namespace racebeam::dpc {
+
+constexpr unsigned kDisplay = 8192, kDisplaySize = 2048;  // place in the image, size
+constexpr unsigned kFetchers = 8, kFirstMusic = 5;
+constexpr unsigned kReadPort = 0x40, kPorts = 0x80, kHotPage = 0xFC0;
+
+struct Fetcher {
+  std::uint8_t top, bottom, flag, music;
+  std::uint16_t counter;  // 11 bits
+
+  std::uint8_t low() const { return static_cast<std::uint8_t>(counter & 0xFF); }
+  void set_low(unsigned low) { counter = static_cast<std::uint16_t>((counter & 0x700) | low); }
+  void set_high(unsigned high) { counter = static_cast<std::uint16_t>((high & 7) << 8 | low()); }
+};
+
+// Kept in the bytes that other schemes have RAM in, and used there.
+struct Chip {
+  [[gnu::packed]] double fraction;  // of a music clock, not yet counted
+  std::array<Fetcher, kFetchers> fetcher;
+  std::uint8_t random, spare[7];
+};
+static_assert(sizeof(Chip) <= kRamInState && std::is_trivially_copyable_v<Chip>);
+static_assert(alignof(Chip) <= alignof(CartridgeState));
+
+inline Chip& chip_of(Slot& slot) { return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data())); }
+
+// Once: a reset leaves the fetchers alone.
+inline void power_on(Slot& slot) {
+  chip_of(slot) = Chip{};
+  chip_of(slot).random = 1;
+}
+
+inline void reset(Slot& slot) {
+  atari::reset(slot);
+  chip_of(slot).fraction = 0;
+}
+
+inline void map(Slot& slot) {
+  slot.map.show(kPorts, atari::bank(slot) + kPorts, kHotPage - kPorts);
+  slot.map.hide(0, kPorts);
+  slot.map.hide(kHotPage, MemoryMap::kPageSize);
+}
+
+inline void touch(Slot& slot, std::uint16_t address) {
+  const unsigned selected = (address & 0xFFFU) - slot.scheme.hotspot;
+  if (selected >= slot.scheme.banks) return;
+  slot.state.bank[0] = static_cast<std::uint8_t>(selected);
+  map(slot);
+}
+
+constexpr std::array<std::uint8_t, 256> kNextRandom = [] {
+  std::array<std::uint8_t, 256> next{};
+  for (unsigned r = 0; r < next.size(); ++r)
+    next[r] = static_cast<std::uint8_t>(r << 1 | (~(r >> 7 ^ r >> 5 ^ r >> 4 ^ r >> 3) & 1));
+  return next;
+}();
+
+inline void clock_random(Chip& chip) { chip.random = kNextRandom[chip.random]; }
+
+// A music fetcher goes round from its top to 0, and is loud from the top down to the bottom.
+inline void count_down(Fetcher& fetcher, int clocks) {
+  const int period = fetcher.top + 1;
+  if (clocks >= period) [[unlikely]] clocks %= period;  // a division
+  int low = fetcher.top == 0 ? 0 : fetcher.low() - clocks;
+  if (low < 0) low += period;
+  fetcher.set_low(static_cast<unsigned>(low));
+  const std::uint8_t flag = low <= fetcher.top ? 0xFF : fetcher.flag;
+  fetcher.flag = low <= fetcher.bottom ? 0x00 : flag;
+}
+
+// Music clocks in so many cycles; the usual ones without a division.
+constexpr double divided_clocks(std::int32_t cycles) { return 15750.0 * cycles / 1193191.66666667; }
+
+constexpr std::array<double, 256> kClocks = [] {
+  std::array<double, 256> clocks{};
+  for (std::int32_t cycles = 0; cycles < 256; ++cycles) clocks[static_cast<std::size_t>(cycles)] = divided_clocks(cycles);
+  return clocks;
+}();
+
+inline double clocks_in(std::int32_t cycles) {
+  const auto number = static_cast<std::uint32_t>(cycles);
+  return number < kClocks.size() ? kClocks[number] : divided_clocks(cycles);
+}
+
+inline void run_music(Slot& slot, Chip& chip, std::int32_t cycle) {
+  const auto passed = static_cast<std::int32_t>(static_cast<std::uint32_t>(cycle) - slot.machine.frame.cartridge_clock);
+  slot.machine.frame.cartridge_clock = static_cast<std::uint32_t>(cycle);
+  const double clocks = clocks_in(passed) + chip.fraction;
+  const int whole = static_cast<int>(clocks);
+  chip.fraction = clocks - whole;
+  if (whole <= 0) return;
+  for (unsigned i = kFirstMusic; i < kFetchers; ++i)
+    if (chip.fetcher[i].music) count_down(chip.fetcher[i], whole);
+}
+
+// The three voices mixed by resistors.
+inline std::uint8_t amplitude(const Chip& chip) {
+  static constexpr std::uint8_t kLevels[8] = {0, 4, 5, 9, 6, 10, 11, 15};
+  unsigned voices = 0;
+  for (unsigned i = kFirstMusic; i < kFetchers; ++i)
+    voices |= static_cast<unsigned>(chip.fetcher[i].music & chip.fetcher[i].flag) << (i - kFirstMusic);
+  return kLevels[voices];
+}
+
+// What the eight functions of a fetcher read as.
+enum Function : unsigned { kRandomOrSound, kDisplayed, kMasked, kFlag = 7 };
+
+template <unsigned kFunction>
+std::uint8_t fetch(Slot& slot, std::uint16_t address, std::int32_t cycle) {
+  Chip& chip = chip_of(slot);
+  clock_random(chip);
+  const unsigned number = address & 7;
+  Fetcher& fetcher = chip.fetcher[number];
+  if (fetcher.low() == fetcher.top) fetcher.flag = 0xFF;
+  else if (fetcher.low() == fetcher.bottom) fetcher.flag = 0x00;
+
+  const auto displayed = [&] { return slot.rom[kDisplay + kDisplaySize - 1 - fetcher.counter]; };
+  std::uint8_t result = 0;
+  if (kFunction == kRandomOrSound && number < 4) {
+    result = chip.random;
+  } else if (kFunction == kRandomOrSound) {
+    run_music(slot, chip, cycle);
+    result = amplitude(chip);
+  } else if (kFunction == kDisplayed) {
+    result = displayed();
+  } else if (kFunction == kMasked) {
+    result = displayed() & fetcher.flag;
+  } else if (kFunction == kFlag) {
+    result = fetcher.flag;
+  }
+  if (!fetcher.music) fetcher.counter = (fetcher.counter - 1) & (kDisplaySize - 1);
+  return result;
+}
+
+// What is no fetcher's is the image's.
+inline std::uint8_t read_image(Slot& slot, std::uint16_t address, std::int32_t) {
+  clock_random(chip_of(slot));
+  return atari::bank(slot)[address & 0xFFF];
+}
+
+inline PortReader port_reader(std::uint16_t address) {
+  static constexpr PortReader kReaders[8] = {fetch<0>, fetch<1>, fetch<2>, fetch<3>, fetch<4>, fetch<5>, fetch<6>, fetch<7>};
+  const unsigned offset = address & 0xFFF;
+  if (offset < kReadPort) return kReaders[offset >> 3];
+  return offset < kPorts ? read_image : nullptr;
+}
+
+inline void set_register(Chip& chip, std::uint16_t address, std::uint8_t value) {
+  const unsigned number = address & 7;
+  Fetcher& fetcher = chip.fetcher[number];
+  switch (address >> 3 & 7) {
+    case 0:
+      fetcher.top = value;
+      fetcher.flag = 0;
+      break;
+    case 1: fetcher.bottom = value; break;
+    case 2: fetcher.set_low(fetcher.music ? fetcher.top : value); break;
+    case 3:
+      fetcher.set_high(value);
+      if (number >= kFirstMusic) fetcher.music = value >> 4 & 1;
+      break;
+    case 6: chip.random = 1; break;
+    default: break;
+  }
+}
+
+inline bool admits(const Slot& slot, const CartridgeState& state) {
+  Chip chip;
+  std::memcpy(&chip, state.ram.data(), sizeof chip);
+  for (unsigned i = 0; i < kFetchers; ++i) {
+    const Fetcher& fetcher = chip.fetcher[i];
+    if (fetcher.counter >= kDisplaySize || (fetcher.flag != 0 && fetcher.flag != 0xFF)) return false;
+    if (fetcher.music > (i >= kFirstMusic ? 1 : 0)) return false;
+  }
+  const bool is_fraction = chip.fraction > -1 && chip.fraction < 1;
+  const bool is_filled_up = std::ranges::all_of(chip.spare, [](std::uint8_t byte) { return byte == 0; });
+  return atari::admits(slot, state) && is_fraction && is_filled_up;
+}
+
+inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t cycle) {
+  if (const PortReader reader = port_reader(address)) return reader(slot, address, cycle);
+  touch(slot, address);
+  return read_image(slot, address, cycle);
+}
+
+inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t value) {
+  const unsigned offset = address & 0xFFF;
+  touch(slot, address);
+  Chip& chip = chip_of(slot);
+  clock_random(chip);
+  if (offset >= kReadPort && offset < kPorts) set_register(chip, address, value);
+  return Delivery::kTaken;
+}
+
+}  // namespace racebeam::dpc

@@ -1,0 +1,11 @@
+// 0840 and 4A50, which the reference knows by name but gives nothing to see: the cartridge reads 0 everywhere.
+#pragma once
+
+#include "emulator/cartridge/cartridge.hpp"
+
+namespace racebeam::unmapped {
+
+inline void reset(Slot&) {}
+inline void map(Slot& slot) { slot.map.hide(0, 4096); }
+
+}  // namespace racebeam::unmapped

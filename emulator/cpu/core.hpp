@@ -1,0 +1,248 @@
+// The 6507's registers while instructions run, and its way to the bus. Everything is inlined into interpret() in cpu.cpp,
+// so that the registers are locals of one function.
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/base/inlining.hpp"
+#include "emulator/base/opcodes.hpp"
+#include "emulator/board/board.hpp"
+#include "emulator/cpu/timer_loop.hpp"
+
+namespace racebeam {
+
+// An address below $0100: RAM from $80 on, registers of the TIA before it.
+struct ZeroPage {
+  std::uint8_t at;
+
+  operator std::uint16_t() const { return at; }
+};
+
+struct Core {
+  Board& board;
+  std::int64_t clock;      // cycle() and executed() in one number: an instruction counts both with one addition
+  std::uintptr_t at;       // PC, as the place in the host's memory that the code window shows there
+  std::uintptr_t start, end;  // of the window; end is 0 if locate() must be asked for the next instruction
+  std::uintptr_t origin;   // where address 0 would be
+  std::int32_t budget;     // instructions that may be executed
+  std::uint32_t nz;        // N is bit 15 or bit 7; Z is set when bits 7-0 are 0
+  std::uint8_t A, X, Y, SP;
+  std::uint8_t C, V, D, I; // 0 or 1
+  std::uint8_t latch;      // the data bus after the last access
+  bool counted = false;    // the alarm has been seen
+
+  static constexpr int kCycleBit = 24;
+  static constexpr std::int64_t kCycle = 1 << kCycleBit;
+
+  // This bit of the clock is set when the budget is so short that it might end in a row of instructions without a jump;
+  // no row is longer than a window. From there on locate() counts; before, only jumps and branches look at the bit.
+  static constexpr std::int64_t kAlarm = 1 << (kCycleBit - 1);
+  static constexpr std::int32_t kLongestRow = 4096;
+
+  Core(Board& on, std::int32_t instructions)
+      : board(on), budget(instructions), A(on.state.cpu.A), X(on.state.cpu.X), Y(on.state.cpu.Y), SP(on.state.cpu.SP),
+        latch(on.state.cpu.latch) {
+    clock = on.state.cycle * kCycle + kAlarm - (budget - kLongestRow);
+    take_window();
+    jump(on.state.cpu.PC);
+    end = 0;
+    set_status(on.state.cpu.P);
+  }
+
+  // T: at the end of the instruction from its second bus access on (docs/spec/cpu.md, 3).
+  RACEBEAM_INLINE std::int32_t cycle() const { return static_cast<std::int32_t>(clock >> kCycleBit); }
+
+  // A cycle more if bit 8 of `carry` is set.
+  RACEBEAM_INLINE void add_penalty(std::uint32_t carry) { clock += (carry & 0x100) * (kCycle >> 8); }
+  RACEBEAM_INLINE void set_cycle(std::int32_t cycle) { clock = (clock & (kCycle - 1)) + cycle * kCycle; }
+  RACEBEAM_INLINE std::int32_t executed() const {
+    return static_cast<std::int32_t>((clock & (kCycle - 1)) - kAlarm) + (budget - kLongestRow);
+  }
+
+  RACEBEAM_INLINE static const std::uint8_t* byte_at(std::uintptr_t where) {
+    return reinterpret_cast<const std::uint8_t*>(where);
+  }
+  RACEBEAM_INLINE static std::uintptr_t place(const std::uint8_t* byte) { return reinterpret_cast<std::uintptr_t>(byte); }
+
+  RACEBEAM_INLINE void take_window() {
+    start = place(board.code.memory);
+    origin = start - board.code.first;
+    end = counted ? 0 : place(board.code.end);
+  }
+
+  RACEBEAM_INLINE std::uint16_t PC() const { return static_cast<std::uint16_t>(at - origin); }
+  RACEBEAM_INLINE void jump(std::uint16_t target) {
+    at = start + static_cast<std::uint16_t>(target - static_cast<std::uint16_t>(start - origin));
+    look_at_budget();
+  }
+
+  // Answers the cycles that it takes beyond those of a branch that is not taken.
+  RACEBEAM_INLINE int branch(std::int8_t offset) {
+    const auto next = static_cast<std::uint32_t>(at - origin);
+    at += static_cast<std::uintptr_t>(std::intptr_t{offset});
+    const auto target = static_cast<std::uint32_t>(at - origin);
+    const std::uint32_t crosses = (next ^ target) & 0x100;
+    clock += kCycle;
+    add_penalty(crosses);
+    if (at < start) [[unlikely]] end = 0;
+    look_at_budget();
+    return crosses == 0 ? 1 : 2;
+  }
+
+  RACEBEAM_INLINE void look_at_budget() {
+    if (clock & kAlarm) [[unlikely]] end = 0;
+  }
+
+  // After an access to a device: the window may show something else, or the frame may have closed.
+  RACEBEAM_INLINE void look_at_window() {
+    if (board.code.end == nullptr) end = 0;
+  }
+
+  // Finds the next instruction where it may be anywhere. False if there is none to be executed.
+  RACEBEAM_INLINE bool locate() {
+    counted = (clock & kAlarm) != 0;
+    if (board.stop || board.state.cpu.jammed || (counted && executed() >= budget)) return false;
+    const std::uint16_t pc = PC(), offset = static_cast<std::uint16_t>(pc - board.code.first);
+    at = place(offset < board.code.span ? board.code.memory + offset : board.locate_code(pc, latch, cycle()));
+    take_window();
+    return true;
+  }
+
+  RACEBEAM_INLINE void store_state() const {
+    board.state.cycle = cycle();
+    CpuState& cpu = board.state.cpu;
+    cpu.PC = PC();
+    cpu.A = A;
+    cpu.X = X;
+    cpu.Y = Y;
+    cpu.SP = SP;
+    cpu.P = status() & 0xCF;
+    cpu.latch = latch;
+  }
+
+  // The status byte as it is pushed: bits 5 and 4 are always 1.
+  RACEBEAM_INLINE std::uint8_t status() const {
+    return static_cast<std::uint8_t>(is_negative() << 7 | V << 6 | 0x30 | D << 3 | I << 2 | is_zero() << 1 | C);
+  }
+
+  RACEBEAM_INLINE void set_status(std::uint8_t p) {
+    V = p >> 6 & 1;
+    D = p >> 3 & 1;
+    I = p >> 2 & 1;
+    C = p & 1;
+    set_nz(p, ~p & 2);
+  }
+
+  RACEBEAM_INLINE void set_nz(std::uint8_t value) { nz = value; }
+  RACEBEAM_INLINE void set_nz(std::uint8_t negative, std::uint32_t nonzero) { nz = (negative & 0x80U) << 8 | nonzero; }
+  RACEBEAM_INLINE bool is_negative() const { return (nz & 0x8080) != 0; }
+  RACEBEAM_INLINE bool is_zero() const { return (nz & 0xFF) == 0; }
+
+  RACEBEAM_INLINE std::uint8_t read(std::uint16_t address) {
+    const std::uint8_t* page = board.map.page_of(address);
+    if (page == nullptr) [[unlikely]] return read_device(address);
+    return latch = page[address & 0x3F];
+  }
+
+  RACEBEAM_INLINE std::uint8_t read(ZeroPage address) {
+    if (address.at < 0x80) [[unlikely]] return read(std::uint16_t{address.at});
+    return latch = board.state.riot.ram[address.at - 0x80U];
+  }
+
+  RACEBEAM_INLINE std::uint16_t read_word_of_ram(unsigned zero_page) { return word(&board.state.riot.ram[zero_page - 0x80U]); }
+
+  RACEBEAM_INLINE std::uint8_t read_device(std::uint16_t address) {
+    latch = board.read_device(address, latch, cycle());
+    look_at_window();
+    return latch;
+  }
+
+  // It has been found: its length, and its cycles up to the end but penalties.
+  RACEBEAM_INLINE void begin(std::uint8_t opcode, std::int32_t base_cycles) {
+    latch = opcode;
+    at += kOpcodes[opcode].length;
+    clock += base_cycles * kCycle + 1;
+  }
+
+  // Its operand.
+  RACEBEAM_INLINE std::uint8_t fetch() { return latch = byte_at(at)[-1]; }
+  RACEBEAM_INLINE std::uint16_t fetch_word() { return word(byte_at(at) - 2); }
+
+  // Two bytes that are read in a row.
+  RACEBEAM_INLINE std::uint16_t word(const std::uint8_t* bytes) {
+    const auto both = static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8);
+    latch = static_cast<std::uint8_t>(both >> 8);
+    return both;
+  }
+
+  // A byte that is read when its turn comes, like any other.
+  RACEBEAM_INLINE std::uint8_t read_at_PC() { return read(PC()); }
+
+  // At the end of a taken branch that may close a timer loop: goes on before the last turn. One turn is left to be run
+  // in any case, for what it leaves in the registers.
+  RACEBEAM_INLINE void skip_timer_loop(std::int32_t period) {
+    if (at >= end) return;
+    const std::uint8_t* code = byte_at(at) + 3;  // the branch
+    const std::int32_t sure = sure_timer_turns(code, board.state.riot, cycle() + 4, period);
+    const std::int32_t most = (budget - executed()) / 2 - 1;
+    const std::int32_t turns = sure < most ? sure : most;
+    clock += turns * (period * kCycle + 2);
+  }
+
+  RACEBEAM_INLINE void write(ZeroPage address, std::uint8_t value) {
+    if (address.at >= 0x80) {
+      board.state.riot.ram[address.at - 0x80U] = value;
+    } else {
+      write_device(address.at, value);
+    }
+    latch = value;
+  }
+
+  RACEBEAM_INLINE void write(std::uint16_t address, std::uint8_t value) {
+    if ((address & 0x1280) == 0x0080) {
+      board.state.riot.ram[address & 0x7F] = value;
+    } else {
+      write_device(address, value);
+    }
+    latch = value;
+  }
+
+  RACEBEAM_INLINE void write_device(std::uint16_t address, std::uint8_t value) {
+    std::int32_t now = cycle();
+    if ((address & 0x1080) != 0) [[unlikely]] return write_slowly(address, value, true);
+    if (board.is_plain_write(address, now)) return board.log->append_change(now, address & 0x3F, value);
+    if (board.wait_for_line(address, now)) return set_cycle(now);
+    write_slowly(address, value, true);
+  }
+
+  RACEBEAM_INLINE void write_slowly(std::uint16_t address, std::uint8_t value, bool after_read) {
+    set_cycle(board.write_device(address, value, cycle(), after_read));
+    look_at_window();
+  }
+
+  // Where the stack shows the TIA, games write its registers so.
+  RACEBEAM_INLINE void push(std::uint8_t value) { write(static_cast<std::uint16_t>(0x0100 | SP--), value); }
+
+  // One of several that an instruction pushes. Two of them can reach the TIA in one cycle, where the first one's delay holds
+  // up the second: both are kept. after_read: the access before this one was a read, which WSYNC asks for.
+  RACEBEAM_INLINE void push_one(std::uint8_t value, bool after_read) {
+    const std::uint16_t address = 0x0100 | SP--;
+    latch = value;
+    if (address & 0x80) {
+      board.state.riot.ram[address & 0x7F] = value;
+      return;
+    }
+    write_slowly(address, value, after_read);
+  }
+
+  RACEBEAM_INLINE std::uint8_t pull() {
+    ++SP;
+    return read_stack();
+  }
+  RACEBEAM_INLINE std::uint8_t read_stack() {
+    if (SP < 0x80) [[unlikely]] return read(0x0100 | SP);
+    return latch = board.state.riot.ram[SP - 0x80U];
+  }
+};
+
+}  // namespace racebeam

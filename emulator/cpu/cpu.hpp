@@ -1,0 +1,15 @@
+// The 6507: an instruction-granular interpreter (docs/spec/cpu.md).
+#pragma once
+
+#include "emulator/board/board.hpp"
+
+namespace racebeam {
+
+// The reset line: registers cleared, PC from the vector at $FFFC. Takes no cycles.
+void reset_cpu(Board& board);
+
+// Runs up to `instructions` instructions, at most 4,000,000; ends early, between two of them, when the board asks to stop
+// or the chip jams.
+void interpret(Board& board, std::int32_t instructions);
+
+}  // namespace racebeam

@@ -1,0 +1,46 @@
+// Where the random contents of a machine that is switched on come from (docs/spec/riot.md, 2).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "emulator/base/mersenne_twister.hpp"
+
+namespace racebeam {
+
+// `drawn` counts the draws that this machine has taken; it is part of the machine's state, so that a restored
+// machine goes on in the sequence where the saved one stood.
+class PowerOn {
+ public:
+  virtual ~PowerOn() = default;
+  virtual std::uint32_t draw(std::uint32_t& drawn) = 0;  // the next 32-bit output
+  // RAM on the cartridge, filled at every system reset.
+  virtual void fill_cartridge(std::span<std::uint8_t> ram, std::uint32_t& drawn) = 0;
+};
+
+// ALE 0.12: an MT19937 of its own, one draw a byte of cartridge RAM.
+class SystemGenerator : public PowerOn {
+ public:
+  explicit SystemGenerator(std::uint32_t seed) : seed_(seed), engine_(seed) {}
+
+  std::uint32_t draw(std::uint32_t& drawn) override {
+    if (drawn < position_) {  // a state from before was restored: start over
+      engine_.seed(seed_);
+      position_ = 0;
+    }
+    engine_.discard(drawn - position_);
+    position_ = ++drawn;
+    return static_cast<std::uint32_t>(engine_());
+  }
+
+  void fill_cartridge(std::span<std::uint8_t> ram, std::uint32_t& drawn) override {
+    for (std::uint8_t& byte : ram) byte = static_cast<std::uint8_t>(draw(drawn));
+  }
+
+ private:
+  std::uint32_t seed_;
+  MersenneTwister engine_;
+  std::uint32_t position_ = 0;
+};
+
+}  // namespace racebeam

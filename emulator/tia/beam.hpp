@@ -1,0 +1,185 @@
+// The beam: draws the picture up to a colour clock, line by line, from the registers as they stand
+// (docs/spec/tia.md, 3, 5 and 6).
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/base/inlining.hpp"
+#include "emulator/state/state.hpp"
+#include "emulator/tia/frame_buffer.hpp"
+#include "emulator/tia/line/line.hpp"
+#include "emulator/tia/line/pixels.hpp"
+#include "emulator/tia/line_cache/line_memory.hpp"
+
+namespace racebeam {
+
+constexpr int kLineClocks = 228;
+constexpr int kBlankClocks = 68;  // of each line, before its first pixel
+
+// What a step does for the picture.
+enum class Pixels : std::uint8_t {
+  kNone,   // its pixels are not wanted: they stay as they were
+  kDrawn,
+  // Step by step as the reference draws, pixels beyond a span's end included (docs/spec/tia.md, "Provisional
+  // pixels").
+  kExact,
+};
+
+// How a console makes its picture; constant once its format is known.
+struct Video {
+  int ystart = 34;           // first line drawn
+  int height = 210;          // lines drawn
+  bool hmove_blanks = true;
+  bool pal = false;          // loses its colour on odd line counts, and may have more lines
+};
+
+class Beam {
+ public:
+  Beam(TiaState& state, const Video& video);
+
+  void begin_frame();  // cursor to the window's start
+
+  // Where pixels go, and where there may be rows to copy; without them, which pairs are looked for if they meet.
+  void aim(FrameBuffer& picture, const FrameBuffer* other, Pixels pixels, Collisions sought);
+
+  // Everything derived from the registers is made anew: after a reset or a restored state.
+  void forget();
+
+  // Draws with the registers as they are; a clock that is already passed draws nothing.
+  RACEBEAM_INLINE void draw_to(std::int32_t clock) {
+    if (clock > tia_.cursor && !pass_blank(clock)) draw_beyond(clock);
+  }
+
+  // The same, if only these pixels will be others: there is nothing to draw yet when none of them has been passed.
+  RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart& part) {
+    if (clock > tia_.cursor && !pass_blank(clock) && !passes_none(clock, part)) draw_beyond(clock);
+  }
+
+  // Goes there without a look at what lines show, but not without acting on their ends.
+  void pass_to(std::int32_t clock);
+
+  // Can anything meet that is looked for, and has not met yet, as the registers are? Where pixels are drawn, it matters
+  // to nobody.
+  bool may_meet() const { return !tia_.vblank && can_meet(tia_.enabled, meetings_); }
+
+  std::uint8_t sought_objects() const { return sought_objects_; }  // of the pairs that are looked for
+
+  // A register of these objects (bit n: Object n) has changed.
+  void changed(std::uint8_t objects) { stale_ |= objects; }
+
+
+  // They are about to change, and nobody will say which.
+  void lose_track() {
+    if (!lost_track_) line_.shown = tia_.registers();
+    lost_track_ = true;
+  }
+
+  // Line by line, for lines that are drawn as a whole.
+  bool at_line_start() const { return tia_.left == kLineClocks && tia_.cursor >= start(); }
+  std::int32_t line_end() const { return tia_.cursor + tia_.left; }
+  bool line_can_end() const { return line_end() < end(); }  // the window's last line never does
+  // What the reference writes beyond the last span, which began at `begin` or before. False if that can't be known.
+  bool end_picture(std::int32_t begin);
+  void finish_line();                                       // draws the rest of the line and acts on its end
+  void pass_lines(int count);  // which are there already, and whose ends have been acted on
+  int lines_to_end() const { return (end() - 1 - tia_.cursor) / kLineClocks; }  // without the last
+  std::size_t row() const { return static_cast<std::size_t>(tia_.pixel) / kLinePixels; }
+  bool has_record() const { return row() < lines_.rows(); }
+  int rows_to_end_of_records() const { return static_cast<int>(lines_.rows() - row()); }
+  LineRecord& record() { return lines_.row(row()); }
+  bool is_worthwhile() { return lines_.is_worthwhile(record()); }
+  void forget_lines() { lines_.drop(); }
+
+  const LineNumber* shown() const { return &picture_->shows(row()); }  // by the cursor's row and those after it
+  [[gnu::noinline]] bool can_copy(const LineNumber* shown, LineNumber line) {
+    return picture_->copy_row(other_, static_cast<std::size_t>(shown - &picture_->shows(0)), line);
+  }
+
+  // The line has been drawn on the row before the cursor's.
+  void show(LineRecord& line) { picture_->shows(row() - 1) = lines_.add(line); }
+
+  RACEBEAM_INLINE void end_line() {
+    const std::uint8_t reflect = tia_.ctrlpf & 1;
+    const auto& [p0, p1] = tia_.player;
+    if (((tia_.reflect ^ reflect) | p0.skip | p1.skip | tia_.cosmic) != 0) act_on_line_end();
+  }
+
+  // What has been drawn since: LineView::seen, and the pairs that met, after the last CXCLR.
+  void look_afresh() { seen_ = meetings_ = 0; }
+  std::uint16_t seen() const { return seen_; }
+  Collisions meetings() const { return meetings_; }
+  void clear_collisions() {
+    tia_.collisions = 0;
+    meetings_ = unsought_;
+    cleared_ = true;
+  }
+  bool cleared() const { return cleared_; }  // the collisions, since the step began
+
+  std::uint32_t spans() const { return spans_; }  // that were looked at since the step began
+
+  bool exact_spans() const { return pixels_ == Pixels::kExact; }
+  bool draws_pixels() const { return pixels_ != Pixels::kNone; }
+
+  std::int32_t start() const { return start_; }  // the window, in colour clocks
+  std::int32_t end() const { return end_; }
+
+ private:
+  // Most writes come in a line's blank, where there is nothing to draw.
+  RACEBEAM_INLINE bool pass_blank(std::int32_t clock) {
+    const std::int32_t clocks = clock - tia_.cursor;
+    if (clocks > tia_.left - kLinePixels || tia_.cursor < start_ || tia_.cursor >= end_ || exact_spans()) return false;
+    tia_.cursor = clock;
+    tia_.left -= clocks;
+    return true;
+  }
+
+  bool passes_none(std::int32_t clock, const PlayfieldPart& part) {
+    if (exact_spans() || tia_.cursor < start_ || clock > line_end() || clock > end_) return false;
+    const int first = kLinePixels - tia_.left, last = first + clock - tia_.cursor;
+    const bool left = first < part.left_end && last > part.left, right = first < part.right_end && last > part.right;
+    if (left || right) return false;
+    if (tia_.enabled & object_bit(kPlayfield)) seen_ |= object_bit(kPlayfield);  // if it was enabled, its place has a say
+    return true;
+  }
+
+  // The clock is after the last HMOVE: what that armed is used up there.
+  bool is_since_hmove(std::int32_t clock) const {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(clock) - tia_.hmove_clock) > 0;
+  }
+
+  void draw_beyond(std::int32_t clock);
+  void draw_in_line(std::int32_t clock);
+  void forget_row();
+  std::size_t rows_needed() const;
+  void find_window();
+  void draw_span(int begin, int clocks);
+  std::uint8_t* row_of(int first);
+  void draw_visible(std::uint8_t* row, int first, int last);
+  void collide(int first, int last);
+  void spill(std::uint8_t* row, int first, int last);
+  void blank_comb(std::uint8_t* row, int begin, int end, int first, int last);
+  void blank_comb(std::uint8_t* row, int first, int last);
+  void act_on_line_end();
+  void advance_cosmic();
+
+  TiaState& tia_;
+  const Video& video_;
+  const DrawPixels draw_pixels_;
+  FrameBuffer* picture_ = nullptr;
+  const FrameBuffer* other_ = nullptr;
+  LineMemory lines_;
+  std::int32_t start_ = 0, end_ = 0;
+  alignas(64) Line line_;
+  std::uint8_t stale_ = 0xFF;   // masks to make anew
+  bool lost_track_ = false;
+  std::uint16_t seen_ = 0;
+  Collisions meetings_ = 0;     // that are known: they need not be looked for
+  Collisions unsought_ = 0;     // nor these
+  std::uint8_t sought_objects_ = 0;
+  bool cleared_ = false;
+  std::uint32_t spans_ = 0;
+  std::int32_t forgotten_ = 0;  // the rows before this pixel are known to have changed
+  Pixels pixels_ = Pixels::kDrawn;
+};
+
+}  // namespace racebeam

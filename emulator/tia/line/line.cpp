@@ -1,0 +1,100 @@
+#include "emulator/tia/line/line.hpp"
+
+#include <bit>
+#include <cstring>
+
+namespace racebeam {
+namespace {
+
+constexpr std::uint8_t bit(Object object) { return static_cast<std::uint8_t>(1U << object); }
+
+struct Pair {
+  Object a, b;
+  Collisions latch;
+};
+
+constexpr Pair pair(Object a, Object b, unsigned reg, unsigned data_bit) {
+  return {a, b, static_cast<Collisions>(1U << (2 * reg + (data_bit - 6)))};
+}
+
+constexpr std::array<Pair, 15> kPairs = {{
+    pair(kM0, kP1, 0, 7), pair(kM0, kP0, 0, 6),           // CXM0P
+    pair(kM1, kP0, 1, 7), pair(kM1, kP1, 1, 6),           // CXM1P
+    pair(kP0, kPlayfield, 2, 7), pair(kP0, kBall, 2, 6),  // CXP0FB
+    pair(kP1, kPlayfield, 3, 7), pair(kP1, kBall, 3, 6),  // CXP1FB
+    pair(kM0, kPlayfield, 4, 7), pair(kM0, kBall, 4, 6),  // CXM0FB
+    pair(kM1, kPlayfield, 5, 7), pair(kM1, kBall, 5, 6),  // CXM1FB
+    pair(kBall, kPlayfield, 6, 7),                        // CXBLPF
+    pair(kP0, kP1, 7, 7), pair(kM0, kM1, 7, 6),           // CXPPMM
+}};
+
+constexpr auto make_possible() {
+  std::array<Collisions, 64> table{};
+  for (unsigned objects = 0; objects < 64; ++objects)
+    for (const Pair& p : kPairs)
+      if ((objects & bit(p.a)) && (objects & bit(p.b))) table[objects] |= p.latch;
+  return table;
+}
+static_assert(make_possible().back() == kAllPairs);
+
+// kPairs by the number of the latch's bit. (Bit 12, D6 of CXBLPF, is nobody's.)
+constexpr auto make_pair_of_latch() {
+  std::array<Pair, 16> table{};
+  for (const Pair& p : kPairs) table[static_cast<std::size_t>(std::countr_zero(p.latch))] = p;
+  return table;
+}
+constexpr auto kPairOfLatch = make_pair_of_latch();
+
+}  // namespace
+
+std::uint8_t Line::outdated(const TiaRegisters& tia) const {
+  const auto differ = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) != 0; };
+  unsigned objects = 0;
+  for (unsigned i = 0; i < 2; ++i) {
+    if (differ(tia.player[i], shown.player[i])) objects |= 1U << (kP0 + i) | 1U << (kM0 + i);  // NUSIZx is both's
+    if (differ(tia.missile[i], shown.missile[i])) objects |= 1U << (kM0 + i);
+  }
+  if (tia.cosmic_shape != shown.cosmic_shape) objects |= bit(kM0);
+  if (differ(tia.ball, shown.ball)) objects |= bit(kBall);
+  if (differ(tia.pf, shown.pf) || tia.reflect != shown.reflect) objects |= bit(kPlayfield);
+  if (tia.ctrlpf != shown.ctrlpf) objects |= bit(kBall) | bit(kPlayfield);
+  return static_cast<std::uint8_t>(objects);
+}
+
+void Line::refresh(const TiaState& tia, std::uint8_t objects) {
+  const auto note = [this](Object object) {
+    covered = static_cast<std::uint8_t>((covered & ~bit(object)) | (mask[object].any() ? 1U : 0U) << object);
+  };
+  for (unsigned i = 0; i < 2; ++i) {
+    const auto player = static_cast<Object>(kP0 + i), missile = static_cast<Object>(kM0 + i);
+    if (objects & bit(player)) draw_player(mask[player], tia.player[i]), note(player);
+    if (objects & bit(missile)) draw_missile(mask[missile], tia, i), note(missile);
+  }
+  if (objects & bit(kBall)) draw_ball(mask[kBall], tia), note(kBall);
+  if (objects & bit(kPlayfield)) draw_playfield(mask[kPlayfield], tia), note(kPlayfield);
+}
+
+constinit const std::array<Collisions, 64> kPossibleMeetings = make_possible();
+
+std::uint8_t objects_of(Collisions pairs) {
+  unsigned objects = 0;
+  for (unsigned left = pairs & kAllPairs; left != 0; left &= left - 1) {
+    const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(left))];
+    objects |= bit(p.a) | bit(p.b);
+  }
+  return static_cast<std::uint8_t>(objects);
+}
+
+Collisions meetings(const Line& line, int first, int last, Collisions known) {
+  unsigned left = kPossibleMeetings[line.covered] & ~known;
+  if (left == 0) return 0;
+  const PixelMask clip = PixelMask::range(first, last);
+  Collisions found = 0;
+  for (; left != 0; left &= left - 1) {
+    const Pair& p = kPairOfLatch[static_cast<std::size_t>(std::countr_zero(left))];
+    if ((line.mask[p.a] & clip).meets(line.mask[p.b])) found |= p.latch;
+  }
+  return found;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,39 @@
+// One line's objects and their collisions (docs/spec/tia.md, 11).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "emulator/state/state.hpp"
+#include "emulator/tia/line/objects.hpp"
+#include "emulator/tia/line/pixel_mask.hpp"
+
+namespace racebeam {
+
+// Pairs of objects that meet, two bits a collision register: bit 2r+1 is D7 of register r, bit 2r its D6.
+using Collisions = std::uint16_t;
+
+enum Color : unsigned { kColup0, kColup1, kColupf, kColubk };  // indices of TiaRegisters::color
+
+struct Line {
+  std::array<PixelMask, kObjects> mask;  // by Object
+  std::uint8_t covered = 0;              // bit n: mask n has pixels
+  TiaRegisters shown;                    // the registers when the masks were last known to be theirs
+
+  std::uint8_t outdated(const TiaRegisters& tia) const;     // objects whose registers are others than those
+  void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew
+};
+
+// For each set of objects (bit n: Object n), the pairs that there are in it.
+extern const std::array<Collisions, 64> kPossibleMeetings;
+constexpr Collisions kAllPairs = 0xEFFF;  // D6 of CXBLPF is nobody's
+
+std::uint8_t objects_of(Collisions pairs);
+
+// Can any of these objects (bit n: Object n) meet, but for those that are `known` to?
+inline bool can_meet(std::uint8_t objects, Collisions known) { return (kPossibleMeetings[objects] & ~known) != 0; }
+
+// The pairs that meet in these pixels; those that are `known` need not be looked at.
+Collisions meetings(const Line& line, int first, int last, Collisions known);
+
+}  // namespace racebeam

@@ -1,0 +1,187 @@
+#include "emulator/tia/line_cache/line_record.hpp"
+
+#include "emulator/tia/line/objects.hpp"
+#include "emulator/tia/registers/motion.hpp"
+#include "emulator/tia/registers/registers.hpp"
+#include "emulator/tia/registers/write_log.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::uint8_t kAll = 0xFF;
+
+// A write that comes no later than this after RESPx may wait for the old copy of the player.
+constexpr std::uint32_t kWaitOfRespx = TiaWrite(4, 0, 0).packed() - 1;
+
+// Bytes that a line may change without a write, and what that depends on: the end of a line latches REFLECT and lets
+// players be shown again; missile 0 in its Cosmic Ark mode moves.
+constexpr TiaRegisters make_always() {
+  TiaRegisters mask{};
+  mask.ctrlpf = mask.reflect = mask.enabled = mask.cosmic = kAll;
+  mask.player[0].skip = mask.player[1].skip = kAll;
+  return mask;
+}
+
+// Which bytes a write sets to a value that is always the same for the same writes before it and bytes that count.
+constexpr TiaRegisters make_written(unsigned reg) {
+  TiaRegisters mask{};
+  auto& [p0, p1] = mask.player;
+  auto& [m0, m1] = mask.missile;
+  BallState& ball = mask.ball;
+  const auto cosmic_shape = [&mask] { mask.cosmic_shape = static_cast<CosmicShape>(kAll); };
+  switch (reg) {
+    case VBLANK: mask.vblank = kAll; break;
+    case NUSIZ0: p0.nusiz = kAll; cosmic_shape(); break;
+    case NUSIZ1: p1.nusiz = kAll; break;
+    case COLUP0: case COLUP1: case COLUPF: case COLUBK: mask.color[reg - COLUP0] = kAll; break;
+    case CTRLPF: mask.ctrlpf = kAll; break;
+    case REFP0: p0.refp = kAll; break;
+    case REFP1: p1.refp = kAll; break;
+    case PF0: case PF1: case PF2: mask.pf[reg - PF0] = kAll; break;
+    case RESP0: p0.position = kAll; break;
+    case RESP1: p1.position = kAll; break;
+    case RESM0: m0.position = kAll; cosmic_shape(); break;
+    case RESM1: m1.position = kAll; break;
+    case RESBL: ball.position = kAll; break;
+    case GRP0: p0.grp = p1.old_grp = kAll; break;
+    case GRP1: p1.grp = p0.old_grp = ball.old_enabled = kAll; break;
+    case ENAM0: m0.enabled = kAll; break;
+    case ENAM1: m1.enabled = kAll; break;
+    case ENABL: ball.enabled = kAll; break;
+    case HMP0: p0.motion = kAll; break;
+    case HMP1: p1.motion = kAll; break;
+    case HMM0: m0.motion = kAll; break;
+    case HMM1: m1.motion = kAll; break;
+    case HMBL: ball.motion = kAll; break;
+    case VDELP0: p0.vdel = kAll; break;
+    case VDELP1: p1.vdel = kAll; break;
+    case VDELBL: ball.vdel = kAll; break;
+    case RESMP0: m0.locked = kAll; cosmic_shape(); break;
+    case RESMP1: m1.locked = kAll; break;
+    case HMOVE: cosmic_shape(); break;
+    case HMCLR: p0.motion = p1.motion = m0.motion = m1.motion = ball.motion = kAll; break;
+    default: break;
+  }
+  return mask;
+}
+
+constexpr auto kWrittenBytes = [] {
+  std::array<TiaRegisters, 64> table{};
+  for (unsigned reg = 0; reg < 64; ++reg) table[reg] = make_written(reg);
+  return table;
+}();
+
+constexpr TiaRegisters kAlways = make_always();
+constexpr TiaRegisters kUsedUp = [] {  // by a line, if it finds it
+  TiaRegisters mask{};
+  mask.comb_armed = kAll;
+  return mask;
+}();
+constexpr TiaRegisters kMotions = make_written(HMCLR);
+
+void clear_but(TiaRegisters& registers, const RegisterVectors& mask) {
+  RegisterVectors bytes(registers);
+  bytes &= mask;
+  bytes.write(registers);
+}
+
+// As far as they decide about where objects are, by Object. HMP0 to HMBL are in that order, too.
+std::array<std::uint8_t, 5> motions_of(const TiaRegisters& tia) {
+  return {tia.player[0].motion, tia.player[1].motion, tia.missile[0].motion, tia.missile[1].motion, tia.ball.motion};
+}
+
+// Those that an HMOVE in this cycle moves.
+unsigned moved_objects(int cycle, const std::array<std::uint8_t, 5>& motion) {
+  const auto& movement = kMovement[static_cast<std::size_t>(cycle + kLineCycles) % kLineCycles];
+  unsigned moved = 0;
+  for (unsigned object = 0; object < motion.size(); ++object) moved |= (movement[motion[object]] != 0 ? 1U : 0U) << object;
+  return moved;
+}
+
+void add_positions(TiaRegisters& mask, unsigned objects) {
+  for (unsigned i = 0; i < 2; ++i) {
+    if (objects >> (kP0 + i) & 1) mask.player[i].position = kAll;
+    if (objects >> (kM0 + i) & 1) mask.missile[i].position = kAll;
+  }
+  if (objects & object_bit(kBall)) mask.ball.position = kAll;
+}
+
+}  // namespace
+
+void LineRecord::open(const TiaRegisters& registers) {
+  number = kNoLine;  // until the line is whole
+  start = registers;
+  mask = nullptr;
+  view = {};
+  count = 0;
+}
+
+const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t origin) {
+  unsigned seen = 0, control = 0, events = count;
+  for (; events < kMostEvents; ++entry) {
+    const LineWrite write(*entry, origin);
+    if (!write.acts_here()) break;
+    event[events++] = write.packed();
+    const LineEffect& effect = kLineEffects[write.reg()];
+    seen |= effect.seen;
+    const bool waits_for_nobody = (write.reg() & ~1U) == RESP0 && entry[1] - *entry > kWaitOfRespx;
+    if (!waits_for_nobody) control |= effect.control;
+  }
+  count = static_cast<std::uint8_t>(events);
+  view.seen = static_cast<std::uint16_t>(view.seen | seen);
+  view.control = static_cast<std::uint8_t>(view.control | control);
+  return entry;
+}
+
+std::uint8_t LineRecord::look() const {
+  constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
+  RegisterVectors bytes(start);
+  bytes &= seen_bytes();
+  std::uint64_t hash = count;
+  for (const TwoWords part : bytes.part)
+    for (const std::uint64_t word : {part[0], part[1]}) hash = std::rotl((hash ^ word) * kOdd, 29);
+  for (unsigned i = 0; i < count; ++i) hash = std::rotl((hash ^ event[i]) * kOdd, 29);
+  return static_cast<std::uint8_t>(hash >> 56);
+}
+
+// Which bytes count, and which are known at the end. What a register's value at the end depends on is the writes, and
+// the bytes that count anyway as far as they have to do with what is shown (line_dependencies.hpp), and these:
+void LineRecord::sum_up(bool pal) {
+  TiaRegisters more = kAlways;
+  RegisterVectors sets(kUsedUp);
+  std::array<std::uint8_t, 5> motion = motions_of(start);
+  bool foreseen = (start.cosmic | end.cosmic) == 0;
+  for (unsigned i = 0; i < count; ++i) {
+    const LineWrite write(event[i]);
+    const unsigned reg = write.reg();
+    sets |= RegisterVectors(kWrittenBytes[reg]);
+    switch (reg) {
+      // May start the Cosmic Ark mode, by an HMOVE on the line before.
+      case HMM0: foreseen &= write.value() >> 4 != 6; [[fallthrough]];
+      case HMP0: case HMP1: case HMM1: case HMBL: motion[reg - HMP0] = write.value() >> 4; break;
+      case HMCLR: motion = {}; break;
+      case HMOVE:
+        hmove_cycle = static_cast<std::int8_t>(write.cycle());
+        add_positions(more, moved_objects(hmove_cycle, motion));
+        break;
+      // The missile stays where it was, or goes to its player.
+      case RESMP0: more.cosmic_shape = static_cast<CosmicShape>(kAll); [[fallthrough]];
+      case RESMP1: more.missile[reg - RESMP0].position = kAll; break;
+      // In PAL, colours have the frame's colour loss in bit 0, all of them.
+      case COLUP0: case COLUP1: case COLUPF: case COLUBK: more.color[3] |= pal ? kAll : 0; break;
+      default: break;
+    }
+  }
+  more.spare[0] = foreseen ? 0 : kAll;
+  RegisterVectors counts(more);
+  counts |= seen_bytes();
+  if (view.seen & kMoves) counts |= RegisterVectors(kMotions);
+  sets |= counts;
+  mask = LineMask::find(counts, sets);
+  if (mask == nullptr) return;
+  clear_but(start, counts);
+  clear_but(end, sets);
+  start.spare[0] = foreseen ? 0 : 1;  // which it never is: the writes must be played
+}
+
+}  // namespace racebeam

@@ -1,0 +1,51 @@
+// What the bytes of a picture look like: colour, grey, and the blend of two pictures (docs/spec/palette.md).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "emulator/state/properties.hpp"
+
+namespace racebeam {
+
+struct Rgb {
+  std::uint8_t r = 0, g = 0, b = 0;
+  bool operator==(const Rgb&) const = default;
+};
+
+// Entry 2k is a colour, entry 2k + 1 its grey. The format decides; kAuto is taken as NTSC.
+using Palette = std::array<Rgb, 256>;
+const Palette& palette(Format format);
+
+// What the grey picture shows for a byte: the blue of the entry after it. That is the grey of a colour, but
+// the next colour's blue for a byte that is odd. Byte 255 reads past the table in the reference; here it
+// gives 0.
+using GreyTable = std::array<std::uint8_t, 256>;
+const GreyTable& grey_table(Format format);
+
+// Colour averaging. Both pictures' bytes give the colour nearest to their blend; an odd byte in either gives
+// 0.
+class Blend {
+ public:
+  explicit Blend(const Palette& palette);
+
+  std::uint8_t operator()(std::uint8_t a, std::uint8_t b) const {
+    return ((a | b) & 1) != 0 ? 0 : table_[index(a, b)];
+  }
+  void operator()(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
+                  std::span<std::uint8_t> out) const;
+
+ private:
+  static constexpr std::size_t index(unsigned a, unsigned b) { return (a >> 1) << 7 | b >> 1; }
+
+  std::array<std::uint8_t, 128 * 128> table_;
+  bool keeps_equal_ =
+      true;  // every colour blended with itself is itself (not so in PAL, which has colours twice)
+};
+
+// Made when first asked for, in about a millisecond; shared by all machines of the process.
+const Blend& blend(Format format);
+
+}  // namespace racebeam

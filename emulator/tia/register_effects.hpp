@@ -1,0 +1,372 @@
+// What a write to each register of the TIA does to the picture's state (docs/spec/tia.md, 4 and 7 to 9).
+// A Painter is told, before and after (render_policies.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/base/inlining.hpp"
+#include "emulator/state/state.hpp"
+#include "emulator/tia/beam.hpp"
+#include "emulator/tia/line/objects.hpp"
+#include "emulator/tia/registers/motion.hpp"
+#include "emulator/tia/registers/registers.hpp"
+#include "emulator/tia/registers/write_log.hpp"
+
+namespace racebeam {
+
+template <class Painter>
+class RegisterEffects {
+ public:
+  RegisterEffects(TiaState& state, const FrameState& frame, const Video& video, Painter painter)
+      : tia_(state), frame_(frame), video_(video), first_cycle_(state.origin / 3), painter_(painter) {}
+
+  // The writes in [first, last) of a log whose cycles count from `base`.
+  void play(const std::uint32_t* first, const std::uint32_t* last, std::int32_t base);
+
+ private:
+  void play(TiaWrite write, std::int32_t cycle);
+
+  static constexpr std::uint8_t kNoObject = 0, kBallBit = 1U << kBall, kPlayfieldBit = 1U << kPlayfield;
+
+  static constexpr std::uint8_t object(unsigned first, unsigned which) {
+    return static_cast<std::uint8_t>(1U << (first + which));
+  }
+
+  // A position that is at most one line off.
+  static constexpr std::uint8_t wrapped(int position) {
+    if (position < 0) position += kLinePixels;
+    return static_cast<std::uint8_t>(position >= kLinePixels ? position - kLinePixels : position);
+  }
+
+  bool any_motion() const {
+    const auto& [p0, p1] = tia_.player;
+    const auto& [m0, m1] = tia_.missile;
+    return (p0.motion | p1.motion | m0.motion | m1.motion | tia_.ball.motion) != 0;
+  }
+
+  // CPU cycle within the line, 0-75. The origin is a multiple of three.
+  int line_cycle(std::int32_t cycle) const { return (cycle - first_cycle_) % kLineCycles; }
+
+  // On odd line counts PAL loses its colour (docs/spec/tia.md, 12).
+  std::uint8_t color_loss() const { return video_.pal ? frame_.lines & 1 : 0; }
+
+  // The control of these objects has been written: they are enabled now, or not.
+  RACEBEAM_INLINE void control(unsigned objects) {
+    if (!painter_.minds(objects)) return;
+    const auto enabled = static_cast<std::uint8_t>((tia_.enabled & ~objects) | enabled_among(tia_, objects));
+    if (enabled == tia_.enabled) return;
+    tia_.enabled = enabled;
+    painter_.enabled();
+  }
+
+  template <class T>
+  bool assign(T& reg, T value, std::int32_t clock, std::uint8_t objects);
+  std::uint8_t strobe_position(std::int32_t clock, int in_blank, int delay) const;
+  void write_color(unsigned which, std::uint8_t value, std::int32_t clock);
+  void write_nusiz(unsigned which, std::uint8_t value, std::int32_t clock);
+  void write_ctrlpf(std::uint8_t value, std::int32_t clock);
+  void write_playfield(unsigned which, std::uint8_t value, std::int32_t cycle);
+  void write_graphics(unsigned which, std::uint8_t value, std::int32_t clock);
+  void write_vdel(unsigned which, std::uint8_t value, std::int32_t clock);
+  void write_ball(std::uint8_t enabled, std::uint8_t old_enabled, std::uint8_t vdel, std::int32_t clock);
+  void write_resmp(unsigned which, std::uint8_t value, std::int32_t clock);
+  void write_hmm0(std::uint8_t motion, std::int32_t clock);
+  void strobe_player(unsigned which, std::int32_t clock);
+  void strobe_missile(unsigned which, std::int32_t clock);
+  void strobe_ball(std::int32_t clock);
+  void strobe_hmove(std::int32_t cycle);
+  void clear_collisions(std::int32_t clock);
+  void show_cosmic_normally();
+
+  TiaState& tia_;
+  const FrameState& frame_;
+  const Video& video_;
+  const std::int32_t first_cycle_;  // of line 0
+  Painter painter_;
+};
+
+template <class Painter>
+template <class T>
+RACEBEAM_INLINE bool RegisterEffects<Painter>::assign(T& reg, T value, std::int32_t clock, std::uint8_t objects) {
+  if (painter_.looks() && reg == value) {
+    painter_.reach(clock);
+    return false;
+  }
+  painter_.draw_to(clock, objects);
+  reg = value;
+  painter_.changed(objects);
+  return true;
+}
+
+template <class Painter>
+void RegisterEffects<Painter>::play(const std::uint32_t* first, const std::uint32_t* last, std::int32_t base) {
+  for (const std::uint32_t* entry = first; entry != last; ++entry) {
+    const TiaWrite write(*entry);
+    play(write, base + write.cycle());
+  }
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t cycle) {
+  const std::int32_t clock = 3 * cycle;
+  const std::uint8_t value = write.value();
+  auto& [p0, p1] = tia_.player;
+  auto& [m0, m1] = tia_.missile;
+  BallState& ball = tia_.ball;
+  const auto flag = [value](int bit) { return static_cast<std::uint8_t>(value >> bit & 1); };
+  const auto motion = [value] { return static_cast<std::uint8_t>(value >> 4); };
+  switch (write.reg()) {
+    case VBLANK: assign(tia_.vblank, flag(1), clock + 1, kAllObjects), painter_.enabled(); break;
+    case NUSIZ0: write_nusiz(0, value, clock + 8); break;
+    case NUSIZ1: write_nusiz(1, value, clock + 8); break;
+    case COLUP0: case COLUP1: case COLUPF: case COLUBK: write_color(write.reg() - COLUP0, value, clock); break;
+    case CTRLPF: write_ctrlpf(value, clock); break;
+    case REFP0:  assign(p0.refp, flag(3), clock + 1, object(kP0, 0)); break;
+    case REFP1:  assign(p1.refp, flag(3), clock + 1, object(kP0, 1)); break;
+    case PF0: case PF1: case PF2: write_playfield(write.reg() - PF0, value, cycle); break;
+    case RESP0:  strobe_player(0, clock); break;
+    case RESP1:  strobe_player(1, clock); break;
+    case RESM0:  strobe_missile(0, clock); break;
+    case RESM1:  strobe_missile(1, clock); break;
+    case RESBL:  strobe_ball(clock); break;
+    case GRP0:   write_graphics(0, value, clock + 1); break;
+    case GRP1:   write_graphics(1, value, clock + 1); break;
+    case ENAM0:  assign(m0.enabled, flag(1), clock, object(kM0, 0)), control(object(kM0, 0)); break;
+    case ENAM1:  assign(m1.enabled, flag(1), clock, object(kM0, 1)), control(object(kM0, 1)); break;
+    case ENABL:  write_ball(flag(1), ball.old_enabled, ball.vdel, clock); break;
+    case HMP0:   painter_.reach(clock); p0.motion = motion(); break;
+    case HMP1:   painter_.reach(clock); p1.motion = motion(); break;
+    case HMM0:   write_hmm0(motion(), clock); break;
+    case HMM1:   painter_.reach(clock); m1.motion = motion(); break;
+    case HMBL:   painter_.reach(clock); ball.motion = motion(); break;
+    case VDELP0: write_vdel(0, flag(0), clock); break;
+    case VDELP1: write_vdel(1, flag(0), clock); break;
+    case VDELBL: write_ball(ball.enabled, ball.old_enabled, flag(0), clock); break;
+    case RESMP0: write_resmp(0, flag(1), clock); break;
+    case RESMP1: write_resmp(1, flag(1), clock); break;
+    case HMOVE:  strobe_hmove(cycle); break;
+    case HMCLR:  painter_.reach(clock); p0.motion = p1.motion = m0.motion = m1.motion = ball.motion = 0; break;
+    case CXCLR:  clear_collisions(clock); break;
+    default:     painter_.reach(clock); break;
+  }
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_color(unsigned which, std::uint8_t value, std::int32_t clock) {
+  assign(tia_.color[which], static_cast<std::uint8_t>((value & 0xFE) | color_loss()), clock, kNoObject);
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_nusiz(unsigned which, std::uint8_t value, std::int32_t clock) {
+  PlayerState& player = tia_.player[which];
+  const bool reselects = player.skip || (which == 0 && tia_.cosmic);
+  value &= 0x37;
+  if (painter_.looks() && player.nusiz == value && !reselects) return painter_.reach(clock);
+  painter_.draw_to(clock, object(kP0, which) | object(kM0, which));
+  player.nusiz = value;
+  player.skip = 0;
+  if (which == 0) tia_.cosmic_shape = CosmicShape::kNormal;
+  painter_.changed(object(kP0, which) | object(kM0, which));
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, std::int32_t clock) {
+  const bool latches = line_cycle(clock / 3) < 49;  // later, the playfield turns round at the end of the line only
+  const std::uint8_t reflect = latches ? value & 1 : tia_.reflect;
+  value &= 0x37;
+  if (painter_.looks() && tia_.ctrlpf == value && tia_.reflect == reflect) return painter_.reach(clock);
+  if (latches) painter_.draw_to(clock, kBallBit | kPlayfieldBit);
+  else painter_.come_to(clock);
+  // Drawing may have passed a line's end, and with it the latch.
+  tia_.reflect = latches ? value & 1 : tia_.reflect;
+  tia_.ctrlpf = value;
+  painter_.changed(kBallBit | kPlayfieldBit);
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, std::uint8_t value, std::int32_t cycle) {
+  static constexpr std::uint8_t kDelay[4] = {4, 5, 2, 3};  // until the next block of four pixels
+  static_assert(kLineCycles % 4 == 0);
+  const std::int32_t clock = 3 * cycle + kDelay[(cycle - first_cycle_) % 4];
+  std::uint8_t& reg = tia_.pf[which];
+  if (painter_.looks() && reg == value) {
+    painter_.reach(clock);
+  } else {
+    painter_.draw_before(clock, kPlayfieldParts[tia_.reflect][which]);
+    reg = value;
+    painter_.changed(kPlayfieldBit);
+  }
+  control(kPlayfieldBit);
+}
+
+// Writing one player's graphics moves the other's into the register that VDELPx shows.
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, std::uint8_t value, std::int32_t clock) {
+  PlayerState& written = tia_.player[which];
+  PlayerState& other = tia_.player[1 - which];
+  std::uint8_t objects = kBallBit | object(kP0, 0) | object(kP0, 1);
+  if (painter_.looks()) {
+    objects = 0;
+    if (!written.vdel && written.grp != value) objects |= object(kP0, which);
+    if (other.vdel && other.old_grp != other.grp) objects |= object(kP0, 1 - which);
+    if (which == 1 && tia_.ball.vdel && tia_.ball.old_enabled != tia_.ball.enabled) objects |= kBallBit;
+  }
+  if (objects != 0) painter_.draw_to(clock, objects);
+  else painter_.reach(clock);
+  written.grp = value;
+  other.old_grp = other.grp;
+  if (which == 1) tia_.ball.old_enabled = tia_.ball.enabled;
+  control(object(kP0, 0) | object(kP0, 1) | (which == 1 ? kBallBit : 0));
+  painter_.changed(objects);
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_vdel(unsigned which, std::uint8_t value, std::int32_t clock) {
+  assign(tia_.player[which].vdel, value, clock, object(kP0, which));
+  control(object(kP0, which));
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, std::uint8_t old_enabled,
+                                                          std::uint8_t vdel, std::int32_t clock) {
+  BallState& ball = tia_.ball;
+  const bool shown = vdel ? old_enabled != 0 : enabled != 0;
+  if (!painter_.looks() || shown != ball_enabled(ball)) {
+    painter_.draw_to(clock, kBallBit);
+    painter_.changed(kBallBit);
+  } else {
+    painter_.reach(clock);
+  }
+  ball.enabled = enabled;
+  ball.vdel = vdel;
+  control(kBallBit);
+}
+
+// Unlocking a missile leaves it in the middle of its player.
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_resmp(unsigned which, std::uint8_t value, std::int32_t clock) {
+  MissileState& missile = tia_.missile[which];
+  const bool unlocks = missile.locked && !value;
+  const bool changed = assign(missile.locked, value, clock, object(kM0, which));
+  control(object(kM0, which));
+  if (!changed || !unlocks) return;
+  const PlayerState& player = tia_.player[which];
+  missile.position = wrapped(player.position + 4 * static_cast<int>(kCopies[player.nusiz & 7].scale));
+  if (which == 0) show_cosmic_normally();
+}
+
+// A second motion written exactly 21 cycles after an HMOVE keeps missile 0 moving: "Cosmic Ark mode".
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_hmm0(std::uint8_t motion, std::int32_t clock) {
+  MissileState& missile = tia_.missile[0];
+  const bool enters = static_cast<std::uint32_t>(clock) == tia_.hmove_clock + 63 && missile.motion == 7 && motion == 6;
+  if (enters) {
+    painter_.come_to(clock);
+    tia_.cosmic = 1;
+    tia_.cosmic_count = 0;
+    painter_.changed(object(kM0, 0));
+  }
+  painter_.reach(clock);
+  missile.motion = motion;
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::show_cosmic_normally() {
+  if (tia_.cosmic_shape == CosmicShape::kNormal) return;
+  tia_.cosmic_shape = CosmicShape::kNormal;
+  painter_.changed(object(kM0, 0));
+}
+
+template <class Painter>
+RACEBEAM_INLINE std::uint8_t RegisterEffects<Painter>::strobe_position(std::int32_t clock, int in_blank, int delay) const {
+  const int h = 3 * line_cycle(clock / 3);
+  return static_cast<std::uint8_t>(h < kBlankClocks ? in_blank : (h - kBlankClocks + delay) % kLinePixels);
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std::int32_t clock) {
+  PlayerState& player = tia_.player[which];
+  painter_.draw_to(clock, object(kP0, which));
+  const std::uint8_t position = strobe_position(clock, 3, 5);
+  const int distance = wrapped(position - player.position);
+  const Copies& copies = kCopies[player.nusiz & 7];
+  const int width = 8 * static_cast<int>(copies.scale);
+  bool skip = true;
+  for (unsigned i = 0; i < copies.count; ++i) {
+    const int into = distance - copies.offset[i];
+    if (into >= 0 && into <= 3) skip = false;
+    // The old copy is being drawn: it is finished first.
+    if (into >= 4 && into <= 3 + width) painter_.draw_to(clock + 11, object(kP0, which));
+  }
+  if (skip) painter_.come_to(clock);
+  player.position = position;
+  player.skip = skip;
+  painter_.changed(object(kP0, which));
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_missile(unsigned which, std::int32_t clock) {
+  painter_.draw_to(clock + 8, object(kM0, which));
+  const std::uint32_t since = static_cast<std::uint32_t>(clock) - tia_.hmove_clock;
+  const int h = 3 * line_cycle(clock / 3);
+  std::uint8_t position = strobe_position(clock, 2, 4);
+  if (which == 0 && since == 60 && h == 69) position = 8;
+  if (which == 1 && since == 9 && h == 18) position = 3;
+  tia_.missile[which].position = position;
+  if (which == 0) show_cosmic_normally();
+  painter_.changed(object(kM0, which));
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_ball(std::int32_t clock) {
+  struct Exception { std::uint32_t since; int h; std::uint8_t position; };
+  static constexpr Exception kExceptions[] = {{54, 60, 10}, {54, 69, 10}, {9, 18, 3}, {21, 30, 6}, {18, 27, 5}};
+  painter_.draw_to(clock, kBallBit);
+  const std::uint32_t since = static_cast<std::uint32_t>(clock) - tia_.hmove_clock;
+  const int h = 3 * line_cycle(clock / 3);
+  tia_.ball.position = strobe_position(clock, 2, 4);
+  for (const Exception& e : kExceptions)
+    if (since == e.since && h == e.h) tia_.ball.position = e.position;
+  painter_.changed(kBallBit);
+}
+
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(std::int32_t cycle) {
+  const std::int32_t clock = 3 * cycle;
+  const int x = line_cycle(cycle);
+  const bool arms = video_.hmove_blanks && (x == 75 || x <= 20);
+  if (arms) painter_.draw_to(clock, kAllObjects);
+  else painter_.come_to(clock);
+  const auto& movement = kMovement[static_cast<std::size_t>(x)];
+  const auto move = [&](std::uint8_t& position, std::uint8_t motion, std::uint8_t objects) {
+    if (movement[motion] == 0) return;
+    position = wrapped(position + movement[motion]);
+    painter_.changed(objects);
+  };
+  auto& [p0, p1] = tia_.player;
+  auto& [m0, m1] = tia_.missile;
+  if (movement[0] != 0 || any_motion()) {
+    move(p0.position, p0.motion, object(kP0, 0));
+    move(p1.position, p1.motion, object(kP0, 1));
+    move(m0.position, m0.motion, object(kM0, 0));
+    move(m1.position, m1.motion, object(kM0, 1));
+    move(tia_.ball.position, tia_.ball.motion, kBallBit);
+  }
+  if ((p0.skip | p1.skip) != 0) {
+    painter_.changed(object(kP0, 0) | object(kP0, 1));
+    p0.skip = p1.skip = 0;
+  }
+  if (arms) tia_.comb_armed = 1;
+  tia_.cosmic = 0;
+  show_cosmic_normally();
+  tia_.hmove_clock = static_cast<std::uint32_t>(clock);
+}
+
+// What is not drawn yet may still meet: it is drawn before the latches are cleared.
+template <class Painter>
+RACEBEAM_INLINE void RegisterEffects<Painter>::clear_collisions(std::int32_t clock) {
+  painter_.draw_to(clock, kAllObjects);
+  painter_.clear_collisions();
+}
+
+}  // namespace racebeam

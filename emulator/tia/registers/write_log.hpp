@@ -1,0 +1,104 @@
+// TIA writes as data: the CPU appends, the TIA plays them when somebody looks (design: nothing ticks).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/tia/registers/registers.hpp"
+
+namespace racebeam {
+
+// A write in one word: cycle (18 bits, from the log's base on), register (6), value (8). Later writes are larger words.
+class TiaWrite {
+ public:
+  static constexpr unsigned kCycleShift = 14;
+
+  constexpr explicit TiaWrite(std::uint32_t packed) : packed_(packed) {}
+  constexpr TiaWrite(std::int32_t cycle, unsigned reg, std::uint8_t value)
+      : packed_(static_cast<std::uint32_t>(cycle) << kCycleShift | reg << 8 | value) {}
+
+  constexpr std::int32_t cycle() const { return static_cast<std::int32_t>(packed_ >> kCycleShift); }
+  constexpr unsigned reg() const { return packed_ >> 8 & 0x3F; }
+  constexpr std::uint8_t value() const { return static_cast<std::uint8_t>(packed_); }
+  constexpr std::uint32_t packed() const { return packed_; }
+
+ private:
+  std::uint32_t packed_;
+};
+
+// What of its writes a step has not played yet, for one machine at a time: a scratch list that machines share.
+// Of writes that repeat what the register holds nothing is kept, nor of reads: where they can be seen, the step is run
+// again, access by access (Board::end_step, Console::Impl::run_step). Translated code appends as
+// append_change() does, and finds the members at fixed places.
+struct WriteLog {
+  // No step has more instructions than half of this; a plain store is one entry, and whoever appends more, or waits,
+  // asks is_short_of_room() first. So neither the list nor the cycle's 18 bits can overflow, whatever the program does.
+  static constexpr std::size_t kCapacity = 65536;
+  static constexpr std::int32_t kLongestSpan = 50000;  // cycles; 25000 instructions of 8 cycles still fit after it
+  static constexpr std::size_t kPadding = 32;          // entries that may be read beyond the last
+
+  static constexpr std::uint16_t kUnknown = 0x100;
+  static constexpr std::uint16_t kUnsettled = 0x200;  // the value is known, but writing it again does something
+
+  // kUnknown for the registers whose writes do something each time.
+  static constexpr std::array<std::uint16_t, 64> kNeverRepeats = [] {
+    std::array<std::uint16_t, 64> table{};
+    for (const TiaRegister reg : {NUSIZ0, NUSIZ1, CTRLPF, RESP0, RESP1, RESM0, RESM1, RESBL, HMOVE, HMCLR, CXCLR})
+      table[reg] = kUnknown;
+    return table;
+  }();
+
+  // A new value in these makes a write of the other one do something again: it moves the value on
+  // (docs/spec/tia.md, 7).
+  static constexpr std::uint8_t kNobody = 0x3F;
+  static constexpr std::array<std::uint8_t, 64> kDisturbed = [] {
+    std::array<std::uint8_t, 64> table{};
+    table.fill(kNobody);
+    table[GRP0] = table[ENABL] = GRP1;
+    table[GRP1] = GRP0;
+    return table;
+  }();
+
+  std::uint32_t* next = nullptr;              // where the next write goes
+  std::int32_t base = 0;                      // the cycle that the entries' cycles count from
+  std::array<std::uint16_t, 64> written{};    // each register's last value, with the marks above
+  std::array<std::uint32_t, kCapacity + kPadding> entry;
+
+  WriteLog() { begin(0); }
+  WriteLog(const WriteLog&) = delete;
+  WriteLog& operator=(const WriteLog&) = delete;
+
+  void begin(std::int32_t cycle) {
+    rewind(cycle);
+    written.fill(kUnknown);
+  }
+
+  // All has been played.
+  void rewind(std::int32_t cycle) {
+    next = entry.data();
+    base = cycle;
+  }
+
+  std::size_t size() const { return static_cast<std::size_t>(next - entry.data()); }
+  bool is_short_of_room(std::int32_t cycle) const { return size() > kCapacity / 2 || cycle - base > kLongestSpan; }
+
+  // A write that may change the picture, whatever was written before.
+  void append(std::int32_t cycle, unsigned reg, std::uint8_t value) {
+    *next++ = TiaWrite(cycle - base, reg, value).packed();
+    written[reg] = kUnknown;
+    written[kDisturbed[reg]] |= kUnsettled;
+    if (reg == HMCLR) written[HMP0] = written[HMP1] = written[HMM0] = written[HMM1] = written[HMBL] = kUnknown;
+  }
+
+  // The same, unless it repeats the last one and the register only holds what is written.
+  void append_change(std::int32_t cycle, unsigned reg, std::uint8_t value) {
+    const unsigned before = written[reg], after = value;
+    if (before == after) return;
+    written[reg] = static_cast<std::uint16_t>(after | kNeverRepeats[reg]);
+    if ((before & ~unsigned{kUnsettled}) != after) written[kDisturbed[reg]] |= kUnsettled;
+    *next++ = TiaWrite(cycle - base, reg, value).packed();
+  }
+};
+
+}  // namespace racebeam

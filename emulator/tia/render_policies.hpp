@@ -1,0 +1,91 @@
+// Who is told what the writes to the TIA change (register_effects.hpp), in three kinds: one that draws, one that only looks
+// for collisions, and one that has seen it all before.
+//
+// Before these objects (bit n: Object n), or colours, change: draw_to(clock, objects) asks for what stands so far to be
+// drawn, draw_before(clock, part) the same for a part of the playfield, come_to(clock) that the ends of lines have been
+// acted on, too, and reach(clock) says that the beam is there and nothing has changed. Afterwards, changed(objects) names
+// what has, and enabled() says that TiaRegisters::enabled or VBLANK may be others. minds(objects): does it matter whether
+// one of them is enabled? While looks() is false, a painter may hear all that for nothing, and brings
+// TiaRegisters::enabled up to date itself, afterwards.
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/base/inlining.hpp"
+#include "emulator/state/state.hpp"
+#include "emulator/tia/beam.hpp"
+#include "emulator/tia/line/objects.hpp"
+
+namespace racebeam {
+
+// Draws what stood before a change, as far as the beam had come.
+struct Drawing {
+  Beam& beam;
+  std::int32_t& reached;
+
+  RACEBEAM_INLINE void reach(std::int32_t clock) const { reached = clock > reached ? clock : reached; }
+  RACEBEAM_INLINE void draw_to(std::int32_t clock, unsigned) const { come_to(clock); }
+  RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart& part) const {
+    reach(clock);
+    beam.draw_before(reached, part);
+  }
+  RACEBEAM_INLINE void come_to(std::int32_t clock) const {
+    reach(clock);
+    beam.draw_to(reached);
+  }
+  static constexpr bool looks() { return true; }
+  static constexpr bool minds(unsigned) { return true; }
+  RACEBEAM_INLINE void changed(std::uint8_t objects) const { beam.changed(objects); }
+  RACEBEAM_INLINE void enabled() const {}
+  RACEBEAM_INLINE void clear_collisions() const { beam.clear_collisions(); }
+};
+
+// Pixels are not wanted, collisions are: the beam stays behind, except while objects are shown that may meet.
+struct Following {
+  Beam& beam;
+  TiaState& tia;
+  std::int32_t& reached;
+  bool& watches;
+  const unsigned sought = beam.sought_objects();
+
+  RACEBEAM_INLINE void reach(std::int32_t clock) const { reached = clock > reached ? clock : reached; }
+  RACEBEAM_INLINE bool looks() const { return watches; }
+  RACEBEAM_INLINE void draw_to(std::int32_t clock, unsigned objects) const {
+    reach(clock);
+    if (watches && (objects & sought) != 0) beam.draw_to(reached);
+  }
+  RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart&) const { draw_to(clock, object_bit(kPlayfield)); }
+  RACEBEAM_INLINE bool minds(unsigned objects) const { return (sought & objects) != 0; }
+  RACEBEAM_INLINE void come_to(std::int32_t clock) const {
+    reach(clock);
+    if (watches) beam.draw_to(reached);
+    else beam.pass_to(reached);
+  }
+  RACEBEAM_INLINE void changed(std::uint8_t objects) const { beam.changed(objects); }
+  RACEBEAM_INLINE void enabled() const {
+    const bool watched = watches;
+    watches = beam.may_meet() || tia.cosmic;
+    if (watches && !watched) beam.pass_to(reached);
+  }
+  RACEBEAM_INLINE void clear_collisions() const {
+    beam.clear_collisions();
+    enabled();
+  }
+};
+
+// The line's pixels are there already; only the registers are wanted.
+struct Recalling {
+  Beam& beam;
+
+  RACEBEAM_INLINE void reach(std::int32_t) const {}
+  RACEBEAM_INLINE void draw_to(std::int32_t, unsigned) const {}
+  RACEBEAM_INLINE void draw_before(std::int32_t, const PlayfieldPart&) const {}
+  static constexpr bool looks() { return false; }
+  RACEBEAM_INLINE void come_to(std::int32_t) const {}
+  static constexpr bool minds(unsigned) { return false; }
+  RACEBEAM_INLINE void enabled() const {}
+  RACEBEAM_INLINE void changed(std::uint8_t objects) const { beam.changed(objects); }
+  RACEBEAM_INLINE void clear_collisions() const { beam.clear_collisions(); }
+};
+
+}  // namespace racebeam

@@ -1,0 +1,287 @@
+#include "emulator/tia/tia.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "emulator/tia/line/objects.hpp"
+#include "emulator/tia/line_cache/line_dependencies.hpp"
+#include "emulator/tia/register_effects.hpp"
+#include "emulator/tia/render_policies.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::uint32_t kLineOfWrites = TiaWrite(kLineCycles, 0, 0).packed();
+
+constexpr std::array<std::uint32_t, 8> kFirstOfFour = {~0U, ~0U, ~0U, ~0U, 0, 0, 0, 0};
+
+// Are the next writes those of the record? `origin` is the line's first cycle as a write has it.
+RACEBEAM_INLINE bool meets_the_same(const std::uint32_t* entry, std::uint32_t origin, const LineRecord& record) {
+  FourWords difference{};
+  int left = record.count;
+  for (const std::uint32_t* event = record.event.data(); left > 0; event += 4, entry += 4, left -= 4) {
+    const auto counted = load<FourWords>(&kFirstOfFour[static_cast<unsigned>(left < 4 ? 4 - left : 0)]);
+    difference |= ((load<FourWords>(entry) - origin) ^ load<FourWords>(event)) & counted;
+  }
+  return is_zero(load<TwoWords>(&difference));
+}
+
+enum class Likeness { kOther, kBegins, kLooks, kIsSame };  // kLooks: but the registers may come out differently
+
+// How much a line that starts with `registers` and meets the writes from `entry` on is like a remembered one.
+RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::uint32_t* entry, std::uint32_t origin,
+                                 const LineRecord& record) {
+  const bool same = record.mask != nullptr && record.starts_with(registers);
+  if (!same && !record.looks_like(registers)) return Likeness::kOther;
+  const LineWrite next(entry[record.count], origin);
+  if (next.is_of_line() && !(same && next.is_late())) return Likeness::kBegins;
+  if (!meets_the_same(entry, origin, record)) return Likeness::kBegins;
+  return same ? Likeness::kIsSame : Likeness::kLooks;
+}
+
+// Is what has been written so far the beginning of that?
+bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::uint32_t origin, const LineRecord& record) {
+  const auto count = static_cast<std::size_t>(end - entry);
+  if (count > record.count) return false;
+  return std::equal(entry, end, record.event.begin(), [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
+}
+
+// Instructions, as counted in some games.
+constexpr std::uint32_t kWorkOfWrite = 60, kWorkOfRecall = 110, kWorkOfLikeness = 300, kWorkOfMiss = 200;
+
+constexpr std::int32_t kLongestDelay = 11;  // colour clocks that a write may draw ahead
+
+}  // namespace
+
+void Tia::begin_frame() {
+  beam_.begin_frame();
+  if (!video_.pal) return;
+  const int loss = frame_.lines & 1;
+  for (std::uint8_t& color : tia_.color) color = static_cast<std::uint8_t>((color & 0xFE) | loss);
+}
+
+void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, Pixels pixels,
+                     Collisions sought) {
+  beam_.aim(picture, other, pixels, sought);
+  asked_ = 0;
+  work_ = 0;
+  watches_ = beam_.may_meet() || tia_.cosmic;
+  log_ = &log;
+  played_ = log.next;
+  recorded_ = nullptr;
+  reached_ = std::numeric_limits<std::int32_t>::min();
+}
+
+// The word behind the last write says up to which cycle there is no other. Of the line in which that is, only what
+// decides about the latches `asked` need be played; false if it was left.
+bool Tia::play_log(std::int32_t cycle, Collisions asked) {
+  const bool empty = log_->size() == 0;
+  if (empty && cycle < log_->base) return true;
+  const std::int32_t last = empty ? 0 : TiaWrite(log_->next[-1]).cycle();
+  *log_->next = TiaWrite(std::max(cycle - log_->base, last), WriteLog::kNobody, 0).packed();
+  if (!beam_.draws_pixels()) return follow_log();
+  for (;;) {
+    skip(end_of_unseen());
+    if (at_line() && take_lines(asked)) return false;
+    if (played_ == log_->next) return true;
+    play(played_ + 1);
+  }
+}
+
+// Where no pixels are wanted.
+bool Tia::follow_log() {
+  skip(end_of_unseen());
+  const Following painter{beam_, tia_, reached_, watches_};
+  painter.enabled();
+  work_ += kWorkOfWrite * static_cast<std::uint32_t>(log_->next - played_);
+  RegisterEffects(tia_, frame_, video_, painter).play(played_, log_->next, log_->base);
+  played_ = log_->next;
+  return true;
+}
+
+void Tia::empty_log(std::int32_t cycle) {
+  play_log(cycle);
+  log_->rewind(cycle);
+  played_ = log_->next;
+}
+
+void Tia::catch_up(std::int32_t cycle) {
+  play_log(cycle);
+  touch(cycle);
+  if (!beam_.draws_pixels()) tia_.enabled = enabled_objects(tia_);
+}
+
+void Tia::find_collisions(std::int32_t cycle, Collisions asked) {
+  asked_ |= asked;
+  if (play_log(cycle, asked)) touch(cycle);
+}
+
+void Tia::touch(std::int32_t cycle) {
+  if (beam_.draws_pixels()) Drawing{beam_, reached_}.come_to(3 * cycle);
+  else Following{beam_, tia_, reached_, watches_}.come_to(3 * cycle);
+}
+
+bool Tia::end_picture(std::int32_t cycle) {
+  play_log(cycle);
+  const std::int32_t reached = reached_;
+  touch(cycle);
+  if (!beam_.draws_pixels()) tia_.enabled = enabled_objects(tia_);
+  return !stopped_inside(cycle) || (reached < 3 * cycle && beam_.end_picture(reached));
+}
+
+bool Tia::stopped_inside(std::int32_t cycle) const {
+  return tia_.cursor < beam_.end() && 3 * cycle + kLongestDelay > beam_.start();
+}
+
+// Write by write, or up to `next`.
+void Tia::play(const std::uint32_t* next) {
+  work_ += kWorkOfWrite * static_cast<std::uint32_t>(next - played_);
+  RegisterEffects(tia_, frame_, video_, Drawing{beam_, reached_}).play(played_, next, log_->base);
+  played_ = next;
+  if (beam_.exact_spans()) beam_.draw_to(reached_);
+}
+
+// Up to `next`, for what needs no drawing.
+void Tia::skip(const std::uint32_t* next) {
+  if (next == played_) return;
+  RegisterEffects(tia_, frame_, video_, Recalling{beam_}).play(played_, next, log_->base);
+  tia_.enabled = enabled_objects(tia_);
+  played_ = next;
+}
+
+// Nothing can be seen of what is written before the window, or when it is full.
+const std::uint32_t* Tia::end_of_unseen() const {
+  if (tia_.cursor >= beam_.end()) return log_->next;
+  const std::uint32_t* at = played_;
+  if (tia_.cursor != beam_.start() || !beam_.at_line_start()) return at;
+  while (at != log_->next && 3 * (log_->base + TiaWrite(*at).cycle()) + kLongestDelay <= beam_.start()) ++at;
+  return at;
+}
+
+std::uint32_t Tia::line_origin() const {
+  return TiaWrite(beam_.line_end() / 3 - kLineCycles - log_->base, 0, 0).packed();
+}
+
+// Is the next write on the cursor's line or beyond it, and nothing known about the line that can't be remembered?
+bool Tia::at_line() const {
+  if (beam_.exact_spans() || tia_.cursor < beam_.start() || !beam_.line_can_end()) return false;
+  const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles - log_->base;
+  if (first_cycle < 0 || TiaWrite(*played_).cycle() + kEarliestWrite < first_cycle) return false;
+  return recorded_ != nullptr || !beam_.at_line_start() || reached_ <= tia_.cursor;
+}
+
+// Takes one line after the other, as long as they can be taken as a whole: those that are there already, or else they
+// are drawn, and remembered. True if nothing more need be played.
+bool Tia::take_lines(Collisions asked) {
+  std::uint32_t origin = line_origin();
+  while (beam_.line_can_end()) {
+    if (beam_.at_line_start()) {
+      if (reached_ > tia_.cursor) return false;
+      if (recall_lines(origin, asked)) return true;
+      if (!beam_.line_can_end()) return false;
+    }
+    if (!draw_line(origin)) return false;
+    origin += kLineOfWrites;
+  }
+  return false;
+}
+
+// Lines that start with the same registers, as far as they count, and meet the same writes as when these rows of the
+// buffer were drawn last. True if it stops at one that is not known to its end, but so far it is the same as well, and
+// nothing asked for has met on that.
+bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
+  if (recorded_ != nullptr || !beam_.has_record()) return false;
+  RegisterVectors registers(tia_);
+  std::int32_t cursor = tia_.cursor;
+  const LineNumber* shown = beam_.shown();
+  LineRecord* const first = &beam_.record();
+  LineRecord* const last = first + std::min(beam_.lines_to_end(), beam_.rows_to_end_of_records());
+  LineRecord* record = first;
+  bool enough = false;
+  for (; record != last; ++record, ++shown, origin += kLineOfWrites, cursor += kLineClocks) {
+    const Likeness likeness = compare(registers, played_, origin, *record);
+    if (likeness < Likeness::kLooks || (*shown != record->number && !beam_.can_copy(shown, record->number))) {
+      const bool can_meet = (record->meetings & asked) != 0 || (record->view.seen & kClears) != 0;
+      enough = record->number != kNoLine && likeness == Likeness::kBegins && asked != kWholePicture && !can_meet &&
+               begins_the_same(played_, log_->next, origin, *record);
+      break;
+    }
+    const std::uint32_t* next = played_ + record->count;
+    if (likeness == Likeness::kIsSame) {
+      record->pass(registers);
+      if (record->view.seen & kMoves) tia_.hmove_clock = static_cast<std::uint32_t>(cursor + 3 * record->hmove_cycle);
+      if (record->view.seen & kClears) beam_.clear_collisions();
+    } else {
+      beam_.lose_track();
+      registers.write(tia_);
+      play_recalled(next, *record);
+      registers.read(tia_);
+    }
+    played_ = next;
+    tia_.collisions |= record->meetings;
+  }
+  work_ += kWorkOfRecall * static_cast<std::uint32_t>(record - first) + kWorkOfMiss;
+  if (record == first) return enough;
+  beam_.lose_track();
+  registers.write(tia_);
+  beam_.pass_lines(static_cast<int>(record - first));
+  return enough;
+}
+
+// The line is there, but its registers came from elsewhere.
+void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
+  RegisterEffects(tia_, frame_, video_, Recalling{beam_}).play(played_, next, log_->base);
+  tia_.enabled = enabled_objects(tia_);
+  tia_.comb_armed = record.end.comb_armed;
+  beam_.end_line();
+  work_ += kWorkOfLikeness;
+  if (record.mask == nullptr) record.sum_up(video_.pal);
+}
+
+// Draws the cursor's line up to the last write, or to its end if the next one lies beyond: then it returns true.
+bool Tia::draw_line(std::uint32_t origin) {
+  if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr && beam_.is_worthwhile()) {
+    recorded_ = &beam_.record();
+    recorded_->open(tia_.registers());
+    beam_.look_afresh();
+  }
+  if (!record_writes(origin)) return false;
+  beam_.finish_line();
+  close_record();
+  return true;
+}
+
+// Plays the writes that the cursor's line meets, and remembers them; true if they are all known. Those that act on two
+// lines, or are too many, are left, and the line is not remembered.
+bool Tia::record_writes(std::uint32_t origin) {
+  const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;
+  if (recorded_ == nullptr)
+    while (LineWrite(*next, origin).acts_here()) ++next;
+  play(next);
+  const LineWrite write(*next, origin);
+  if (!write.is_of_line()) return true;
+  // The end of a line does something more in Cosmic Ark mode, and it matters if that comes before a late write.
+  if (write.is_late() && recorded_ != nullptr && tia_.cosmic == 0) return true;
+  if (next != log_->next) recorded_ = nullptr;
+  return false;
+}
+
+void Tia::close_record() {
+  if (recorded_ == nullptr) return;
+  recorded_->view.seen |= beam_.seen();
+  recorded_->meetings = beam_.meetings();
+  beam_.show(*recorded_);
+  recorded_->end = tia_.registers();
+  recorded_ = nullptr;
+}
+
+// docs/spec/tia.md, "Greying": what is seen when the processor stands still in the middle of a picture.
+void Tia::grey(FrameBuffer& picture, std::int32_t cycle) const {
+  const int line = (3 * cycle - tia_.origin) / kLineClocks;
+  const int first = std::clamp(line - video_.ystart, 0, video_.height);
+  const auto window = picture.pixels().first(static_cast<std::size_t>(video_.height * kLinePixels));
+  for (std::uint8_t& pixel : window.subspan(static_cast<std::size_t>(first * kLinePixels))) pixel = (pixel & 15) >> 1;
+  picture.forget_lines();
+}
+
+}  // namespace racebeam

@@ -1,0 +1,28 @@
+// What lives on from act to act beside the machine and the rule's tally. One trivially copyable value, so
+// that saving it is a copy and nothing can be left out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "environment/input/paddles.hpp"
+#include "environment/input/sticky_actions.hpp"
+
+namespace racebeam {
+
+struct EpisodeState {
+  Presses held;  // what a sticky frame repeats
+  PaddleValues paddles{};
+  std::uint32_t frames = 0;  // counted since loading
+  std::uint32_t episode_frames = 0;
+  std::int32_t mode = 0;  // takes effect at the next reset
+  std::int32_t difficulty = 0;
+  std::array<std::int32_t, 2> rewards{};  // of the last act: A's and B's
+  std::uint32_t ram_is_stale = 0;  // RAM is answered from the next member: Environment::restore_classic()
+  std::array<std::uint8_t, 128> stale_ram{};
+};
+
+static_assert(std::is_trivially_copyable_v<EpisodeState>);
+
+}  // namespace racebeam

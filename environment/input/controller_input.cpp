@@ -1,0 +1,77 @@
+#include "environment/input/controller_input.hpp"
+
+#include "games/game/actions.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::array<std::uint8_t, kActions> kSticks = {
+    0,
+    kStickFire,
+    kStickUp,
+    kStickRight,
+    kStickLeft,
+    kStickDown,
+    kStickUp | kStickRight,
+    kStickUp | kStickLeft,
+    kStickDown | kStickRight,
+    kStickDown | kStickLeft,
+    kStickUp | kStickFire,
+    kStickRight | kStickFire,
+    kStickLeft | kStickFire,
+    kStickDown | kStickFire,
+    kStickUp | kStickRight | kStickFire,
+    kStickUp | kStickLeft | kStickFire,
+    kStickDown | kStickRight | kStickFire,
+    kStickDown | kStickLeft | kStickFire,
+};
+
+// first: the number of the player's NOOP.
+std::uint8_t stick(std::int32_t action, std::int32_t first) {
+  const bool known = action >= first && action < first + kActions;
+  return known ? kSticks[static_cast<std::size_t>(action - first)] : std::uint8_t{0};
+}
+
+int direction(std::uint8_t pressed) {
+  if ((pressed & kStickRight) != 0) return -1;
+  return (pressed & kStickLeft) != 0 ? 1 : 0;
+}
+
+void release_all(Inputs& inputs, int difficulty) {
+  inputs.joystick = {};
+  inputs.paddle_fire = 0;
+  inputs.switches = kSwitchesAtRest;
+  if ((difficulty & 1) != 0) inputs.switches |= kSwitchLeftA;
+  if ((difficulty & 2) != 0) inputs.switches |= kSwitchRightA;
+}
+
+void hold(Inputs& inputs, std::uint8_t console_switch) {
+  inputs.switches &= static_cast<std::uint8_t>(~console_switch);
+}
+
+}  // namespace
+
+void ControllerInput::press(Inputs& inputs, const Presses& presses, int difficulty,
+                            PaddleValues& paddles) const {
+  release_all(inputs, difficulty);
+  if (presses.a.action == kResetAction) hold(inputs, kSwitchReset);
+  if (use_paddles_) return turn_paddles(inputs, presses, paddles);
+  inputs.joystick = {stick(presses.a.action, 0), stick(presses.b.action, kActions)};
+}
+
+void ControllerInput::turn_paddles(Inputs& inputs, const Presses& presses, PaddleValues& paddles) const {
+  const std::uint8_t a = stick(presses.a.action, 0), b = stick(presses.b.action, kActions);
+  paddles = {limits_.turn(paddles[0], direction(a), presses.a.strength),
+             limits_.turn(paddles[1], direction(b), presses.b.strength)};
+  inputs.paddle[0] = paddles[0];
+  inputs.paddle[1] = paddles[1];
+  inputs.paddle_fire =
+      static_cast<std::uint8_t>(((a & kStickFire) != 0 ? 1 : 0) | ((b & kStickFire) != 0 ? 2 : 0));
+}
+
+void ControllerInput::press_select(Inputs& inputs, int difficulty) {
+  release_all(inputs, difficulty);
+  hold(inputs, kSwitchSelect);
+}
+
+}  // namespace racebeam

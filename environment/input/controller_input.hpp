@@ -1,0 +1,33 @@
+// Actions on their way to the console's ports and switches (docs/spec/environment.md, 2;
+// docs/spec/console.md, 5).
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/state/inputs.hpp"
+#include "environment/input/paddles.hpp"
+#include "environment/input/sticky_actions.hpp"
+
+namespace racebeam {
+
+class ControllerInput {
+ public:
+  ControllerInput(bool use_paddles, PaddleLimits limits) : use_paddles_(use_paddles), limits_(limits) {}
+
+  const PaddleLimits& limits() const { return limits_; }
+  PaddleValues middle() const { return limits_.middle(); }
+
+  // For one frame. An action that nobody has presses nothing; player A's 40 is the RESET switch.
+  void press(Inputs& inputs, const Presses& presses, int difficulty, PaddleValues& paddles) const;
+
+  // Holds SELECT alone. The paddles stay where they are.
+  static void press_select(Inputs& inputs, int difficulty);
+
+ private:
+  void turn_paddles(Inputs& inputs, const Presses& presses, PaddleValues& paddles) const;
+
+  bool use_paddles_;
+  PaddleLimits limits_;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,28 @@
+#include "environment/input/legal_actions.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace racebeam {
+
+LegalActions::LegalActions(const std::vector<int>& legal, bool paddles) : paddles_(paddles) {
+  for (const int action : legal) legal_ |= 1u << action;
+}
+
+void LegalActions::check(const Presses& asked) const {
+  if (!std::isfinite(asked.a.strength) || !std::isfinite(asked.b.strength)) {
+    throw std::invalid_argument("a paddle's strength must be a finite number");
+  }
+  if (paddles_) return;
+  if (replace_a(asked.a.action) >= 18) {
+    throw std::invalid_argument("player A has no action " + std::to_string(asked.a.action) +
+                                "; there are 0 to 17, and 40 which presses nothing");
+  }
+  if (replace_b(asked.b.action) >= 36) {
+    throw std::invalid_argument("player B has no action " + std::to_string(asked.b.action) +
+                                "; there are 18 to 35, and 40 which presses nothing");
+  }
+}
+
+}  // namespace racebeam

@@ -1,0 +1,31 @@
+// How many frames pass before an agent may act: drawn as the reference's vector environment draws them
+// (docs/spec/environment.md, 15), so that the same seed gives the same episodes.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "emulator/base/mersenne_twister.hpp"
+
+namespace racebeam {
+
+class Noops {
+ public:
+  Noops(std::uint32_t seed, int max) : random_(seed), choices_(static_cast<std::uint32_t>(std::max(max, 1))) {}
+
+  // 0 to max - 1; 0 if max is not positive. Unbiased, by rejection.
+  int draw() {
+    const std::uint32_t uneven = -choices_ % choices_;  // 2^32 mod choices
+    std::uint64_t product;
+    do {
+      product = std::uint64_t{static_cast<std::uint32_t>(random_())} * choices_;
+    } while (static_cast<std::uint32_t>(product) < uneven);
+    return static_cast<int>(product >> 32);
+  }
+
+ private:
+  MersenneTwister random_;
+  std::uint32_t choices_;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,39 @@
+// What the two players ask for, and what they get: sticky actions (docs/spec/environment.md, 3 and 4).
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/base/mersenne_twister.hpp"
+
+namespace racebeam {
+
+struct Press {
+  std::int32_t action;
+  float strength;  // of turning a paddle
+};
+
+struct Presses {
+  Press a{0, 1.0F};
+  Press b{18, 0.0F};
+};
+
+// The reference compares a draw u / 2^32 with the probability p, in double precision: the smallest u that
+// lets a new action through. p is single precision and has been through a decimal text of six significant
+// digits.
+std::uint64_t sticky_threshold(float p);
+
+class Sticky {
+ public:
+  explicit Sticky(float p) : threshold_(sticky_threshold(p)) {}
+
+  // Two draws, A's first, whatever p is.
+  void draw(MersenneTwister& random, const Presses& asked, Presses& held) const {
+    if (random() >= threshold_) held.a = asked.a;
+    if (random() >= threshold_) held.b = asked.b;
+  }
+
+ private:
+  std::uint64_t threshold_;
+};
+
+}  // namespace racebeam

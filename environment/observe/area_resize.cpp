@@ -1,0 +1,185 @@
+#include "environment/observe/area_resize.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+#if RACEBEAM_HAS_AVX
+#include <immintrin.h>
+#endif
+
+namespace racebeam {
+namespace {
+
+constexpr std::size_t kSlots = 32;  // reduced rows that are kept: more than a target has taps
+constexpr int kMostShrinking = static_cast<int>(kSlots) - 3;
+
+// Half to even, as the processor rounds: from 1.5 * 2^23 on, a float's last bit is worth 1.
+std::uint8_t rounded(float value) {
+  return static_cast<std::uint8_t>(std::bit_cast<std::uint32_t>(value + 12582912.0F));
+}
+
+[[gnu::always_inline]] inline bool same(const std::uint8_t* a, const std::uint8_t* b, std::size_t size) {
+  std::uint64_t difference = 0, left, right;
+  for (; size >= 8; size -= 8, a += 8, b += 8) {
+    std::memcpy(&left, a, 8);
+    std::memcpy(&right, b, 8);
+    difference |= left ^ right;
+  }
+  return difference == 0 && std::memcmp(a, b, size) == 0;
+}
+
+void check(int width, int height, int to_width, int to_height) {
+  if (to_width > 0 && to_height > 0 && to_width <= width && to_height <= height &&
+      to_width <= static_cast<int>(AreaResize::kWidest) && height / to_height <= kMostShrinking) {
+    return;
+  }
+  throw std::invalid_argument("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                              " can't be made " + std::to_string(to_width) + " x " + std::to_string(to_height) +
+                              "; it can shrink, to a width of at most " + std::to_string(AreaResize::kWidest) +
+                              " and to one " + std::to_string(kMostShrinking) + "th of its height");
+}
+
+}  // namespace
+
+// A sliver under a thousandth of a cell counts as none. Weights of zero fill up to the same number of taps
+// for all targets; they change no sum.
+AreaAxis::AreaAxis(int cells, int targets)
+    : taps(std::min(static_cast<std::size_t>(cells / targets) + 2, static_cast<std::size_t>(cells))),
+      weights(static_cast<std::size_t>(targets) * taps) {
+  constexpr double kSliver = 1e-3;
+  const double scale = static_cast<double>(cells) / targets;
+  const std::size_t last_first = static_cast<std::size_t>(cells) - taps;
+  for (int target = 0; target < targets; ++target) {
+    const double begin = target * scale, end = begin + scale;
+    const double covered = std::min(scale, cells - begin);
+    const int whole_end = std::min(static_cast<int>(std::floor(end)), cells - 1);
+    const int whole_begin = std::min(static_cast<int>(std::ceil(begin)), whole_end);
+    const bool sliver_before = whole_begin - begin > kSliver;
+    first.push_back(std::min(static_cast<std::size_t>(whole_begin - sliver_before), last_first));
+    const auto add = [&](int cell, double weight) {
+      weights[first.size() * taps - taps + static_cast<std::size_t>(cell) - first.back()] =
+          static_cast<float>(weight / covered);
+    };
+    if (sliver_before) add(whole_begin - 1, whole_begin - begin);
+    for (int cell = whole_begin; cell < whole_end; ++cell) add(cell, 1);
+    if (end - whole_end > kSliver) add(whole_end, std::min({end - whole_end, 1.0, covered}));
+  }
+}
+
+AreaResize::AreaResize(int width, int height, int to_width, int to_height, Simd form)
+    : width_((check(width, height, to_width, to_height), static_cast<std::size_t>(width))),
+      columns_(width, to_width),
+      rows_(height, to_height) {
+  if (form >= Simd::kAvx2 && fits_octets()) make_octets();
+}
+
+// The taps of four targets must lie within 16 bytes of a row.
+bool AreaResize::fits_octets() const {
+  if (width_ < 16) return false;
+  for (std::size_t target = 0; target < columns_.first.size(); target += 4) {
+    const std::size_t last = std::min(target + 3, columns_.first.size() - 1);
+    if (columns_.first[last] + columns_.taps - columns_.first[target] > 16) return false;
+  }
+  return true;
+}
+
+void AreaResize::make_octets() {
+  const std::size_t targets = columns_.first.size();
+  for (std::size_t first = 0; first < targets; first += 8) {
+    Octet octet{{}, {}, {}};
+    for (std::size_t half = 0; half < 2; ++half)
+      octet.from[half] = std::min(columns_.first[std::min(first + 4 * half, targets - 1)], width_ - 16);
+    for (std::size_t tap = 0; tap < columns_.taps; ++tap) {
+      octet.places.emplace_back().fill(0x80);  // gives zero
+      octet.weights.emplace_back().fill(0);
+      for (std::size_t lane = 0; lane < std::min<std::size_t>(8, targets - first); ++lane) {
+        const std::size_t target = first + lane;
+        octet.places[tap][4 * lane] =
+            static_cast<std::uint8_t>(columns_.first[target] + tap - octet.from[lane / 4]);
+        octet.weights[tap][lane] = columns_.weights[target * columns_.taps + tap];
+      }
+    }
+    octets_.push_back(std::move(octet));
+  }
+}
+
+void AreaResize::reduce_plain(const std::uint8_t* row, float* to) const {
+  const float* weight = columns_.weights.data();
+  for (std::size_t x = 0; x < columns_.first.size(); ++x) {
+    const std::uint8_t* const cells = row + columns_.first[x];
+    float sum = 0;
+    for (std::size_t tap = 0; tap < columns_.taps; ++tap) sum += static_cast<float>(cells[tap]) * *weight++;
+    to[x] = sum;
+  }
+}
+
+// Each source row is made as wide as the targets, then rows are added up. Rows that repeat are common.
+template <typename Reduce>
+[[gnu::always_inline]] inline void AreaResize::run(const std::uint8_t* in, std::uint8_t* out,
+                                                   Reduce reduce) const {
+  alignas(32) std::array<std::array<float, kWidest>, kSlots> slots;
+  alignas(32) std::array<float, kWidest> sum;
+  std::array<const float*, kSlots> reduced{};  // source row y: reduced[y % kSlots]
+  std::size_t made = 0, slot = 0;
+  const std::size_t targets = columns_.first.size();
+  for (std::size_t y = 0; y < rows_.first.size(); ++y, out += targets) {
+    const std::size_t first = rows_.first[y];
+    std::fill_n(sum.data(), targets, 0.0F);
+    for (std::size_t tap = 0; tap < rows_.taps; ++tap) {
+      const float weight = rows_.weights[y * rows_.taps + tap];
+      if (weight == 0) continue;
+      for (; made <= first + tap; ++made) {
+        const std::uint8_t* row = in + made * width_;
+        if (made > 0 && same(row, row - width_, width_)) {
+          reduced[made % kSlots] = reduced[(made - 1) % kSlots];
+        } else {
+          reduced[made % kSlots] = slots[slot].data();
+          reduce(row, slots[slot].data());
+          slot = (slot + 1) % kSlots;
+        }
+      }
+      const float* const row = reduced[(first + tap) % kSlots];
+      for (std::size_t x = 0; x < targets; ++x) sum[x] += weight * row[x];
+    }
+    for (std::size_t x = 0; x < targets; ++x) out[x] = rounded(sum[x]);
+  }
+}
+
+void AreaResize::run_plain(const std::uint8_t* in, std::uint8_t* out) const {
+  run(in, out, [this](const std::uint8_t* row, float* to) { reduce_plain(row, to); });
+}
+
+#if RACEBEAM_HAS_AVX
+[[gnu::target("avx2")]] void AreaResize::reduce_avx2(const std::uint8_t* row, float* to) const {
+  for (const Octet& octet : octets_) {
+    const __m256i cells =
+        _mm256_loadu2_m128i(reinterpret_cast<const __m128i*>(row + octet.from[1]),
+                            reinterpret_cast<const __m128i*>(row + octet.from[0]));
+    __m256 sum = _mm256_setzero_ps();
+    for (std::size_t tap = 0; tap < octet.places.size(); ++tap) {
+      const __m256i places = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(octet.places[tap].data()));
+      const __m256 cell = _mm256_cvtepi32_ps(_mm256_shuffle_epi8(cells, places));
+      sum = _mm256_add_ps(sum, _mm256_mul_ps(cell, _mm256_loadu_ps(octet.weights[tap].data())));
+    }
+    _mm256_storeu_ps(to, sum);
+    to += 8;
+  }
+}
+
+[[gnu::target("avx2")]] void AreaResize::run_avx2(const std::uint8_t* in, std::uint8_t* out) const {
+  run(in, out, [this](const std::uint8_t* row, float* to) { reduce_avx2(row, to); });
+}
+#endif
+
+void AreaResize::operator()(std::span<const std::uint8_t> in, std::span<std::uint8_t> out) const {
+#if RACEBEAM_HAS_AVX
+  if (!octets_.empty()) return run_avx2(in.data(), out.data());
+#endif
+  run_plain(in.data(), out.data());
+}
+
+}  // namespace racebeam

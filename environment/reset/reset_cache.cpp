@@ -1,0 +1,54 @@
+#include "environment/reset/reset_cache.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "emulator/state/state_hash.hpp"
+
+namespace racebeam {
+
+std::uint64_t ResetStart::hash() const {
+  StateHash hash;
+  hash.add(machine);
+  hash.add(sound);
+  hash.add(std::array{image.get()});
+  hash.add(std::array{game.get()});
+  hash.add(std::array{limits.min, limits.max, mode, difficulty});
+  return hash.value();
+}
+
+bool ResetStart::operator==(const ResetStart& other) const {
+  return image == other.image && game == other.game && limits.min == other.limits.min &&
+         limits.max == other.limits.max && mode == other.mode && difficulty == other.difficulty &&
+         sound == other.sound && std::memcmp(&machine, &other.machine, sizeof machine) == 0;
+}
+
+std::optional<ResetEnd> ResetCache::find(const ResetStart& start) {
+  const std::uint64_t hash = start.hash();
+  const std::lock_guard lock(mutex_);
+  for (Entry& entry : entries_) {
+    if (entry.hash != hash || entry.start != start) continue;
+    entry.used = ++calls_;
+    return entry.end;
+  }
+  return std::nullopt;
+}
+
+void ResetCache::keep(const ResetStart& start, const ResetEnd& end) {
+  const std::uint64_t hash = start.hash();
+  const std::lock_guard lock(mutex_);
+  if (entries_.size() == kMost) entries_.erase(std::ranges::min_element(entries_, {}, &Entry::used));
+  entries_.push_back({hash, ++calls_, start, end});
+}
+
+std::size_t ResetCache::size() {
+  const std::lock_guard lock(mutex_);
+  return entries_.size();
+}
+
+ResetCache& reset_cache() {
+  static ResetCache cache;
+  return cache;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,68 @@
+// What a saved state holds; see saved_state_format.hpp for its portable form.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "emulator/base/mersenne_twister.hpp"
+#include "emulator/state/properties.hpp"
+#include "emulator/state/state.hpp"
+#include "emulator/tia/frame_buffer.hpp"
+#include "emulator/tia/sound.hpp"
+#include "environment/environment.hpp"
+#include "environment/episode_state.hpp"
+#include "environment/same_state.hpp"
+#include "games/game/rule.hpp"
+
+namespace racebeam {
+
+// The image and the game that a state belongs to.
+struct Identity {
+  std::array<char, 32> md5{};
+  std::array<char, 64> game{};  // its name, padded with zeros
+
+  Identity() = default;
+  Identity(const Image& image, const Game& its_game);
+
+  std::string md5_text() const;
+  std::string game_name() const;
+  bool operator==(const Identity&) const = default;
+};
+
+class Environment::Saved {
+ public:
+  struct Values {
+    State machine;
+    EpisodeState play;
+    Tally tally;
+    Sound sound;
+    std::array<std::uint8_t, kAudioSize> audio{};
+  };
+
+  Identity identity;
+  Values values;
+  std::vector<std::uint8_t> cartridge_ram;  // Console::cartridge_ram()
+  Properties properties;  // of the console
+  FrameBuffers pictures;  // shared with it until it draws again
+  int height = 0;         // rows of them that are shown
+  std::optional<MersenneTwister> random;
+
+  // As Environment::state_hash() and same_state(). A state of another image is never the same.
+  std::uint64_t state_hash() const { return racebeam::state_hash(parts()); }
+  bool same_state(const Saved& other) const {
+    return identity == other.identity && racebeam::same_state(parts(), other.parts());
+  }
+
+ private:
+  StateParts parts() const { return {values.machine, values.play, values.tally, cartridge_ram}; }
+};
+
+static_assert(std::is_trivially_copyable_v<Environment::Saved::Values>);
+
+// Throws std::invalid_argument when a state of `saved` is not one of `running`.
+void check_identity(const Identity& saved, const Identity& running);
+
+}  // namespace racebeam

@@ -1,0 +1,58 @@
+#include "environment/vector/branch.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "environment/saved_state.hpp"
+
+namespace racebeam {
+
+Branching::Branching(Environment& environment)
+    : environment_(environment), undisturbed_(environment.save(true)), drawing_(environment.drawing()) {}
+
+void Branching::enter(const Environment::Saved& root) {
+  environment_.set_drawing(Drawing::kNone);
+  if (!root.random) environment_.restore(*undisturbed_);
+  environment_.restore(root);
+  end_ = {};
+  end_.terminated = environment_.terminal();
+  end_.truncated = environment_.truncated();
+  end_.lives = environment_.lives();
+}
+
+int Branching::act(const BranchAct& act) {
+  const int before = environment_.frame_number();
+  const int reward = environment_.act(act.a, act.b, act.strength_a, act.strength_b);
+  end_.reward += reward;
+  end_.reward_b += environment_.rewards().b;
+  ++end_.acts;
+  end_.frames += frames_between(before, environment_.frame_number());
+  end_.terminated = environment_.terminal();
+  end_.truncated = environment_.truncated();
+  end_.lives = environment_.lives();
+  return reward;
+}
+
+Branching::~Branching() {
+  environment_.set_drawing(drawing_);
+  environment_.restore(*undisturbed_);
+}
+
+void branch(Environment& environment, const Environment::Saved& root,
+            std::span<const std::vector<BranchAct>> sequences, std::span<BranchEnd> ends) {
+  if (sequences.size() != ends.size()) {
+    throw std::invalid_argument("there is room for " + std::to_string(ends.size()) + " results of " +
+                                std::to_string(sequences.size()) + " branches");
+  }
+  Branching branching(environment);
+  for (std::size_t i = 0; i < sequences.size(); ++i) {
+    branching.enter(root);
+    for (const BranchAct& act : sequences[i]) {
+      if (branching.over()) break;
+      branching.act(act);
+    }
+    ends[i] = branching.end();
+  }
+}
+
+}  // namespace racebeam

@@ -1,0 +1,265 @@
+#include "games/files/game_file.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "emulator/cartridge/cartridge.hpp"
+#include "games/files/game_lists.hpp"
+#include "games/files/toml_section.hpp"
+#include "games/language/rule_compiler.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr int kLargestMode = 65535, kLargestDifficulty = 3;
+// The picture buffer has 300 lines (docs/spec/tia.md, 2), and PAL makes 250 of the usual 210.
+constexpr int kPictureLines = 300;
+constexpr int kLastYStart = kPictureLines - 250, kLeastHeight = 100, kMostHeight = 256;
+
+// Images
+
+constexpr std::size_t kMd5Length = 32;
+
+bool is_md5(const std::string& text) {
+  return text.size() == kMd5Length && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+Properties properties_of(const Section& section) {
+  const std::vector<std::string> controllers = {"joystick", "paddles"};
+  const std::vector<std::string> formats = {"auto", "NTSC", "PAL", "PAL60", "SECAM"};
+  const std::vector<std::string> difficulties = {"B", "A"};
+  Properties made;
+  made.left = static_cast<Controller>(section.choice("left", controllers).value_or(0));
+  made.right = static_cast<Controller>(section.choice("right", controllers).value_or(0));
+  made.swap_ports = section.flag("swap_ports").value_or(made.swap_ports);
+  made.swap_paddles = section.flag("swap_paddles").value_or(made.swap_paddles);
+  made.left_difficulty_a = section.choice("left_difficulty", difficulties) == 1;
+  made.right_difficulty_a = section.choice("right_difficulty", difficulties) == 1;
+  made.hmove_blanks = section.flag("hmove_blanks").value_or(made.hmove_blanks);
+  made.format = static_cast<Format>(section.choice("format", formats).value_or(0));
+  const auto names = scheme_names();
+  const auto scheme = section.choice("scheme", {names.begin(), names.end()});
+  if (scheme) made.scheme = names[static_cast<std::size_t>(*scheme)];
+  made.ystart = section.number("ystart").value_or(made.ystart);
+  made.height = section.number("height").value_or(made.height);
+  return made;
+}
+
+GameImage read_image(const TomlSource& source, const toml::table& table) {
+  const Section section(source, table, "image");
+  section.allow({"md5", "left", "right", "swap_ports", "swap_paddles", "left_difficulty", "right_difficulty",
+                 "hmove_blanks", "format", "scheme", "ystart", "height", "accepted"});
+  GameImage image{.md5 = section.text("md5").value_or(""),
+                  .properties = properties_of(section),
+                  .accepted = section.flag("accepted").value_or(true)};
+  const auto in_range = [&](const char* key, int value, int low, int high) {
+    if (value < low || value > high)
+      section.refuse(*table.get(key), key, "must be " + std::to_string(low) + " to " + std::to_string(high));
+  };
+  in_range("ystart", image.properties.ystart, 0, kLastYStart);
+  in_range("height", image.properties.height, kLeastHeight, kMostHeight);
+  if (image.properties.ystart + image.properties.height > kPictureLines)
+    section.refuse(table, "height", "ystart and height must not be more than 300 lines together");
+  if (table.contains("md5") && !is_md5(image.md5))
+    section.refuse(*table.get("md5"), "md5", "must be 32 lower-case hexadecimal digits");
+  return image;
+}
+
+std::vector<GameImage> read_images(const TomlSource& source, const Section& section) {
+  std::vector<GameImage> images;
+  const toml::array* list = section.list("image");
+  if (!list) return images;
+  for (const toml::node& node : *list) {
+    if (!node.is_table()) section.refuse(node, "image", "must be tables: write [[image]]");
+    images.push_back(read_image(source, *node.as_table()));
+  }
+  return images;
+}
+
+// Actions and modes
+
+void read_default_mode(const Section& section, const toml::table& table, Game& game) {
+  if (table.contains("two_player_modes"))
+    game.two_player_modes = read_numbers(section, "two_player_modes", kLargestMode);
+  game.default_mode = section.number("default_mode").value_or(game.modes.front());
+  if (std::find(game.modes.begin(), game.modes.end(), game.default_mode) == game.modes.end())
+    section.refuse(*table.get("default_mode"), "default_mode", "must be one of the modes");
+}
+
+void read_minimal(const Section& section, const toml::table& table, Game& game) {
+  game.minimal_actions = read_actions(section, "minimal", game.legal_actions);
+  if (!std::ranges::includes(game.legal_actions, game.minimal_actions))
+    section.refuse(*table.get("minimal"), "minimal", "must be legal actions");
+}
+
+void read_facts(const TomlSource& source, const Section& section, const toml::table& table, Game& game) {
+  game.title = section.text("title").value_or("");
+  if (game.title.empty()) section.refuse_missing("title", "a game needs this");
+  game.images = read_images(source, section);
+  game.legal_actions = read_actions(section, "legal", all_actions());
+  read_minimal(section, table, game);
+  game.starting_actions = read_starting_actions(section, "start");
+  game.modes = read_numbers(section, "modes", kLargestMode);
+  read_default_mode(section, table, game);
+  game.difficulties = read_numbers(section, "difficulties", kLargestDifficulty);
+  game.paddle_max = section.number("paddle_max").value_or(-1);
+  if (table.contains("paddle_max") && game.paddle_max < 1)
+    section.refuse(*table.get("paddle_max"), "paddle_max", "must be a resistance in ohms, at least 1");
+}
+
+// Rule and mode program
+
+void read_reset(const Section& section, const toml::table& table, RuleCompiler& compiler) {
+  for (const auto& [key, node] : table) {
+    const std::int32_t initial = *section.number(key.str());
+    section.guard(node, key.str(), [&, name = key.str()] { compiler.reset_to(name, initial); });
+  }
+}
+
+void read_keep(const Section& section, RuleCompiler& compiler) {
+  const toml::array* list = section.list("keep");
+  if (!list) return;
+  for (const toml::node& node : *list)
+    section.guard(node, "keep", [&] { compiler.keep(node.value_exact<std::string>().value_or("")); });
+}
+
+void read_answers(const Section& section, RuleCompiler& compiler) {
+  const char* usual_lives = compiler.assigns("lives") ? "if(terminal, 0, lives)" : "if(terminal, 0, 1)";
+  if (!section.node("terminal")) compiler.terminal("terminal");
+  if (!section.node("lives")) compiler.lives(usual_lives);
+  section.compile("terminal", [&](std::string_view source) { compiler.terminal(source); });
+  section.compile("lives", [&](std::string_view source) { compiler.lives(source); });
+}
+
+// A variable that is set but never looked at is most likely a misspelt one.
+constexpr const char* kUseless = "nothing uses this variable's value from before a step";
+
+void refuse_useless_reset(const Section& section, const toml::table& reset, const RuleCompiler& compiler) {
+  for (const auto& [key, node] : reset)
+    if (!compiler.uses(key.str())) section.refuse(node, key.str(), kUseless);
+}
+
+void refuse_useless_keep(const Section& section, const RuleCompiler& compiler) {
+  const toml::array* list = section.list("keep");
+  if (!list) return;
+  for (const toml::node& node : *list)
+    if (!compiler.uses(*node.value_exact<std::string>())) section.refuse(node, "keep", kUseless);
+}
+
+std::optional<int> read_wraps(const Section& section) {
+  const std::optional<int> modulus = section.number("wraps");
+  if (modulus && *modulus < kLeastModulus)
+    section.refuse(*section.node("wraps"), "wraps",
+                   "must be at least " + std::to_string(kLeastModulus) + ": the number at which the score starts again");
+  return modulus;
+}
+
+// The mode program may look at variables of the rule, so that both are compiled together.
+void read_rule(const Section& section, const TomlSource& source, const Section* mode, Game& game) {
+  if (!section.node("step")) section.refuse_missing("step", "a rule needs this");
+  const toml::table none;
+  const toml::table* reset = section.table("reset");
+  if (!reset) reset = &none;
+  const Section reset_section(source, *reset, "rule.reset");
+
+  RuleCompiler compiler;
+  if (const std::optional<int> modulus = read_wraps(section)) compiler.wraps(*modulus);
+  read_reset(reset_section, *reset, compiler);
+  read_keep(section, compiler);
+  section.compile("step", [&](std::string_view text) { compiler.step(text); });
+  read_answers(section, compiler);
+  if (mode)
+    mode->compile("setup", [&](std::string_view text) { game.mode_program = compiler.mode_program(text); });
+  refuse_useless_reset(reset_section, *reset, compiler);
+  refuse_useless_keep(section, compiler);
+  game.rule = compiler.finish();
+}
+
+// Corrections
+
+Correction read_correction(const Section& section, const toml::table& table) {
+  Correction correction{.wraps = section.number("wraps"),
+                        .reference = section.text("reference").value_or(""),
+                        .correction = section.text("correction").value_or(""),
+                        .evidence = section.text("evidence").value_or("")};
+  const bool wraps_only = table.size() == 1 && correction.wraps;
+  for (const char* key : {"reference", "correction", "evidence"})
+    if (!wraps_only && section.text(key).value_or("").empty())
+      section.refuse_missing(key, "a correction that is more than 'wraps' needs this");
+  return correction;
+}
+
+void read_fixed(const TomlSource& source, const toml::table& rule, const toml::table& table, const Section* mode,
+                Game& game) {
+  const Section section(source, table, "fixed"), merged(source, table, "fixed", &rule);
+  section.allow({"wraps", "step", "reset", "keep", "terminal", "lives", "minimal", "reference", "correction",
+                 "evidence"});
+  Game fixed = game;
+  read_rule(merged, source, mode, fixed);
+  if (table.contains("minimal")) read_minimal(section, table, fixed);
+  game.correction = read_correction(section, table);
+  fixed.correction = game.correction;
+  fixed.is_fixed = true;
+  game.fixed = std::make_shared<const Game>(std::move(fixed));
+}
+
+// ALE 0.6
+
+Game facts_of_classic(const Section& section, const toml::table& table, Game game) {
+  if (table.contains("start")) game.starting_actions = read_starting_actions(section, "start");
+  if (section.flag("single_mode").value_or(false)) {
+    game.modes = {game.default_mode};
+    game.two_player_modes.clear();
+    game.mode_program = {};
+  }
+  return game;
+}
+
+void read_classic(const TomlSource& source, const toml::table& rule, const toml::table& table, const Section* mode,
+                  Game& game) {
+  const Section section(source, table, "classic"), merged(source, table, "classic", &rule);
+  section.allow({"start", "single_mode", "step", "reset", "keep", "terminal", "lives"});
+  Game ruled = game;
+  read_rule(merged, source, mode, ruled);
+  Game classic = facts_of_classic(section, table, std::move(ruled));
+  if (game.fixed) classic.fixed = std::make_shared<const Game>(facts_of_classic(section, table, *game.fixed));
+  game.classic = std::make_shared<const Game>(std::move(classic));
+}
+
+// [rule], [fixed], [classic] and [mode]
+void read_rules(const TomlSource& source, const Section& section, Game& game) {
+  const toml::table* const rule = section.table("rule");
+  const toml::table* const fixed = section.table("fixed");
+  const toml::table* const classic = section.table("classic");
+  const toml::table* const mode = section.table("mode");
+  std::optional<Section> setup;
+  if (mode) setup.emplace(source, *mode, "mode").allow({"setup"});
+  if (!rule && mode) section.refuse(*mode, "mode", "a mode program needs a [rule] beside it");
+  if (!rule && fixed) section.refuse(*fixed, "fixed", "a correction needs a [rule] beside it");
+  if (!rule && classic) section.refuse(*classic, "classic", "what was different needs a [rule] beside it");
+  if (!rule) return;
+  const Section rule_section(source, *rule, "rule");
+  rule_section.allow({"step", "reset", "keep", "terminal", "lives", "wraps", "source"});
+  game.rule_source = static_cast<RuleSource>(rule_section.choice("source", {"ale-0.12", "racebeam"}).value_or(0));
+  read_rule(rule_section, source, setup ? &*setup : nullptr, game);
+  if (fixed) read_fixed(source, *rule, *fixed, setup ? &*setup : nullptr, game);
+  if (classic) read_classic(source, *rule, *classic, setup ? &*setup : nullptr, game);
+}
+
+}  // namespace
+
+Game parse_game(std::string_view text, const std::string& name, const std::string& file) {
+  const TomlSource source{text, file};
+  const toml::table table = parse_toml(source);
+  const Section section(source, table, "");
+  section.allow({"title", "legal", "minimal", "start", "modes", "two_player_modes", "default_mode",
+                 "difficulties", "paddle_max", "image", "rule", "fixed", "classic", "mode"});
+  Game game;
+  game.name = name;
+  read_facts(source, section, table, game);
+  read_rules(source, section, game);
+  return game;
+}
+
+}  // namespace racebeam

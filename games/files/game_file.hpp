@@ -1,0 +1,14 @@
+// Reads a game file (games/catalogue/README.md says what is in one).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "games/game/game.hpp"
+
+namespace racebeam {
+
+// `file` is how errors call it. Throws std::invalid_argument: "FILE:LINE: FIELD: sentence".
+Game parse_game(std::string_view text, const std::string& name, const std::string& file);
+
+}  // namespace racebeam

@@ -1,0 +1,35 @@
+#include "games/game/actions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace racebeam {
+namespace {
+
+constexpr std::array<std::string_view, kActions> kNames = {
+    "NOOP",     "FIRE",     "UP",          "RIGHT",      "LEFT",          "DOWN",
+    "UPRIGHT",  "UPLEFT",   "DOWNRIGHT",   "DOWNLEFT",   "UPFIRE",        "RIGHTFIRE",
+    "LEFTFIRE", "DOWNFIRE", "UPRIGHTFIRE", "UPLEFTFIRE", "DOWNRIGHTFIRE", "DOWNLEFTFIRE"};
+
+}  // namespace
+
+std::string_view action_name(int action) {
+  if (action == kResetAction) return "RESET";
+  const bool known = action >= 0 && action < 2 * kActions;
+  return known ? kNames[static_cast<std::size_t>(action % kActions)] : std::string_view{};
+}
+
+std::optional<int> action_number(std::string_view name) {
+  if (name == "RESET") return kResetAction;
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  return found == kNames.end() ? std::nullopt : std::optional(static_cast<int>(found - kNames.begin()));
+}
+
+std::vector<int> all_actions() {
+  std::vector<int> list(kActions);
+  std::iota(list.begin(), list.end(), 0);
+  return list;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,82 @@
+// Compiled expressions: straight-line code in which instruction n gives value n. No loops, so it always ends;
+// nothing is allocated when it runs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "games/game/memory.hpp"
+
+namespace racebeam {
+
+constexpr int kMaxVariables = 16;       // of a rule: what lives from frame to frame
+constexpr int kMaxInstructions = 2048;  // of one program
+
+enum class Op : std::uint8_t {
+  kConstant,
+  kVariable,  // value; variable number `value`
+  kRam,
+  kRamAt,
+  kMemAt,  // RAM byte number `value`; RAM or bus byte at address a
+  kBcd,
+  kSigned8,
+  kUnsigned8,
+  kNegate,
+  kNot,
+  kComplement,
+  kAdd,
+  kSubtract,
+  kMultiply,
+  kDivide,
+  kRemainder,
+  kShiftLeft,
+  kShiftRight,
+  kBitAnd,
+  kBitXor,
+  kBitOr,
+  kEqual,
+  kNotEqual,
+  kLess,
+  kLessEqual,
+  kGreater,
+  kGreaterEqual,
+  kAnd,
+  kOr,
+  kMin,
+  kMax,
+  kSelect,  // a ? b : c
+};
+
+using Register = std::uint16_t;  // the number of the instruction that gives the value
+
+struct Instruction {
+  Op op = Op::kConstant;
+  Register a = 0, b = 0, c = 0;
+  std::int32_t value = 0;
+  auto operator<=>(const Instruction&) const = default;
+};
+
+struct Output {
+  int variable = 0;
+  Register from = 0;
+};
+
+struct Program {
+  std::vector<Instruction> code;
+  std::vector<Output>
+      outputs;          // copied into the variables at the end, so that all code sees their old values
+  Register result = 0;  // of an expression
+};
+
+// What `op` makes of its operands; 32-bit two's complement, wrapping. Dividing by 0 gives 0, as does its
+// remainder; shifts use the low five bits of the count. Loads are not for this function.
+std::int32_t apply(Op op, std::int32_t a, std::int32_t b, std::int32_t c);
+
+// Runs the program of an expression. The value of its result.
+std::int32_t evaluate(const Program& program, const std::int32_t* variables, const Memory& memory);
+
+// Runs the program and stores its outputs.
+void execute(const Program& program, std::int32_t* variables, const Memory& memory);
+
+}  // namespace racebeam

@@ -1,0 +1,31 @@
+// Puts a program together: folds what is constant and never computes the same thing twice.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "games/game/program.hpp"
+
+namespace racebeam {
+
+class ProgramBuilder {
+ public:
+  Register constant(std::int32_t value) { return emit({.op = Op::kConstant, .value = value}); }
+  Register variable(int slot) { return emit({.op = Op::kVariable, .value = slot}); }
+  Register emit(const Instruction& instruction);  // throws std::length_error when the program gets too long
+
+  std::optional<std::int32_t> constant_value(Register from) const;
+  void output(int slot, Register from) { program_.outputs.push_back({slot, from}); }
+  Program finish(Register result = 0);
+
+ private:
+  bool can_fold(Instruction instruction) const;
+  void drop_unused();
+  std::vector<bool> used_code();
+
+  Program program_;
+  std::map<Instruction, Register> known_;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,106 @@
+#include "games/rom_image.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <stdexcept>
+
+#include "games/digest.hpp"
+#include "system/input_file.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::string_view kBuiltIn = "builtin:";
+
+[[noreturn]] void refuse(const std::string& where, const std::string& why) {
+  throw std::invalid_argument("image " + where + ": " + why);
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// pong.bin, PONG.a26 and pong.bin.gz are all "pong".
+std::string stem_of(std::filesystem::path path) {
+  if (path.extension() == ".gz") path = path.stem();
+  return lower(path.stem().string());
+}
+
+std::shared_ptr<const Image> image_of(std::vector<std::uint8_t> bytes, std::string stem) {
+  std::string md5 = md5_of(bytes);
+  return std::make_shared<const Image>(Image{
+      std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes)), std::move(md5), std::move(stem)});
+}
+
+std::shared_ptr<const Image> built_in(std::string_view name) {
+  std::string known;
+  for (const BuiltInImage& image : builtin_images()) {
+    if (image.name == name) return image_of({image.bytes.begin(), image.bytes.end()}, std::string(name));
+    known += (known.empty() ? "" : ", ") + std::string(kBuiltIn) + std::string(image.name);
+  }
+  refuse(std::string(kBuiltIn) + std::string(name),
+         "there is no such built-in image; there are: " + (known.empty() ? "none" : known));
+}
+
+bool looks_like_image(const std::filesystem::path& path) {
+  const std::string ending = lower(path.extension().string());
+  if (ending == ".gz") return looks_like_image(path.stem());
+  return ending == ".bin" || ending == ".a26" || ending == ".rom";
+}
+
+struct Closer {
+  void operator()(gzFile file) const { gzclose(file); }
+};
+using GzipFile = std::unique_ptr<gzFile_s, Closer>;
+
+// At most one byte more than an image may have. zlib hands on files that aren't gzip as they are.
+std::vector<std::uint8_t> read_file(const std::string& path) {
+  const GzipFile file(gzdopen(open_input_file("image", path), "rb"));
+  std::vector<std::uint8_t> bytes(kMaxImageSize + 1);
+  const int count = gzread(file.get(), bytes.data(), static_cast<unsigned>(bytes.size()));
+  int error = Z_OK;
+  gzerror(file.get(), &error);
+  if (error == Z_BUF_ERROR) refuse(path, "the gzip file is truncated");
+  if (count < 0) refuse(path, error == Z_ERRNO ? "the file cannot be read" : "the gzip file is damaged");
+  bytes.resize(static_cast<std::size_t>(count));
+  return bytes;
+}
+
+}  // namespace
+
+std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const std::string& stem) {
+  if (bytes.empty()) refuse(stem, "it is empty");
+  if (bytes.size() > kMaxImageSize)
+    refuse(stem, "larger than an image can be, " + std::to_string(kMaxImageSize) + " bytes");
+  return image_of(std::move(bytes), stem);
+}
+
+std::vector<std::string> image_files(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  std::vector<std::string> files;
+  for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
+    std::error_code unknown;  // a link to itself, or into a folder that is closed to us
+    if (entry->is_regular_file(unknown) && looks_like_image(entry->path()))
+      files.push_back(entry->path().string());
+  }
+  if (error) throw std::invalid_argument("can't list the folder '" + folder + "': " + error.message());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::shared_ptr<const Image> load_image(const std::string& where) {
+  if (where.starts_with(kBuiltIn)) return built_in(std::string_view(where).substr(kBuiltIn.size()));
+  std::vector<std::uint8_t> bytes = read_file(where);
+  if (bytes.empty()) refuse(where, "the file is empty");
+  if (bytes.size() > kMaxImageSize)
+    refuse(where, "larger than an image can be, " + std::to_string(kMaxImageSize) + " bytes");
+  return image_of(std::move(bytes), stem_of(where));
+}
+
+}  // namespace racebeam

@@ -1,0 +1,28 @@
+#include "protocol/classic/classic_line_buffer.hpp"
+
+#include <cstring>
+
+namespace racebeam {
+
+std::span<char> LineBuffer::space() {
+  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  end_ -= begin_;
+  begin_ = 0;
+  return std::span(buffer_).subspan(end_);
+}
+
+void LineBuffer::added(std::size_t count) { end_ += count; }
+
+std::optional<std::string_view> LineBuffer::line(std::size_t longest) {
+  const std::string_view seen = rest().substr(0, longest);
+  const std::size_t feed = seen.find('\n');
+  if (feed != std::string_view::npos) {
+    begin_ += feed + 1;
+    return seen.substr(0, feed);
+  }
+  if (seen.size() < longest) return std::nullopt;
+  begin_ += longest;
+  return seen;
+}
+
+}  // namespace racebeam

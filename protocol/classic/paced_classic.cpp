@@ -1,0 +1,53 @@
+#include "protocol/classic/paced_classic.hpp"
+
+#include "protocol/line/player.hpp"
+
+namespace racebeam {
+
+PacedClassic::PacedClassic(const ClassicService& service) : service_(service), memory_(service.memory.get()) {
+  memory_.set(Player::footprint({}));
+}
+
+PacedClassic::~PacedClassic() { pacer_.cancel(); }
+
+bool PacedClassic::work(std::chrono::microseconds slice) {
+  if (is_ready_) return true;
+  const auto begin = Pacer::Clock::now();
+  is_ready_ = pacer_.work(begin + slice, [this] { answer(); });
+  worked_ = Pacer::Clock::now() - begin;
+  return is_ready_;
+}
+
+void PacedClassic::answer() {
+  try {
+    if (!machine_) machine_.emplace(service_.power_on(&pacer_));
+    if (!session_) session_.emplace(*machine_, service_.options);
+    reply_ = session_->reply();
+    account();
+  } catch (const std::exception&) {
+    failure_ = std::current_exception();
+  }
+}
+
+// A client that saves more than there is memory for loses its oldest state, since the protocol has no errors.
+void PacedClassic::account() {
+  constexpr std::size_t kState = std::size_t{96} << 10;
+  const std::size_t bytes = Player::footprint({}) + session_->saved_states() * kState;
+  if (bytes <= memory_.bytes()) {
+    memory_.set(bytes);
+  } else if (!memory_.grow(bytes - memory_.bytes())) {
+    session_->forget_oldest_state();
+  }
+}
+
+std::optional<std::string_view> PacedClassic::reply() {
+  check_machine();
+  is_ready_ = false;
+  return reply_;
+}
+
+void PacedClassic::check_machine() const {
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+}  // namespace racebeam

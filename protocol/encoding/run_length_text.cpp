@@ -1,0 +1,193 @@
+// The run-length text of a screen, from its lines. Of each row of 160 pixels it is
+// found first where runs begin and whether the row equals the one above, many rows at a time and in SIMD where
+// the processor has it; the text is then made from that. A row that equals the one above, and begins
+// within a run that is as long, has the text that the one above has. Most rows do.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "protocol/encoding/hex_pairs.hpp"
+#include "protocol/encoding/text.hpp"
+
+#if RACEBEAM_HAS_AVX
+#include <immintrin.h>
+#endif
+
+namespace racebeam {
+namespace {
+
+constexpr std::size_t kRow = 160;
+constexpr std::size_t kRowsAtOnce = 64;
+constexpr std::int32_t kLongestRun = 255;
+
+struct RowFacts {
+  std::array<std::uint32_t, 5> begins;  // bit i of the whole: pixel i differs from the one before it
+  std::uint32_t repeats;                // 1: the row equals the one above
+};
+
+// Bit i: byte i of `word` is not zero.
+std::uint32_t nonzero_bytes(std::uint64_t word) {
+  constexpr std::uint64_t kSeven = 0x7F7F7F7F7F7F7F7F;
+  const std::uint64_t high_bits = ((word & kSeven) + kSeven) | word;
+  return static_cast<std::uint32_t>(((high_bits >> 7 & 0x0101010101010101) * 0x0102040810204080) >> 56);
+}
+
+// `before`: the pixel before the row.
+void find_begins(const std::uint8_t* row, std::uint8_t before, RowFacts& facts) {
+  facts.begins = {};
+  std::uint64_t last = before;
+  for (unsigned i = 0; i < kRow; i += 8) {
+    std::uint64_t word;
+    std::memcpy(&word, row + i, sizeof word);
+    facts.begins[i / 32] |= nonzero_bytes(word ^ (word << 8 | last)) << i % 32;
+    last = word >> 56;
+  }
+}
+
+// Facts of `count` rows, before each of which there is another.
+void find_plain(const std::uint8_t* row, std::size_t count, RowFacts* facts) {
+  for (std::size_t i = 0; i < count; ++i, row += kRow) {
+    facts[i].repeats = std::memcmp(row, row - kRow, kRow) == 0;
+    if (i > 0 && facts[i].repeats != 0) {
+      facts[i].begins = facts[i - 1].begins;
+      facts[i].begins[0] = (facts[i].begins[0] & ~1U) | (row[0] != row[-1]);
+    } else {
+      find_begins(row, row[-1], facts[i]);
+    }
+  }
+}
+
+#if RACEBEAM_HAS_AVX
+[[gnu::target("avx2")]] void find_avx2(const std::uint8_t* row, std::size_t count, RowFacts* facts) {
+  for (; count > 0; --count, row += kRow, ++facts) {
+    __m256i differences = _mm256_setzero_si256();
+    for (std::size_t i = 0; i < kRow; i += 32) {
+      const auto* const here = reinterpret_cast<const __m256i*>(row + i);
+      const auto* const before = reinterpret_cast<const __m256i*>(row + i - 1);
+      const auto* const above = reinterpret_cast<const __m256i*>(row + i - kRow);
+      const __m256i pixels = _mm256_loadu_si256(here);
+      const __m256i same = _mm256_cmpeq_epi8(pixels, _mm256_loadu_si256(before));
+      facts->begins[i / 32] = ~static_cast<std::uint32_t>(_mm256_movemask_epi8(same));
+      differences = _mm256_or_si256(differences, _mm256_xor_si256(pixels, _mm256_loadu_si256(above)));
+    }
+    facts->repeats = static_cast<std::uint32_t>(_mm256_testz_si256(differences, differences));
+  }
+}
+#endif
+
+void find_facts(const std::uint8_t* row, std::size_t count, RowFacts* facts, [[maybe_unused]] Simd form) {
+#if RACEBEAM_HAS_AVX
+  if (form >= Simd::kAvx2) return find_avx2(row, count, facts);
+#endif
+  find_plain(row, count, facts);
+}
+
+// Makes the text, row by row, in a buffer of its own: growing a string costs more than a run does.
+class RunWriter {
+ public:
+  RunWriter(std::string& out, std::uint8_t first) : out_(out), open_{first, 0} {}
+
+  void add_row(const std::uint8_t* row, const RowFacts& facts) {
+    if (text_.size() - used_ < kMostOfRow) flush();
+    if (facts.repeats != 0 && above_ != kGone && open_ == open_above_) {
+      copy_row_above();
+    } else {
+      write_row(row, facts);
+    }
+    open_.begin -= static_cast<std::int32_t>(kRow);
+  }
+
+  // What is too short for a row, and comes last.
+  void add_rest(std::span<const std::uint8_t> pixels) {
+    if (text_.size() - used_ < kMostOfRow) flush();
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (pixels[i] != open_.color) end_run(static_cast<std::int32_t>(i), pixels[i]);
+    }
+    end_run(static_cast<std::int32_t>(pixels.size()), open_.color);
+    flush();
+  }
+
+ private:
+  static constexpr std::size_t kGroup = 4;  // characters
+  static constexpr std::size_t kMostOfRow = (kRow + 1) * kGroup;
+  static constexpr std::size_t kGone = ~std::size_t{0};
+
+  struct Open {  // the run that has begun
+    std::uint8_t color;
+    std::int32_t begin;  // counted from the start of the row
+    bool operator==(const Open&) const = default;
+  };
+
+  void write_row(const std::uint8_t* row, const RowFacts& facts) {
+    open_above_ = open_;
+    above_ = used_;
+    for (std::size_t word = 0; word < facts.begins.size(); ++word) {
+      for (std::uint32_t bits = facts.begins[word]; bits != 0; bits &= bits - 1) {
+        const std::int32_t at = static_cast<std::int32_t>(32 * word) + std::countr_zero(bits);
+        end_run(at, row[at]);
+      }
+    }
+    above_size_ = used_ - above_;
+    open_below_ = open_;
+  }
+
+  // The same run is open as at the start of the row above, so that the same ends and the same stays open.
+  void copy_row_above() {
+    std::memcpy(&text_[used_], &text_[above_], above_size_);
+    used_ += above_size_;
+    open_ = open_below_;
+  }
+
+  void end_run(std::int32_t at, std::uint8_t next) {
+    std::int32_t length = at - open_.begin;
+    for (; length > kLongestRun; length -= kLongestRun) {
+      add_group(kLongestRun);
+      if (text_.size() - used_ < kMostOfRow) flush();
+    }
+    add_group(length);
+    open_ = {next, at};
+  }
+
+  void add_group(std::int32_t length) {
+    const std::uint32_t digits = kHexPairs[static_cast<std::size_t>(length)];
+    const std::uint32_t group = kHexPairs[open_.color] | digits << 16;
+    std::memcpy(&text_[used_], &group, kGroup);
+    used_ += kGroup;
+  }
+
+  void flush() {
+    out_.append(text_.data(), used_);
+    used_ = 0;
+    above_ = kGone;
+  }
+
+  std::string& out_;
+  Open open_, open_above_{}, open_below_{};  // now; at the start and the end of the last row that was written
+  std::size_t above_ = kGone, above_size_ = 0;  // that row's text
+  std::size_t used_ = 0;
+  std::array<char, 16384> text_;
+};
+
+}  // namespace
+
+void append_run_length(std::string& out, std::span<const std::uint8_t> pixels, Simd form) {
+  if (pixels.empty()) return;
+  std::array<RowFacts, kRowsAtOnce> facts;
+  RunWriter runs(out, pixels[0]);
+  if (pixels.size() >= kRow) {
+    facts[0].repeats = 0;
+    find_begins(pixels.data(), pixels[0], facts[0]);
+    runs.add_row(pixels.data(), facts[0]);
+    pixels = pixels.subspan(kRow);
+  }
+  while (pixels.size() >= kRow) {
+    const std::size_t count = std::min(kRowsAtOnce, pixels.size() / kRow);
+    find_facts(pixels.data(), count, facts.data(), form);
+    for (std::size_t row = 0; row < count; ++row) runs.add_row(&pixels[row * kRow], facts[row]);
+    pixels = pixels.subspan(count * kRow);
+  }
+  runs.add_rest(pixels);
+}
+
+}  // namespace racebeam

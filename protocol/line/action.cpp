@@ -1,0 +1,62 @@
+#include "protocol/line/action.hpp"
+
+#include <string>
+
+#include "games/game/actions.hpp"
+#include "games/similar.hpp"
+#include "protocol/line/words.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr int kMostTimes = 1'000'000'000;  // Session::check_frames() limits what is asked for in all
+
+[[noreturn]] void refuse(std::string_view word, std::string_view why, const AllowedActions& actions) {
+  std::string list;
+  std::vector<std::string_view> names;
+  for (int action = 0; action < kActions; ++action) {
+    if ((actions.allowed >> action & 1) == 0) continue;
+    ((list += ' ') += std::to_string(action) + '=') += action_name(action);
+    names.push_back(action_name(action));
+  }
+  throw Refusal(Code::kBadAction, quote(word) + std::string(why) + ';' + did_you_mean(word, names) + ' ' +
+                                      std::string(actions.game) + " takes" + list);
+}
+
+int number_of(std::string_view word, const AllowedActions& actions) {
+  const bool digits = !word.empty() && word[0] >= '0' && word[0] <= '9';
+  const auto number = digits ? parse_number<int>(word) : action_number(word);
+  if (!number || *number < 0 || *number >= kActions) refuse(word, " is no action", actions);
+  if ((actions.allowed >> *number & 1) == 0)
+    refuse(word, " is not in the action set that was loaded", actions);
+  return *number;
+}
+
+float strength_of(std::string_view text) {
+  const auto strength = parse_number<float>(text);
+  if (strength && *strength >= 0 && *strength <= 1) return *strength;
+  throw Refusal(Code::kBadValue, "the strength of a paddle is " + quote(text) + "; it takes 0 to 1");
+}
+
+}  // namespace
+
+Action parse_action(std::string_view word, const AllowedActions& actions) {
+  Action action;
+  std::string_view a = word;
+  if (const auto times = cut_behind(a, '*'); a.size() < word.size())
+    action.times = static_cast<int>(number_within(times, "how often an action is repeated", 1, kMostTimes));
+  const std::size_t players = a.size();
+  std::string_view b = cut_behind(a, '/');
+  const bool has_b = a.size() < players;
+  const auto player = [&actions](std::string_view text, float& strength) {
+    const std::size_t whole = text.size();
+    const std::string_view given = cut_behind(text, '@');
+    strength = text.size() < whole ? strength_of(given) : 1;
+    return number_of(text, actions);
+  };
+  action.a = player(a, action.strength_a);
+  if (has_b) action.b = kActions + player(b, action.strength_b);
+  return action;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,112 @@
+#include "protocol/line/commands/branch.hpp"
+
+#include <utility>
+
+#include "environment/vector/branch.hpp"
+#include "protocol/line/session.hpp"
+#include "protocol/line/session_recording.hpp"
+
+namespace racebeam {
+namespace {
+
+// The session's player, lent to branches.
+class Loan {
+ public:
+  explicit Loan(Session& session) : session_(session), undisturbed_(session.player->place(true)) {
+    session.player->machine().watch({});  // no recording of what did not happen
+  }
+  ~Loan() {
+    session_.player->go_to(undisturbed_);
+    if (session_.recording) session_.recording->watch();
+  }
+  Loan(const Loan&) = delete;
+  Loan& operator=(const Loan&) = delete;
+
+ private:
+  Session& session_;
+  const Place undisturbed_;  // with generator and stack
+};
+
+class RewardRuns {  // the rewards of one act after the other, runs of equal ones together
+ public:
+  void add(std::int64_t reward) {
+    if (!runs_.empty() && runs_.back().reward == reward) {
+      ++runs_.back().times;
+    } else {
+      runs_.push_back({reward, 1});
+    }
+  }
+
+  void append(std::string& out, std::string_view key) const {  // " key=R,R*TIMES,..."
+    append_pair(out, key, "");
+    for (const Run& run : runs_) {
+      if (&run != runs_.data()) out += ',';
+      append_number(out, run.reward);
+      if (run.times == 1) continue;
+      out += '*';
+      append_number(out, std::int64_t{run.times});
+    }
+  }
+
+ private:
+  struct Run {
+    std::int64_t reward;
+    int times;
+  };
+  std::vector<Run> runs_;
+};
+
+struct Rewards {
+  RewardRuns a, b;
+};
+
+Rewards play(Branching& branching, const Environment& machine, const std::vector<Action>& actions) {
+  Rewards rewards;
+  for (const Action& action : actions) {
+    for (int n = 0; n < action.times && !branching.over(); ++n) {
+      rewards.a.add(branching.act({action.a, action.b, action.strength_a, action.strength_b}));
+      rewards.b.add(machine.rewards().b);
+    }
+  }
+  return rewards;
+}
+
+void append_end(std::string& out, const BranchEnd& end, const Rewards& rewards, bool for_two) {
+  out += " |";
+  append_pair(out, "reward", end.reward);
+  if (for_two) append_pair(out, "reward_b", end.reward_b);
+  append_pair(out, "acts", end.acts);
+  append_pair(out, "terminated", end.terminated);
+  append_pair(out, "truncated", end.truncated);
+  append_pair(out, "lives", end.lives);
+  rewards.a.append(out, "rewards");
+  if (for_two) rewards.b.append(out, "rewards_b");
+}
+
+}  // namespace
+
+void play_branches(Session& session, const BranchRequest& request) {
+  std::vector<std::pair<std::string, Place>> kept;
+  append_pair(session.out += "ok", "branches", static_cast<std::int64_t>(request.lists.size()));
+  {
+    const Loan loan(session);
+    Environment& machine = session.player->machine();
+    Branching branching(machine);
+    for (std::size_t i = 0; i < request.lists.size(); ++i) {
+      branching.enter(*request.root.machine);
+      const Rewards rewards = play(branching, machine, request.lists[i]);
+      const BranchEnd& end = branching.end();
+      append_end(session.out, end, rewards, machine.game().has_second_reward());
+      session.count({end.reward, end.reward_b, end.acts, end.frames});
+      if (request.keep.empty()) continue;
+      const std::string name = request.keep + std::to_string(i);
+      append_pair(session.out, "state", name);
+      const bool with_random = request.root.with_random;
+      kept.emplace_back(name, Place{machine.save(with_random), {}, with_random});
+      session.memory.check(kept.back().second.footprint(), "a state");
+    }
+  }
+  for (auto& [name, place] : kept) session.states.put(name, std::move(place));
+}
+
+}  // namespace racebeam

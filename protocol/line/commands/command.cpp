@@ -1,0 +1,115 @@
+#include "protocol/line/commands/command.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "protocol/line/session.hpp"
+
+namespace racebeam {
+namespace {
+
+// name, arguments, summary, hint, example, least and most arguments, what it needs, handler
+constexpr std::array kCommands = {
+    Command{"hello", "[token=TOKEN]", "who the server is, and what it allows", "", "hello", 0, 1,
+            Needs::kNothing, run_hello},
+    Command{"help", "[COMMAND|KEY|settings|presets|fields|encodings|errors|states]", "explain", "",
+            "help act", 0, 1, Needs::kNothing, run_help},
+    Command{"games", "[all|GAME]", "games whose image is here; all that there are rules for; one of them", "",
+            "games beamfall", 0, 1, Needs::kAdmission, run_games},
+    Command{"load", "GAME|MD5|inline [image=BASE64] [as=GAME] [KEY=VALUE...]",
+            "power on with an image and begin an episode",
+            "help settings has the keys, help presets the presets, games the games",
+            "load beamfall seed=7 frame_skip=4", 1, kAnyNumber, Needs::kAdmission, run_load},
+    Command{"settings", "", "the settings in effect", "", "", 0, 0, Needs::kGame, run_settings},
+    Command{"set", "[mode=N] [difficulty=N]",
+            "change them: the mode at the next reset, the difficulty at once",
+            "modes and difficulties have the numbers", "set difficulty=1", 1, 2, Needs::kGame, run_set},
+    Command{"modes", "", "the game's modes", "", "", 0, 0, Needs::kGame, run_modes},
+    Command{"difficulties", "", "the game's difficulties", "", "", 0, 0, Needs::kGame, run_difficulties},
+    Command{"actions", "", "the actions that act accepts, and the game's legal and minimal ones", "", "", 0,
+            0, Needs::kGame, run_actions},
+    Command{"observe", "[FIELD[:ENCODING]...|none]", "choose what replies carry",
+            "help fields has the fields and encodings", "observe reward ends screen:rle", 0, kAnyNumber,
+            Needs::kAdmission, run_observe},
+    Command{"look", "[FIELD[:ENCODING]...]", "what the machine shows; without fields, those chosen",
+            "help fields has the fields and encodings", "look lives screen:base64", 0, kAnyNumber,
+            Needs::kGame, run_look},
+    Command{"act", "A[@STRENGTH][/B[@STRENGTH]][*TIMES]...", "play actions until the episode ends",
+            "actions has the actions; B is player B's, STRENGTH how far a paddle is turned, 0 to 1",
+            "act FIRE RIGHT*10 3", 1, kAnyNumber, Needs::kGame, run_act},
+    Command{"reset", "", "begin an episode", "", "", 0, 0, Needs::kGame, run_reset},
+    Command{"peek", "INDEX [COUNT]", "bytes of RAM, 0 to 127", "", "peek 3 4", 1, 2, Needs::kGame, run_peek},
+    Command{"poke", "INDEX HEX", "write bytes of RAM", "", "poke 3 FF00", 2, 2, Needs::kGame, run_poke},
+    Command{"save", "NAME [random=1]", "keep the state, with the generator of what is random if wished", "",
+            "save start", 1, 2, Needs::kGame, run_save},
+    Command{"restore", "NAME", "return to a state", "", "restore start", 1, 1, Needs::kGame, run_restore},
+    Command{"drop", "NAME...|all", "forget states", "", "drop start", 1, kAnyNumber, Needs::kGame, run_drop},
+    Command{"states", "", "the names of the states", "", "", 0, 0, Needs::kGame, run_states},
+    Command{"export", "NAME", "a state as base64, for later or for another process", "", "export start", 1, 1,
+            Needs::kGame, run_export},
+    Command{"import", "NAME BASE64", "keep a state that was exported", "", "", 2, 2, Needs::kGame,
+            run_import},
+    Command{"branch", "NAME [keep=PREFIX] ACTION[,ACTION...]...",
+            "from a state, play lists of actions; the session stays where it is",
+            "actions are written as for act; keep= saves where the lists end, as PREFIX0, PREFIX1, ...",
+            "branch start FIRE*50 UP,RIGHT*9", 2, kAnyNumber, Needs::kGame, run_branch},
+    Command{"open", "N [autoreset=next-step|same-step|disabled]",
+            "N machines with the game and settings that are loaded, seeds counting up", "",
+            "open 4 autoreset=same-step", 1, 2, Needs::kGame, run_open},
+    Command{"step", "ACTION...", "an action for each machine, or one for all", "written as for act",
+            "step FIRE UP RIGHT 4", 1, kAnyNumber, Needs::kMachines, run_step},
+    Command{"restart", "[MASK]", "reset machines: those with 1 in a mask such as 0110; without, all", "",
+            "restart 0110", 0, 1, Needs::kMachines, run_restart},
+    Command{"close", "", "give the machines back", "", "", 0, 0, Needs::kMachines, run_close},
+    Command{"record", "png|gif|y4m|wav[,...] NAME [machine=N] | stop",
+            "write frames, sound or both below the server's folder",
+            "machine= takes one of open, 0 the first", "record gif first", 1, 3, Needs::kGame, run_record},
+    Command{"stats", "", "what this session has done", "", "", 0, 0, Needs::kAdmission, run_stats},
+    Command{"quit", "", "end the session", "", "", 0, 0, Needs::kNothing, run_quit},
+};
+
+constexpr std::array kAliases = {Alias{"?", "help"}, Alias{"exit", "quit"}};
+
+std::string count_text(const Command& command) {
+  if (command.most == command.least) return std::to_string(command.least);
+  const std::string least = std::to_string(command.least);
+  if (command.most == kAnyNumber) return "at least " + least;
+  return least + " to " + std::to_string(command.most);
+}
+
+}  // namespace
+
+std::string usage(const Command& command) {
+  std::string text(command.name);
+  if (!command.arguments.empty()) (text += ' ') += command.arguments;
+  return text;
+}
+
+std::span<const Command> commands() { return kCommands; }
+
+std::span<const Alias> aliases() { return kAliases; }
+
+const Command& find_command(std::string_view name) {
+  const auto alias = std::ranges::find(kAliases, name, &Alias::name);
+  if (alias != kAliases.end()) return find_command(alias->command);
+  const auto found = std::ranges::find(kCommands, name, &Command::name);
+  if (found != kCommands.end()) return *found;
+  refuse_name(Code::kUnknownCommand, "command", name, names_of(kCommands));
+}
+
+void check(const Command& command, const Session& session, std::size_t arguments) {
+  const std::string name(command.name);
+  if (arguments < command.least || arguments > command.most) {
+    throw Refusal(Code::kBadArguments, name + " takes " + count_text(command) + " arguments, not " +
+                                           std::to_string(arguments) + ": " + usage(command));
+  }
+  if (command.needs >= Needs::kAdmission && !session.admitted)
+    throw Refusal(Code::kUnauthorized, "this server wants a token before " + name + "; hello token=TOKEN");
+  if (command.needs >= Needs::kGame && !session.player)
+    throw Refusal(Code::kNoGame, name + " needs a game; load one first");
+  if (command.needs == Needs::kMachines && session.machines.empty())
+    throw Refusal(Code::kNoMachines, name + " needs machines; open some first");
+}
+
+}  // namespace racebeam

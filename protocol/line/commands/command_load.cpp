@@ -1,0 +1,228 @@
+// games, load, settings, set, modes, difficulties, actions
+#include <algorithm>
+#include <random>
+#include <utility>
+
+#include "games/similar.hpp"
+#include "protocol/encoding/base64.hpp"
+#include "protocol/line/commands/command.hpp"
+#include "protocol/line/play_settings.hpp"
+#include "protocol/line/session.hpp"
+#include "protocol/line/session_recording.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::string_view kInline = "inline";
+
+template <typename Names>
+void append_names(std::string& out, const Names& names) {
+  append_pair(out, "count", static_cast<std::int64_t>(names.size()));
+  append_pair(out, "games", "");
+  for (std::size_t i = 0; i < names.size(); ++i) (out += i > 0 ? "," : "") += names[i];
+}
+
+void append_numbered(std::string& out, std::string_view key, const std::vector<int>& numbers) {
+  append_pair(out, key, "");
+  append_list(out, numbers);
+}
+
+std::string_view format_name(Format format) {
+  constexpr std::array<std::string_view, 5> kNames = {"auto", "ntsc", "pal", "pal60", "secam"};
+  return kNames[static_cast<std::size_t>(format)];
+}
+
+[[noreturn]] void refuse_game(const Images& images, std::string_view name) {
+  if (find_game(name)) {
+    throw Refusal(Code::kUnknownGame, "the image of " + std::string(name) +
+                                          " is not here; games lists those that are; load inline takes one");
+  }
+  std::string meant = did_you_mean(name, images.names());
+  if (meant.empty()) meant = did_you_mean(name, game_names());
+  throw Refusal(Code::kUnknownGame, "there is no game " + quote(name) + ';' +
+                                        (meant.empty() ? " games lists those that are here" : meant));
+}
+
+void describe_game(Session& session, std::string_view name) {
+  const Cartridge* cartridge = session.service.images->find(name);
+  const auto game = cartridge ? cartridge->game : find_game(name);
+  if (!game) refuse_game(*session.service.images, name);
+  std::string& out = session.out;
+  out += "ok";
+  append_pair(out, "game", game->name);
+  append_pair(out, "here", cartridge != nullptr);
+  if (cartridge) append_pair(out, "md5", cartridge->image->md5);
+  append_pair(out, "rule", game->has_rule());
+  append_numbered(out, "modes", game->modes);
+  append_numbered(out, "two_player_modes", game->two_player_modes);
+  append_numbered(out, "difficulties", game->difficulties);
+  append_numbered(out, "minimal", game->minimal_actions);
+  append_numbered(out, "legal", game->legal_actions);
+}
+
+// The words of `load` behind the name of the game.
+struct LoadWords {
+  std::optional<std::string_view> image, as;
+  std::vector<std::string_view> settings;
+};
+
+LoadWords sorted(Words words) {
+  LoadWords load;
+  for (const std::string_view word : words) {
+    const auto [key, value] = key_value(word);
+    if (key == "image") {
+      if (load.image) refuse_twice(key);
+      load.image = value;
+    } else if (key == "as") {
+      if (load.as) refuse_twice(key);
+      load.as = value;
+    } else {
+      load.settings.push_back(word);
+    }
+  }
+  return load;
+}
+
+std::shared_ptr<const Image> sent_image(const LoadWords& words) {
+  if (!words.image) throw Refusal(Code::kBadArguments, "load inline needs image=BASE64");
+  auto bytes = bytes_of_base64(*words.image);
+  if (!bytes) throw Refusal(Code::kBadImage, "the image is not base64 (A-Z a-z 0-9 + / and = at the end)");
+  try {
+    return make_image(std::move(*bytes), std::string(kInline));
+  } catch (const std::invalid_argument& error) {
+    throw Refusal(Code::kBadImage, error.what());
+  }
+}
+
+Cartridge find_cartridge(const Session& session, std::string_view name, const LoadWords& words) {
+  Cartridge cartridge;
+  if (name == kInline) {
+    cartridge.image = sent_image(words);
+  } else {
+    if (words.image) throw Refusal(Code::kBadArguments, "image= goes with load inline");
+    const Cartridge* found = session.service.images->find(name);
+    if (found == nullptr) refuse_game(*session.service.images, name);
+    cartridge = *found;
+  }
+  if (words.as) {
+    cartridge.game = find_game(*words.as);
+    if (!cartridge.game)
+      throw Refusal(Code::kUnknownGame, "there are no rules for " + quote(*words.as) + ';' +
+                                            did_you_mean(*words.as, game_names()) +
+                                            " games all lists those that there are");
+  } else if (name == kInline) {
+    cartridge.game = recognise(*cartridge.image).game;
+  }
+  return cartridge;
+}
+
+void append_loaded(Session& session) {
+  const Environment& machine = session.player->machine();
+  std::string& out = session.out;
+  out += "ok";
+  append_pair(out, "game", machine.game().name);
+  append_pair(out, "md5", machine.image().md5);
+  append_pair(out, "rule", machine.game().has_rule());
+  append_pair(out, "width", kScreenWidth);
+  append_pair(out, "height", machine.height());
+  append_pair(out, "format", format_name(machine.format()));
+  append_settings(out, session.settings, machine);
+}
+
+}  // namespace
+
+void run_games(Session& session, Words arguments) {
+  if (!arguments.empty() && arguments[0] != "all") return describe_game(session, arguments[0]);
+  session.out += "ok";
+  if (arguments.empty()) return append_names(session.out, session.service.images->names());
+  append_names(session.out, game_names());
+}
+
+// All or nothing: a load that is refused leaves the game before it running.
+void run_load(Session& session, Words arguments) {
+  const LoadWords words = sorted(arguments.subspan(1));
+  PlaySettings settings;
+  settings.machine.cpu = session.service.cpu;
+  read_settings(words.settings, settings);
+  if (settings.machine.random_seed == 0) settings.machine.random_seed = std::random_device{}() | 1U;
+  Cartridge cartridge = find_cartridge(session, arguments[0], words);
+  std::unique_ptr<Player> player;
+  try {
+    session.allow_resets(1);
+    session.memory.check(Player::footprint(session.fields) + (arguments[0] == kInline ? kOwnImage : 0), "a machine");
+    player = std::make_unique<Player>(cartridge, settings, session.fields, session.pacer);
+  } catch (const std::invalid_argument& error) {
+    const bool sent = arguments[0] == kInline && !settings.mode && !settings.difficulty;
+    throw Refusal(sent ? Code::kBadImage : Code::kBadValue, error.what());
+  }
+  session.recording.reset();
+  session.machines.close();
+  session.states.clear();
+  session.player = std::move(player);
+  session.cartridge = std::move(cartridge);
+  session.settings = settings;
+  append_loaded(session);
+}
+
+void run_settings(Session& session, Words) { append_loaded(session); }
+
+void run_set(Session& session, Words arguments) {
+  PlaySettings changed;
+  for (const std::string_view word : arguments) {
+    const std::string_view key = key_value(word).key;
+    if (key == "mode" || key == "difficulty") continue;
+    throw Refusal(
+        Code::kBadArguments,
+        quote(key) + " can't be set while a game runs; there are mode and difficulty; load takes the others");
+  }
+  read_settings(arguments, changed);
+  Environment& machine = session.player->machine();
+  const int mode = machine.mode();
+  if (changed.mode) machine.set_mode(*changed.mode);
+  try {
+    if (changed.difficulty) machine.set_difficulty(*changed.difficulty);
+  } catch (...) {
+    machine.set_mode(mode);
+    throw;
+  }
+  if (changed.mode) session.settings.mode = changed.mode;
+  if (changed.difficulty) session.settings.difficulty = changed.difficulty;
+  session.out += "ok";
+  append_pair(session.out, "mode", machine.mode());
+  append_pair(session.out, "difficulty", machine.difficulty());
+}
+
+void run_modes(Session& session, Words) {
+  const Environment& machine = session.player->machine();
+  session.out += "ok";
+  append_pair(session.out, "mode", machine.mode());
+  append_pair(session.out, "default", machine.game().default_mode);
+  append_numbered(session.out, "modes", machine.game().modes);
+  append_numbered(session.out, "two_player_modes", machine.game().two_player_modes);
+}
+
+void run_difficulties(Session& session, Words) {
+  const Environment& machine = session.player->machine();
+  session.out += "ok";
+  append_pair(session.out, "difficulty", machine.difficulty());
+  append_pair(session.out, "default", 0);
+  append_numbered(session.out, "difficulties", machine.game().difficulties);
+}
+
+void run_actions(Session& session, Words) {
+  const Game& game = session.player->machine().game();
+  std::string& out = session.out;
+  out += "ok";
+  append_pair(out, "action_set", name_of(session.settings.action_set));
+  append_pair(out, "actions", "");
+  bool first = true;
+  for (const int action : actions_of(session.settings.action_set, game)) {
+    if (!std::exchange(first, false)) out += ',';
+    append_number(out, std::int64_t{action});
+    (out += ':') += action_name(action);
+  }
+  append_numbered(out, "minimal", game.minimal_actions);
+  append_numbered(out, "legal", game.legal_actions);
+}
+
+}  // namespace racebeam

@@ -1,0 +1,133 @@
+// observe, look, act, reset, peek, poke
+#include <algorithm>
+
+#include "protocol/line/commands/command.hpp"
+#include "protocol/line/session.hpp"
+
+namespace racebeam {
+namespace {
+
+void check_sound(const Session& session, const std::vector<Field>& fields) {
+  if (!session.player || session.settings.machine.sound) return;
+  if (std::ranges::any_of(fields, [](const Field& field) { return field.row->name == "audio"; }))
+    throw Refusal(Code::kBadArguments, "audio needs a game that was loaded with sound=1");
+}
+
+// A single look has no past.
+void check_look(const std::vector<Field>& fields) {
+  for (const Field& field : fields) {
+    if (field.encoding == Encoding::kDelta)
+      throw Refusal(Code::kBadArguments, "delta is for observe: it tells what changed from reply to reply");
+    if (field.depth > 1)
+      throw Refusal(Code::kBadArguments, "a stack is for observe: it is made of what replies have shown");
+  }
+}
+
+void append_bytes_of(Session& session, int index, std::size_t count) {
+  session.out += "ok";
+  append_pair(session.out, "index", index);
+  append_pair(session.out, "bytes", "");
+  Encoder(Encoding::kHex)
+      .append(session.out, session.player->machine().ram().subspan(static_cast<std::size_t>(index), count));
+}
+
+void play(Player& player, const std::vector<Action>& actions) {
+  for (const Action& action : actions) {
+    for (int n = 0; n < action.times; ++n) {
+      player.act(action);
+      if (player.machine().game_over()) return;
+    }
+  }
+}
+
+int ram_index(std::string_view text) {
+  return static_cast<int>(number_within(text, "INDEX", 0, kRamSize - 1));
+}
+
+}  // namespace
+
+void run_observe(Session& session, Words arguments) {
+  if (!arguments.empty()) {
+    std::vector<Field> fields = parse_fields(arguments);
+    check_sound(session, fields);
+    session.memory.check(View::footprint(fields), "a view of these fields");
+    session.machines.observe(session, fields);
+    session.fields = std::move(fields);
+    if (session.player) session.player->observe(session.fields);
+  }
+  session.out += "ok fields=";
+  for (std::size_t i = 0; i < session.fields.size(); ++i) {
+    if (i > 0) session.out += ',';
+    session.out += session.fields[i].name;
+  }
+}
+
+void run_look(Session& session, Words arguments) {
+  Player& player = *session.player;
+  if (arguments.empty()) {
+    session.out += "ok";
+    return player.append_view(session.out);
+  }
+  std::vector<Field> fields = parse_fields(arguments);
+  check_sound(session, fields);
+  check_look(fields);
+  session.memory.check(View::footprint(fields) + text_size(fields, player.machine()), "a look at these fields");
+  View view(std::move(fields), player.machine().height());
+  view.began(player.machine(), player.blends());
+  session.out += "ok";
+  view.append(session.out, player.machine(), player.outcome());
+}
+
+// Ends early with the episode.
+void run_act(Session& session, Words arguments) {
+  Player& player = *session.player;
+  std::vector<Action>& actions = session.actions;
+  std::int64_t acts = 0;
+  actions.clear();
+  for (const std::string_view word : arguments) {
+    actions.push_back(parse_action(word, player.allowed()));
+    acts += actions.back().times;
+    if (actions.size() % 256 == 0) session.pacer.breathe();
+  }
+  session.check_frames(acts);
+  if (session.settings.autoreset && player.machine().game_over()) return run_reset(session, {});
+  player.begin_request();
+  play(player, actions);
+  session.count(player.outcome());
+  session.out += "ok";
+  session.append_cut();
+  player.append_view(session.out);
+}
+
+void run_reset(Session& session, Words) {
+  Player& player = *session.player;
+  session.allow_resets(1);
+  player.reset();
+  player.begin_request();
+  session.out += "ok";
+  player.append_view(session.out);
+}
+
+void run_peek(Session& session, Words arguments) {
+  const int index = ram_index(arguments[0]);
+  const std::size_t count =
+      arguments.size() < 2
+          ? 1
+          : static_cast<std::size_t>(number_within(arguments[1], "COUNT", 1, kRamSize - index));
+  append_bytes_of(session, index, count);
+}
+
+void run_poke(Session& session, Words arguments) {
+  const int index = ram_index(arguments[0]);
+  const auto bytes = bytes_of_hex(arguments[1]);
+  if (bytes.empty() || bytes.size() > static_cast<std::size_t>(kRamSize - index)) {
+    throw Refusal(Code::kBadValue, "HEX has " + std::to_string(bytes.size()) + " bytes; from " +
+                                       std::to_string(index) + " on there is room for 1 to " +
+                                       std::to_string(kRamSize - index));
+  }
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    session.player->machine().set_ram(index + static_cast<int>(i), bytes[i]);
+  append_bytes_of(session, index, bytes.size());
+}
+
+}  // namespace racebeam

@@ -1,0 +1,97 @@
+// record
+#include <algorithm>
+#include <array>
+
+#include "games/similar.hpp"
+#include "protocol/line/commands/command.hpp"
+#include "protocol/line/session.hpp"
+#include "protocol/line/session_recording.hpp"
+#include "recording/recorder.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::string_view kTaken =
+    "record takes png, gif, y4m, wav or several as in y4m,wav, and a name, or stop";
+constexpr std::array<std::string_view, 5> kWords = {"png", "gif", "y4m", "wav", "stop"};
+
+void stop(Session& session) {
+  if (!session.recording) throw Refusal(Code::kRecording, "nothing is being recorded");
+  Recording& recording = session.recording->recording();
+  recording.finish();
+  await(recording, session.pacer);
+  const auto ended = std::move(session.recording);
+  const Recording::Result& result = recording.result();
+  if (result.names.empty()) throw Refusal(Code::kRecording, result.failure + "; nothing was kept");
+  session.out += "ok";
+  append_pair(session.out, "recorded", result.names);
+  append_pair(session.out, "frames", result.frames);
+  append_pair(session.out, "bytes", static_cast<std::int64_t>(result.bytes));
+  append_pair(session.out, "complete", recording.cut() ? 0 : 1);
+  if (const auto cut = recording.cut()) append_pair(session.out, "recording_ended", name_of(*cut));
+}
+
+std::vector<MediaKind> parse_kinds(std::string_view words) {
+  std::vector<MediaKind> kinds;
+  bool more = true;
+  while (more) {
+    more = words.find(',') != words.npos;
+    const std::string_view rest = cut_behind(words, ',');
+    const auto kind = media_kind(words);
+    if (!kind) {
+      const std::string meant = did_you_mean(words, kWords);
+      throw Refusal(Code::kBadArguments, std::string(kTaken) + (meant.empty() ? meant : ';' + meant));
+    }
+    if (std::ranges::find(kinds, *kind) != kinds.end()) refuse_twice(words);
+    kinds.push_back(*kind);
+    words = rest;
+  }
+  return kinds;
+}
+
+// That of `load`, or one of `open`.
+Player& player_of(Session& session, Words arguments) {
+  if (arguments.empty()) return *session.player;
+  const std::string_view number = value_of(arguments[0], "machine", "record");
+  if (session.machines.empty()) throw Refusal(Code::kNoMachines, "machine= needs machines; open some first");
+  const auto last = static_cast<std::int64_t>(session.machines.size()) - 1;
+  return session.machines.player(static_cast<std::size_t>(number_within(number, "machine", 0, last)));
+}
+
+std::shared_ptr<Recording> begin(const LineService& service, const std::vector<MediaKind>& kinds,
+                                 std::string_view name, const Environment& machine) {
+  try {
+    return service.recorder->begin(kinds, std::string(name), service.limits.recording, machine);
+  } catch (const std::runtime_error& error) {
+    throw Refusal(Code::kRecording, error.what());
+  }
+}
+
+void start(Session& session, const std::vector<MediaKind>& kinds, std::string_view name, Player& player) {
+  const auto recording = begin(session.service, kinds, name, player.machine());
+  session.recording = std::make_unique<SessionRecording>(recording, player);
+  await(*recording, session.pacer);
+  if (recording->finished()) {
+    session.recording.reset();
+    throw Refusal(Code::kRecording, recording->result().failure);
+  }
+  session.out += "ok";
+  append_pair(session.out, "recording", recording->names());
+}
+
+}  // namespace
+
+void run_record(Session& session, Words arguments) {
+  if (arguments[0] == "stop" && arguments.size() == 1) return stop(session);
+  const auto kinds = parse_kinds(arguments[0]);
+  if (arguments.size() < 2) throw Refusal(Code::kBadArguments, std::string(kTaken));
+  if (!session.service.recorder)
+    throw Refusal(Code::kRecording, "this server does not record; it was started without --record-dir");
+  if (session.recording)
+    throw Refusal(Code::kRecording,
+                  session.recording->names() + " has not been stopped; record stop does it");
+  const std::string_view name = checked_name(arguments[1], "recording");
+  start(session, kinds, name, player_of(session, arguments.subspan(2)));
+}
+
+}  // namespace racebeam

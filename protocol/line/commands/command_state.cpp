@@ -1,0 +1,174 @@
+// save, restore, drop, states, export, import, branch
+#include <algorithm>
+#include <utility>
+
+#include "environment/saved/saved_state_format.hpp"
+#include "environment/saved_state.hpp"
+#include "games/similar.hpp"
+#include "protocol/encoding/base64.hpp"
+#include "protocol/line/commands/branch.hpp"
+#include "protocol/line/commands/command.hpp"
+#include "protocol/line/session.hpp"
+
+namespace racebeam {
+namespace {
+
+const Place& find_state(const Session& session, std::string_view name) {
+  if (const Place* const found = session.states.find(name)) return *found;
+  std::vector<std::string_view> names;
+  for (const auto& [known, place] : session.states) names.push_back(known);
+  std::string sentence = "there is no state " + quote(name) + ';';
+  if (const std::string meant = did_you_mean(name, names); !meant.empty()) {
+    (sentence += meant) += " There are";
+  } else {
+    sentence += " there are";
+  }
+  constexpr std::size_t kShown = 20;
+  for (const std::string_view known : Words(names).first(std::min(kShown, names.size())))
+    (sentence += ' ') += known;
+  throw Refusal(Code::kNoState, sentence + (session.states.empty()  ? " none"
+                                            : names.size() > kShown ? " and more"
+                                                                    : ""));
+}
+
+void check_room(const Session& session, std::size_t more) {
+  const auto most = static_cast<std::size_t>(session.service.limits.states);
+  if (session.states.size() + more <= most) return;
+  throw Refusal(Code::kLimit, "there is room for " + std::to_string(most) +
+                                  " states; drop some, or save under a name that is in use");
+}
+
+void keep(Session& session, std::string_view name, Place place) {
+  if (!session.states.contains(name)) check_room(session, 1);
+  session.memory.check(place.footprint(), "a state");
+  session.states.put(name, std::move(place));
+}
+
+std::string_view state_name(std::string_view word) {
+  if (word == "all") throw Refusal(Code::kBadValue, "'all' is no name for a state: drop all drops them all");
+  return checked_name(word, "state");
+}
+
+// The names under which `lists` ends of a branch are kept; all of them are good, and there is room for the
+// new ones.
+void check_keep(const Session& session, std::string_view prefix, std::size_t lists) {
+  std::size_t added = 0;
+  for (std::size_t list = 0; list < lists; ++list) {
+    const std::string name = std::string(prefix) + std::to_string(list);
+    state_name(name);
+    added += !session.states.contains(name);
+  }
+  check_room(session, added);
+}
+
+bool read_random(Words words) {
+  if (words.empty()) return false;
+  return number_within(value_of(words[0], "random", "save"), "random", 0, 1) == 1;
+}
+
+// A,B,C
+std::vector<Action> parse_list(std::string_view word, const AllowedActions& allowed) {
+  std::vector<Action> list;
+  for (;;) {
+    std::string_view action = word;
+    const std::string_view rest = cut_behind(action, ',');
+    list.push_back(parse_action(action, allowed));
+    if (action.size() == word.size()) return list;
+    word = rest;
+  }
+}
+
+std::int64_t acts_of(const std::vector<Action>& list) {
+  std::int64_t acts = 0;
+  for (const Action& action : list) acts += action.times;
+  return acts;
+}
+
+}  // namespace
+
+void run_save(Session& session, Words arguments) {
+  const std::string_view name = state_name(arguments[0]);
+  keep(session, name, session.player->place(read_random(arguments.subspan(1))));
+  session.out += "ok";
+  append_pair(session.out, "state", name);
+}
+
+void run_restore(Session& session, Words arguments) {
+  const Place& place = find_state(session, arguments[0]);
+  session.player->go_to(place);
+  session.player->begin_request();
+  session.out += "ok";
+  session.player->append_view(session.out);
+}
+
+void run_drop(Session& session, Words arguments) {
+  if (arguments.size() == 1 && arguments[0] == "all") {
+    session.states.clear();
+  } else {
+    for (const std::string_view name : arguments) find_state(session, name);
+    for (const std::string_view name : arguments) session.states.drop(name);
+  }
+  session.out += "ok";
+  append_pair(session.out, "count", static_cast<std::int64_t>(session.states.size()));
+}
+
+void run_states(Session& session, Words) {
+  session.out += "ok";
+  append_pair(session.out, "count", static_cast<std::int64_t>(session.states.size()));
+  append_pair(session.out, "states", "");
+  bool first = true;
+  for (const auto& [name, place] : session.states) {
+    if (!std::exchange(first, false)) session.out += ',';
+    session.out += name;
+  }
+}
+
+void run_export(Session& session, Words arguments) {
+  const auto bytes = to_bytes(*find_state(session, arguments[0]).machine, session.player->machine());
+  session.out += "ok";
+  append_pair(session.out, "state", arguments[0]);
+  append_pair(session.out, "bytes", static_cast<std::int64_t>(bytes.size()));
+  append_pair(session.out, "data", "");
+  append_base64(session.out, bytes);
+}
+
+void run_import(Session& session, Words arguments) {
+  const std::string_view name = state_name(arguments[0]);
+  const auto bytes = bytes_of_base64(arguments[1]);
+  if (!bytes) throw Refusal(Code::kBadState, "the state is not base64 (A-Z a-z 0-9 + / and = at the end)");
+  Place place;
+  try {
+    place.machine = from_bytes(*bytes, session.player->machine());
+    place.with_random = place.machine->random.has_value();
+  } catch (const std::invalid_argument& error) {
+    throw Refusal(Code::kBadState, error.what());
+  }
+  keep(session, name, std::move(place));
+  session.out += "ok";
+  append_pair(session.out, "state", name);
+}
+
+void run_branch(Session& session, Words arguments) {
+  BranchRequest branch{find_state(session, arguments[0]), {}, {}};
+  Words sequences = arguments.subspan(1);
+  if (sequences[0].starts_with("keep=")) {
+    branch.keep = checked_name(key_value(sequences[0]).value, "state");
+    sequences = sequences.subspan(1);
+  }
+  if (sequences.empty()) throw Refusal(Code::kBadArguments, "branch takes at least one list of actions");
+  std::int64_t acts = 0;
+  for (const std::string_view word : sequences) {
+    branch.lists.push_back(parse_list(word, session.player->allowed()));
+    acts += acts_of(branch.lists.back());
+    session.pacer.breathe();
+  }
+  session.check_frames(acts);
+  const std::size_t lists = branch.lists.size();
+  const std::size_t players = session.player->machine().game().has_second_reward() ? 2 : 1;
+  session.check_reply(128 * lists + 8 * players * static_cast<std::size_t>(acts),
+                      std::to_string(lists) + " branches");
+  if (!branch.keep.empty()) check_keep(session, branch.keep, lists);
+  play_branches(session, branch);
+}
+
+}  // namespace racebeam

@@ -1,0 +1,172 @@
+#include "protocol/line/commands/help.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "games/similar.hpp"
+#include "protocol/encoding/encoding.hpp"
+#include "protocol/line/commands/command.hpp"
+#include "protocol/line/field.hpp"
+#include "protocol/line/play_settings.hpp"
+
+namespace racebeam {
+namespace {
+
+std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string text;
+  for (const std::string_view part : parts) text += part;
+  return text;
+}
+
+std::string list_of(Words names) {
+  std::string list;
+  for (const std::string_view name : names) (list += list.empty() ? "" : " ") += name;
+  return list;
+}
+
+// The tables are also those of protocol/PROTOCOL.md, which marks words.
+std::string plain(std::string text) {
+  std::erase(text, '`');
+  return text;
+}
+
+std::string about(const Command& command) { return joined({usage(command), ": ", command.summary}); }
+std::string about(const SettingRow& row) {
+  return plain(joined({row.name, " (", row.accepted, "): ", row.summary}));
+}
+std::string about(const PresetRow& row) { return joined({row.name, " (", row.source, ") sets ", row.words}); }
+std::string about(const FieldRow& row) { return plain(joined({row.name, ": ", row.summary})); }
+std::string about(const EncodingRow& row) { return joined({row.name, ": ", row.summary}); }
+std::string about(const CodeRow& row) { return plain(joined({row.name, ": ", row.meaning})); }
+
+template <typename Rows>
+HelpText table(std::string_view head, const Rows& rows) {
+  HelpText text{std::string(head), {}};
+  for (const auto& row : rows) text.entries.push_back(about(row));
+  return text;
+}
+
+HelpText on_settings() { return table("settings of load, as KEY=VALUE:", setting_rows()); }
+
+HelpText on_presets() { return table("presets of load, as preset=NAME:", preset_rows()); }
+
+HelpText on_fields() {
+  HelpText text = table("fields of observe and look:", field_rows());
+  text.entries.emplace_back("ends: terminated and truncated");
+  text.entries.push_back("those that are bytes are written as FIELD:ENCODING: " +
+                         list_of(names_of(encodings())));
+  return text;
+}
+
+HelpText on_encodings() {
+  HelpText text = table("encodings of fields that are bytes, as in observe screen:delta:", encodings());
+  std::string usual = "without one:";
+  for (const FieldRow& row : field_rows()) {
+    if (!row.number)
+      usual += joined({" ", row.name, ":", encodings()[static_cast<std::size_t>(row.usual)].name});
+  }
+  text.entries.push_back(std::move(usual));
+  return text;
+}
+
+HelpText on_errors() { return table("codes of errors, for programs:", codes()); }
+
+HelpText on_states() {
+  HelpText text{"states, places in a game to return to:", {}};
+  for (const std::string_view name : {"save", "restore", "drop", "states", "export", "import", "branch"})
+    text.entries.push_back(about(find_command(name)));
+  text.entries.emplace_back("a NAME has 1 to 64 letters, digits, - and _; load forgets all states");
+  return text;
+}
+
+constexpr std::array kTopics = {HelpTopic{"settings", on_settings}, HelpTopic{"presets", on_presets},
+                                HelpTopic{"fields", on_fields},     HelpTopic{"encodings", on_encodings},
+                                HelpTopic{"errors", on_errors},     HelpTopic{"states", on_states}};
+
+HelpText on(const Command& command) {
+  HelpText text{about(command), {}};
+  if (!command.hint.empty()) text.entries.emplace_back(command.hint);
+  if (!command.example.empty()) text.entries.push_back(joined({"example: ", command.example}));
+  return text;
+}
+
+// The row of that name as the text of it; with what it is one of.
+template <typename Rows>
+bool find_in(const Rows& rows, std::string_view name, std::string_view kind, HelpText& text) {
+  const auto found = std::ranges::find_if(rows, [name](const auto& row) { return row.name == name; });
+  if (found == rows.end()) return false;
+  text = {std::string(kind), {about(*found)}};
+  return true;
+}
+
+template <typename... Rows>
+[[noreturn]] void refuse(std::string_view name, const Rows&... rows) {
+  std::vector<std::string_view> known;
+  const auto add = [&known](const auto& names) { known.insert(known.end(), names.begin(), names.end()); };
+  (add(names_of(rows)), ...);
+  throw Refusal(Code::kBadArguments, "there is no help on " + quote(name) + ';' + did_you_mean(name, known) +
+                                         " help without a word says what there is");
+}
+
+constexpr int kNarrowest = 20;
+constexpr std::size_t kIndent = 2, kHanging = 6;
+
+// `text` in lines of at most `columns`, broken at blanks; the first begins at `column`.
+void append_folded(std::string& out, std::string_view text, std::size_t columns, std::size_t column) {
+  std::vector<std::string_view> words;
+  split(text, words);
+  for (const std::string_view& word : words) {
+    if (&word != words.data()) {
+      const bool fits = column + 1 + word.size() <= columns;
+      fits ? out += ' ' : (out += '\n').append(kHanging, ' ');
+      column = fits ? column + 1 : kHanging;
+    }
+    out += word;
+    column += word.size();
+  }
+}
+
+}  // namespace
+
+std::span<const HelpTopic> help_topics() { return kTopics; }
+
+HelpText help() {
+  return {"commands: " + list_of(names_of(commands())),
+          {"help COMMAND explains one", "more with help " + list_of(names_of(kTopics)),
+           "help NAME explains a setting, field, preset, encoding or error code"}};
+}
+
+HelpText help_on(std::string_view name) {
+  const auto topic = std::ranges::find(kTopics, name, &HelpTopic::name);
+  if (topic != kTopics.end()) return topic->text();
+  const auto known = [name](const auto& row) { return row.name == name; };
+  if (std::ranges::any_of(commands(), known) || std::ranges::any_of(aliases(), known))
+    return on(find_command(name));
+  HelpText text;
+  if (find_in(setting_rows(), name, "a setting of load, as KEY=VALUE:", text) ||
+      find_in(field_rows(), name, "a field of observe and look:", text) ||
+      find_in(preset_rows(), name, "a preset of load, as preset=NAME:", text) ||
+      find_in(encodings(), name, "an encoding of fields that are bytes, as FIELD:ENCODING:", text) ||
+      find_in(codes(), name, "the code of an error:", text))
+    return text;
+  refuse(name, kTopics, commands(), setting_rows(), field_rows(), preset_rows(), encodings(), codes());
+}
+
+void append_help(std::string& out, const HelpText& help, int columns) {
+  out += "ok ";
+  if (columns <= 0) {
+    out += help.head;
+    bool listed = help.head.ends_with(':');
+    for (const std::string& entry : help.entries) (out += std::exchange(listed, false) ? " " : "; ") += entry;
+    return;
+  }
+  const auto width = static_cast<std::size_t>(std::max(columns, kNarrowest));
+  append_folded(out, help.head, width, 3);
+  for (const std::string& entry : help.entries) {
+    (out += '\n').append(kIndent, ' ');
+    append_folded(out, entry, width, kIndent);
+  }
+}
+
+}  // namespace racebeam

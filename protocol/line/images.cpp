@@ -1,0 +1,53 @@
+#include "protocol/line/images.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace racebeam {
+
+Images::Images() {
+  for (const BuiltInImage& image : builtin_images()) add_file("builtin:" + std::string(image.name));
+}
+
+void Images::add_file(const std::string& path, const std::optional<std::string>& game,
+                      const std::optional<std::string>& game_file) {
+  auto image = load_image(path);
+  Recognition recognition = recognise(*image, game, game_file);
+  const bool certain =
+      recognition.how != RecognisedBy::kFileName && recognition.how != RecognisedBy::kNothing;
+  add({std::move(image), std::move(recognition.game)}, certain);
+}
+
+void Images::add_folder(const std::string& folder) {
+  for (const std::string& path : image_files(folder)) {
+    try {
+      add_file(path);
+    } catch (const std::invalid_argument&) {
+      continue;  // `racebeam roms` says what is wrong with it
+    }
+  }
+}
+
+void Images::add(Cartridge cartridge, bool certain) {
+  const auto put = [&](auto& map, const std::string& key) {
+    const auto [place, is_new] = map.try_emplace(key, Entry{cartridge, certain});
+    if (!is_new && certain && !place->second.certain) place->second = {cartridge, certain};
+  };
+  put(by_name_, cartridge.game->name);
+  put(by_md5_, cartridge.image->md5);
+}
+
+const Cartridge* Images::find(std::string_view name) const {
+  for (const auto* map : {&by_name_, &by_md5_}) {
+    if (const auto found = map->find(name); found != map->end()) return &found->second.cartridge;
+  }
+  return nullptr;
+}
+
+std::vector<std::string_view> Images::names() const {
+  std::vector<std::string_view> all;
+  for (const auto& [name, entry] : by_name_) all.push_back(name);
+  return all;
+}
+
+}  // namespace racebeam

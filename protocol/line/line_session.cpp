@@ -1,0 +1,44 @@
+#include "protocol/line/line_session.hpp"
+
+#include "protocol/line/session.hpp"
+
+namespace racebeam {
+LineSession::LineSession(const LineService& service, Meter* meter)
+    : session_(std::make_unique<Session>(service, meter)) {}
+LineSession::~LineSession() = default;
+
+void LineSession::set_columns(int columns) { session_->columns = columns; }
+std::span<char> LineSession::space() { return session_->space(); }
+
+void LineSession::received(std::size_t count) {
+  session_->input.added(count);
+  if (count == 0) session_->input.end();
+}
+
+bool LineSession::run(std::chrono::microseconds slice) { return session_->run(slice); }
+
+std::chrono::steady_clock::duration LineSession::worked() const { return session_->worked(); }
+
+bool LineSession::waits() const { return session_->waits(); }
+
+bool LineSession::wants_more() const { return session_->wants_more(); }
+
+std::string_view LineSession::output() const { return session_->whole_replies(); }
+
+void LineSession::sent(std::size_t count) { session_->sent(count); }
+
+bool LineSession::admitted() const { return session_->admitted; }
+bool LineSession::refused() const { return session_->refused(); }
+int LineSession::wrong_tokens() const { return session_->wrong_tokens; }
+bool LineSession::finished() const { return session_->finished(); }
+void LineSession::cancel() { session_->cancel(); }
+void LineSession::rest() { session_->rest(); }
+
+std::string LineSession::summary() const {
+  const Statistics& all = session_->statistics;
+  const std::string_view denied = admitted() ? "" : ", without a token";
+  return std::to_string(all.requests) + " requests, " + std::to_string(all.frames) + " frames, " +
+         std::to_string(all.errors) + " errors" + std::string(denied);
+}
+
+}  // namespace racebeam

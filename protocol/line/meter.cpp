@@ -1,0 +1,19 @@
+#include "protocol/line/meter.hpp"
+
+#include <algorithm>
+
+#include "protocol/line/commands/command.hpp"
+
+namespace racebeam {
+
+Meter::Meter() : requests(commands().size() + 1) {}
+
+void Meter::request(std::size_t command, bool refused, std::chrono::nanoseconds took) {
+  (refused ? requests[command].refused : requests[command].done).add(1);
+  const double seconds = std::chrono::duration<double>(took).count();
+  const auto bound = std::ranges::lower_bound(kLatencyBounds, seconds);
+  latencies[static_cast<std::size_t>(bound - kLatencyBounds.begin())].add(1);
+  nanoseconds.add(took.count());
+}
+
+}  // namespace racebeam

@@ -1,0 +1,222 @@
+#include "protocol/line/play_settings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "games/game/actions.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
+constexpr std::int64_t kMostFrames = std::numeric_limits<int>::max();
+constexpr int kLeastReward = std::numeric_limits<int>::min(), kMostReward = std::numeric_limits<int>::max();
+constexpr int kMostFrameSkip = 1000;  // an act is never interrupted
+constexpr int kMostNoops = 1000;
+constexpr std::array<std::string_view, 3> kActionSets = {"full", "legal", "minimal"};
+constexpr std::array<std::string_view, 2> kRules = {"ale-0.12", "fixed"};  // as Rules counts
+
+int whole(std::string_view value, std::string_view what, std::int64_t least, std::int64_t most) {
+  return static_cast<int>(number_within(value, what, least, most));
+}
+
+bool flag(std::string_view value, std::string_view what) { return number_within(value, what, 0, 1) == 1; }
+
+[[noreturn]] void refuse(std::string_view what, std::string_view value, std::string_view accepted) {
+  throw Refusal(Code::kBadValue,
+                std::string(what) + " is " + quote(value) + "; it takes " + std::string(accepted));
+}
+
+void set_seed(PlaySettings& settings, std::string_view value) {
+  settings.machine.random_seed = static_cast<std::uint32_t>(number_within(value, "seed", 0, kMostSeed));
+}
+
+void set_system_seed(PlaySettings& settings, std::string_view value) {
+  settings.machine.system_seed =
+      static_cast<std::uint32_t>(number_within(value, "system_seed", 0, kMostSeed));
+}
+
+void set_frame_skip(PlaySettings& settings, std::string_view value) {
+  std::string_view least = value;
+  const std::string_view most = cut_behind(least, '-');
+  settings.machine.frame_skip = whole(least, "frame_skip", 1, kMostFrameSkip);
+  settings.machine.frame_skip_max =
+      least.size() == value.size()
+          ? 0
+          : whole(most, "the end of frame_skip", settings.machine.frame_skip, kMostFrameSkip);
+}
+
+void set_sticky(PlaySettings& settings, std::string_view value) {
+  const auto probability = parse_number<float>(value);
+  if (!probability || *probability < 0 || *probability > 1)
+    refuse("sticky", value, "a probability from 0 to 1");
+  settings.machine.sticky = std::abs(*probability);  // no -0
+}
+
+void set_action_set(PlaySettings& settings, std::string_view value) {
+  settings.action_set = static_cast<ActionSet>(choice_of(value, "action_set", kActionSets));
+}
+
+int reward_limit(std::string_view value, std::string_view what, int none) {
+  return value == "none" ? none : whole(value, what, kLeastReward, kMostReward);
+}
+
+void set_rules(PlaySettings& settings, std::string_view value) {
+  settings.machine.rules = static_cast<Rules>(choice_of(value, "rules", kRules));
+}
+
+void set_preset(PlaySettings& settings, std::string_view value) {
+  if (value == "none") return;
+  auto names = names_of(preset_rows());
+  names.push_back("none");
+  const PresetRow* const found = &preset_rows()[choice_of(value, "preset", names)];
+  std::vector<std::string_view> words;
+  split(found->words, words);
+  read_settings(words, settings);
+  settings.preset = found->name;
+}
+
+void append_frame_skip(std::string& out, const PlaySettings& settings, const Environment&) {
+  append_number(out, std::int64_t{settings.machine.frame_skip});
+  if (settings.machine.frame_skip_max == 0) return;
+  out += '-';
+  append_number(out, std::int64_t{settings.machine.frame_skip_max});
+}
+
+void append_reward_limit(std::string& out, int limit, int none) {
+  limit == none ? void(out += "none") : append_number(out, std::int64_t{limit});
+}
+
+// A short way to write the two functions of a row whose value is a number.
+#define READ(expression) [](PlaySettings& s, std::string_view value) { expression; }
+#define ECHO(expression)                                                               \
+  [](std::string& out, [[maybe_unused]] const PlaySettings& s, const Environment& e) { \
+    (void)e;                                                                           \
+    append_number(out, expression);                                                    \
+  }
+
+constexpr std::array kSettings = {
+    SettingRow{"preset", "none or a preset's name", "settings of the literature, which others then change",
+               set_preset,
+               [](std::string& out, const PlaySettings& s, const Environment&) { out += s.preset; }},
+    SettingRow{"seed", "0 to 4294967295", "of all that is random in play; 0: the server picks one", set_seed,
+               ECHO(std::int64_t{e.settings().random_seed})},
+    SettingRow{"system_seed", "0 to 4294967295", "of what is in memory at power-on", set_system_seed,
+               ECHO(std::int64_t{s.machine.system_seed})},
+    SettingRow{"frame_skip", "1 to 1000, or a range such as 2-4",
+               "frames that an act lasts; of a range, each act draws one, 2, 3 or 4", set_frame_skip,
+               append_frame_skip},
+    SettingRow{"sticky", "0 to 1", "probability that a frame repeats the action before it", set_sticky,
+               [](std::string& out, const PlaySettings& s, const Environment&) {
+                 std::array<char, 32> digits;
+                 out.append(
+                     digits.data(),
+                     std::to_chars(digits.data(), digits.data() + digits.size(), s.machine.sticky).ptr);
+               }},
+    SettingRow{"mode", "see `modes`", "variation of the game",
+               READ(s.mode = whole(value, "mode", 0, kMostFrames)), ECHO(std::int64_t{e.mode()})},
+    SettingRow{"difficulty", "see `difficulties`", "difficulty switches",
+               READ(s.difficulty = whole(value, "difficulty", 0, kMostFrames)),
+               ECHO(std::int64_t{e.difficulty()})},
+    SettingRow{"max_episode_frames", "0 to 2147483647",
+               "frames after which an episode is truncated; 0: never",
+               READ(s.machine.max_episode_frames = whole(value, "max_episode_frames", 0, kMostFrames)),
+               ECHO(std::int64_t{s.machine.max_episode_frames})},
+    SettingRow{"life_loss_ends", "0 or 1", "a lost life truncates the episode",
+               READ(s.machine.truncate_on_life_loss = flag(value, "life_loss_ends")),
+               ECHO(std::int64_t{s.machine.truncate_on_life_loss})},
+    SettingRow{"noop_max", "0 to 1000",
+               "an episode begins with 0 to noop_max - 1 frames of NOOP, drawn by seed",
+               READ(s.noop_max = whole(value, "noop_max", 0, kMostNoops)), ECHO(std::int64_t{s.noop_max})},
+    SettingRow{"autoreset", "0 or 1", "an act after the end of an episode does what `reset` does",
+               READ(s.autoreset = flag(value, "autoreset")), ECHO(std::int64_t{s.autoreset})},
+    SettingRow{
+        "action_set", "full, legal or minimal", "the actions that `act` accepts", set_action_set,
+        [](std::string& out, const PlaySettings& s, const Environment&) { out += name_of(s.action_set); }},
+    SettingRow{"reward_min", "none or a whole number", "an act's reward is raised to it",
+               READ(s.machine.reward_min = reward_limit(value, "reward_min", kLeastReward)),
+               [](std::string& out, const PlaySettings& s, const Environment&) {
+                 append_reward_limit(out, s.machine.reward_min, kLeastReward);
+               }},
+    SettingRow{"reward_max", "none or a whole number", "an act's reward is lowered to it",
+               READ(s.machine.reward_max = reward_limit(value, "reward_max", kMostReward)),
+               [](std::string& out, const PlaySettings& s, const Environment&) {
+                 append_reward_limit(out, s.machine.reward_max, kMostReward);
+               }},
+    SettingRow{"rules", "ale-0.12 or fixed",
+               "how score and end are found: as the reference does, or corrected where it errs", set_rules,
+               [](std::string& out, const PlaySettings& s, const Environment&) {
+                 out += kRules[static_cast<std::size_t>(s.machine.rules)];
+               }},
+    SettingRow{"color_averaging", "0 or 1", "blend each screen with the one before it",
+               READ(s.machine.color_averaging = flag(value, "color_averaging")),
+               ECHO(std::int64_t{s.machine.color_averaging})},
+    SettingRow{"sound", "0 or 1", "make the samples of the field audio",
+               READ(s.machine.sound = flag(value, "sound")), ECHO(std::int64_t{s.machine.sound})},
+};
+
+#undef READ
+#undef ECHO
+
+constexpr std::array kPresets = {
+    PresetRow{"paper2013", "frame_skip=5 sticky=0 action_set=full max_episode_frames=18000",
+              "Bellemare et al. 2013"},
+    PresetRow{"dqn2015",
+              "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=18000 life_loss_ends=1 "
+              "noop_max=30 reward_min=-1 reward_max=1",
+              "Mnih et al. 2015, as in training; evaluate with life_loss_ends=0 and rewards as they are"},
+    PresetRow{"machado2018", "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000",
+              "Machado et al. 2018"},
+    PresetRow{"gym-v5", "frame_skip=4 sticky=0.25 action_set=minimal max_episode_frames=108000",
+              "Gymnasium's ALE/...-v5"},
+};
+
+const SettingRow& setting_row(std::string_view name) {
+  const auto found = std::ranges::find(kSettings, name, &SettingRow::name);
+  if (found != kSettings.end()) return *found;
+  refuse_name(Code::kBadArguments, "setting", name, names_of(kSettings));
+}
+
+}  // namespace
+
+// An episode that never ends is of no use to anybody, so that there is a limit: Gymnasium's.
+PlaySettings::PlaySettings() { machine.max_episode_frames = 108000; }
+
+std::span<const SettingRow> setting_rows() { return kSettings; }
+std::span<const PresetRow> preset_rows() { return kPresets; }
+
+void read_settings(Words words, PlaySettings& settings) {
+  std::bitset<kSettings.size()> given;
+  for (const bool presets : {true, false}) {
+    for (const std::string_view word : words) {
+      const auto [key, value] = key_value(word);
+      if ((key == "preset") != presets) continue;
+      const SettingRow& row = setting_row(key);
+      const auto place = static_cast<std::size_t>(&row - kSettings.data());
+      if (given[place]) refuse_twice(key);
+      given.set(place);
+      row.set(settings, value);
+    }
+  }
+}
+
+void append_settings(std::string& out, const PlaySettings& settings, const Environment& machine) {
+  for (const SettingRow& row : kSettings) {
+    ((out += ' ') += row.name) += '=';
+    row.append(out, settings, machine);
+  }
+}
+
+std::string_view name_of(ActionSet set) { return kActionSets[static_cast<std::size_t>(set)]; }
+
+const std::vector<int>& actions_of(ActionSet set, const Game& game) {
+  static const std::vector<int> full = all_actions();
+  if (set == ActionSet::kFull) return full;
+  return set == ActionSet::kLegal ? game.legal_actions : game.minimal_actions;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,53 @@
+// What a client can set when it loads a game: one table, from which the settings are read, echoed and
+// explained.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "environment/environment.hpp"
+#include "protocol/line/words.hpp"
+
+namespace racebeam {
+
+enum class ActionSet { kFull, kLegal, kMinimal };
+
+struct PlaySettings {
+  PlaySettings();  // the defaults of the line protocol
+
+  Settings machine;
+  std::optional<int> mode, difficulty;  // the game's defaults if not given
+  ActionSet action_set = ActionSet::kFull;
+  bool autoreset = false;  // an act after the end of an episode is a reset
+  int noop_max = 0;        // an episode begins with 0 to noop_max - 1 frames in which nobody acts
+  std::string_view preset = "none";
+};
+
+struct SettingRow {
+  std::string_view name;
+  std::string_view accepted;  // for people
+  std::string_view summary;
+  void (*set)(PlaySettings& settings, std::string_view value);  // throws Refusal
+  void (*append)(std::string& out, const PlaySettings& settings, const Environment& machine);
+};
+std::span<const SettingRow> setting_rows();
+
+struct PresetRow {
+  std::string_view name;
+  std::string_view words;  // what a client could have written instead
+  std::string_view source;
+};
+std::span<const PresetRow> preset_rows();
+
+// The words key=value of a request; a preset comes first, wherever it stands. Throws Refusal.
+void read_settings(Words words, PlaySettings& settings);
+
+// " key=value" for every setting, as it is in effect.
+void append_settings(std::string& out, const PlaySettings& settings, const Environment& machine);
+
+std::string_view name_of(ActionSet set);
+const std::vector<int>& actions_of(ActionSet set, const Game& game);  // player A's numbers, ascending
+
+}  // namespace racebeam

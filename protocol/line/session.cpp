@@ -1,0 +1,294 @@
+#include "protocol/line/session.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "protocol/line/commands/command.hpp"
+#include "protocol/line/session_recording.hpp"
+
+namespace racebeam {
+namespace {
+
+// Waking a client that sleeps takes the time of a step, sending that of some more: the replies of requests
+// that were sent ahead go out together, when kLastRequests are left, which are answered while the client
+// reads and sends the next. No more of them wait than this.
+constexpr std::size_t kLastRequests = 3;
+constexpr int kFewReplies = 4;
+constexpr int kFramesOfReplies = 64;              // some hundred microseconds
+constexpr std::size_t kBytesOfReplies = 1 << 16;  // some twenty with a screen
+
+constexpr std::size_t kShortLine = 4096;
+constexpr std::size_t kBytesOfWord =
+    48;  // that each word of a request may take, an action and its reward; two bytes at least
+
+const LineLimits& limits(const LineService& service) { return service.limits; }
+
+// Who has not given a token yet has little to say.
+std::size_t longest_line(const LineService& service, bool admitted) {
+  constexpr std::size_t kLongestBefore = 4096;
+  return admitted ? limits(service).line : std::min(kLongestBefore, limits(service).line);
+}
+
+std::size_t first_unprintable(std::string_view line) {
+  const auto bad = std::ranges::find_if(line, [](char c) { return c < ' ' || c > '~'; });
+  return static_cast<std::size_t>(bad - line.begin());
+}
+
+// A sentence can quote what came as base64, and that may be any bytes.
+void append_printable(std::string& out, std::string_view sentence) {
+  for (const char c : sentence) out += c < ' ' || c > '~' ? '?' : c;
+}
+
+void check_bytes(std::string_view line) {
+  const std::size_t bad = first_unprintable(line);
+  if (bad == line.size()) return;
+  const auto byte = static_cast<unsigned char>(line[bad]);
+  throw Refusal(Code::kBadLine, "byte " + std::to_string(bad + 1) + " of the line has the value " +
+                                    std::to_string(byte) + "; a request is printable ASCII, 32 to 126");
+}
+
+}  // namespace
+
+Session::Session(const LineService& with, Meter* counting)
+    : service(with),
+      input(longest_line(with, !with.admission)),
+      admitted(!with.admission),
+      fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})),
+      memory(with.memory.get()),
+      meter_(counting) {
+  memory.set(footprint());
+}
+
+// Before what they use.
+Session::~Session() {
+  pacer.cancel();
+  recording.reset();
+}
+
+void Session::check_frames(std::int64_t acts, std::int64_t frames) const {
+  const Settings& machine = settings.machine;
+  frames += acts * std::max(machine.frame_skip, machine.frame_skip_max);
+  const std::int64_t most = limits(service).request_frames;
+  if (frames <= most) return;
+  throw Refusal(Code::kLimit, "the request asks for " + std::to_string(frames) + " frames; it may ask for " +
+                                  std::to_string(most));
+}
+
+void Session::allow_resets(std::size_t count) {
+  pacer.allow_frames(limits(service).request_frames + kFreeResetFrames * static_cast<std::int64_t>(count));
+}
+
+void Session::check_reply(std::size_t bytes, const std::string& about) const {
+  const std::size_t most = limits(service).reply;
+  if (bytes <= most) return;
+  throw Refusal(Code::kLimit, "a reply about " + about + " would have about " + std::to_string(bytes) +
+                                  " bytes; it may have " + std::to_string(most));
+}
+
+void Session::admit() {
+  admitted = true;
+  input.set_longest(longest_line(service, admitted));
+}
+
+void Session::count(const Outcome& outcome) {
+  statistics.acts += outcome.acts;
+  statistics.frames += outcome.frames;
+  statistics.episodes += outcome.frames > 0 && (outcome.terminated || outcome.truncated);
+}
+
+void Session::append_cut() {
+  if (recording) recording->append_cut(out);
+}
+
+void Session::stop_recording_machines() {
+  if (recording && !recording->shows(*player)) recording.reset();
+}
+
+void Session::run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const {
+  if (service.parallel) return service.parallel(count, task);
+  for (std::size_t number = 0; number < count; ++number) task(number);
+}
+
+bool Session::run(std::chrono::microseconds slice) {
+  const auto begin = looked_ = Clock::now(), end = begin + slice;
+  if (!pacer.in_progress()) began_ = begin;
+  bool more = true;
+  for (bool late = false; more && !late && !done_ && !pauses() && !waits(); late = looked_ >= end)
+    more = go_on(end);
+  worked_ = looked_ - begin;
+  return more && !done_;
+}
+
+// A reader that is slow holds up its own requests only.
+bool Session::has_enough() const {
+  return pacer.frames() - sent_frames_ >= kFramesOfReplies ||
+         out.size() >= std::min(kBytesOfReplies, limits(service).output);
+}
+
+bool Session::pauses() const {
+  if (pacer.in_progress() || out.empty() || input.empty()) return false;
+  return has_enough() || (unsent_ >= kFewReplies && input.lines(kLastRequests + 1) == kLastRequests);
+}
+
+bool Session::wants_more() const {
+  return !pacer.in_progress() && !done_ && unsent_ > 1 && !has_enough() &&
+         input.lines(kLastRequests + 1) <= kLastRequests;
+}
+
+bool Session::waits() const { return pacer.in_progress() && recording && recording->is_behind(); }
+
+// A request, or a part of one; false when there is nothing to do before something comes in.
+bool Session::go_on(Clock::time_point end) {
+  if (pacer.in_progress()) {
+    pacer.go_on(end);
+  } else {
+    const auto line = input.next();
+    if (!line) {
+      done_ = input.ended();
+      return false;
+    }
+    if (ignores(*line)) return true;
+    begin_request();
+    guarded([&] { pacer.work(end, [this, line = *line] { guarded([&] { take(line); }); }); });
+  }
+  looked_ = Clock::now();
+  if (!pacer.in_progress()) finish_reply();
+  return true;
+}
+
+void Session::refuse(Code code, std::string_view sentence) {
+  out.resize(reply_);
+  ((out += "error ") += name_of(code)) += ' ';
+  append_printable(out, sentence);
+  ++statistics.errors;
+  refused_ = true;
+}
+
+template <typename Step>
+void Session::guarded(Step step) {
+  try {
+    step();
+  } catch (const Refusal& refusal) {
+    refuse(refusal.code(), refusal.what());
+  } catch (const std::invalid_argument& error) {
+    refuse(Code::kBadValue, error.what());
+  } catch (const std::bad_alloc&) {
+    refuse(Code::kLimit, "the system has no more memory for this request");
+  } catch (const std::exception& error) {
+    refuse(Code::kInternal, error.what());
+  }
+}
+
+void Session::begin_request() {
+  ++statistics.requests;
+  reply_ = out.size();
+  pacer.allow_any_frames();
+  command_ = commands().size();
+  refused_ = false;
+}
+
+// A comment: it has no reply.
+bool Session::ignores(const LineReader::Line& line) {
+  const std::size_t first = line.text.find_first_not_of(' ');
+  if (first == std::string_view::npos || line.text[first] != '#') return false;
+  statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
+  began_ = looked_ = Clock::now();  // of the next request
+  return true;
+}
+
+void Session::take(const LineReader::Line& line) {
+  statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
+  if (line.kind == LineReader::Kind::kLine) return execute(line.text);
+  if (line.kind == LineReader::Kind::kHalf)
+    throw Refusal(Code::kHalfLine, "the input ended within a line; it was not carried out");
+  throw Refusal(Code::kLineTooLong,
+                "the line has more than " + std::to_string(input.longest()) + " bytes; it was skipped");
+}
+
+void Session::execute(std::string_view line) {
+  if (line.size() > kShortLine) memory.check(kBytesOfWord / 2 * line.size(), "a line of so many words");
+  check_bytes(line);
+  read_words(line);
+  if (words_.empty()) throw Refusal(Code::kBadLine, "the line is empty; help lists the commands");
+  const Command& command = find_command(words_[0]);
+  command_ = static_cast<std::size_t>(&command - commands().data());
+  const Words arguments = Words(words_).subspan(1);
+  check(command, *this, arguments.size());
+  command.run(*this, arguments);
+}
+
+// A line may have half a million.
+void Session::read_words(std::string_view line) {
+  constexpr std::size_t kWordsBetweenLooks = 1024;
+  words_.clear();
+  for (auto word = next_word(line); !word.empty(); word = next_word(line)) {
+    words_.push_back(word);
+    if (words_.size() % kWordsBetweenLooks == 0) pacer.breathe();
+  }
+}
+
+void Session::finish_reply() {
+  out += '\n';
+  ++unsent_;
+  statistics.bytes_out += static_cast<std::int64_t>(out.size() - reply_);
+  done_ = quitting || refused();
+  memory.set(footprint());
+  if (meter_) measure();
+  began_ = looked_;  // the next, if it is there
+}
+
+void Session::measure() {
+  meter_->request(command_, refused_, looked_ - began_);
+  meter_->frames.add(statistics.frames - metered_frames_);
+  metered_frames_ = statistics.frames;
+}
+
+// Bytes, about. Of what changes within a request, what is large is checked before it is taken.
+std::size_t Session::footprint() const {
+  constexpr std::size_t kSession = std::size_t{48} << 10;  // with connection, fiber and buffers
+  std::size_t bytes = kSession + out.capacity() + input.capacity() + states.footprint() +
+                      machines.footprint(fields) + actions.capacity() * sizeof(Action) +
+                      words_.capacity() * sizeof(std::string_view);
+  if (player) bytes += Player::footprint(fields);
+  if (recording) bytes += recording->recording().memory();
+  if (cartridge.image && service.images->find(cartridge.image->md5) == nullptr) bytes += kOwnImage;
+  return bytes;
+}
+
+// A line that there is no memory for is too long.
+std::span<char> Session::space() {
+  if (const std::size_t growth = input.growth(); growth > 0 && !memory.grow(growth)) input.cut_line();
+  return input.space();
+}
+
+std::string_view Session::whole_replies() const {
+  return std::string_view(out).substr(0, pacer.in_progress() ? reply_ : out.size());
+}
+
+void Session::sent(std::size_t count) {
+  out.erase(0, count);
+  unsent_ = 0;
+  sent_frames_ = pacer.frames();
+  reply_ -= std::min(reply_, count);
+}
+
+void Session::cancel() {
+  if (pacer.in_progress()) {
+    pacer.cancel();
+    out.resize(reply_);
+  }
+  done_ = true;
+}
+
+void Session::rest() {
+  if (pacer.in_progress()) return;  // a request waits for a reader that is slow; its words are in use
+  if (player) player->machine().rest();
+  machines.rest();
+  if (out.empty()) out.shrink_to_fit();
+  std::vector<Action>().swap(actions);
+  std::vector<std::string_view>().swap(words_);
+  if (!pacer.in_progress()) memory.set(footprint());
+}
+
+}  // namespace racebeam

@@ -1,0 +1,38 @@
+// What `record` has begun in a session: each frame of an act of its machine goes to the recorder.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "protocol/line/player.hpp"
+#include "recording/recording.hpp"
+
+namespace racebeam {
+
+class SessionRecording {
+ public:
+  // Watches the player's machine, which outlives it.
+  SessionRecording(std::shared_ptr<Recording> recording, Player& player);
+  ~SessionRecording();  // keeps what there is, without waiting for it
+  SessionRecording(const SessionRecording&) = delete;
+  SessionRecording& operator=(const SessionRecording&) = delete;
+
+  void watch();  // the machine, again
+  bool shows(const Player& player) const { return &player == &player_; }
+  bool is_behind() const { return recording_->is_behind(); }
+  Recording& recording() { return *recording_; }
+  const std::string& names() const { return recording_->names(); }
+
+  // " recording_ended=limit" or "disk": once, as soon as it is known that a limit or the disk has cut it off.
+  void append_cut(std::string& out);
+
+ private:
+  std::shared_ptr<Recording> recording_;
+  Player& player_;
+  bool told_ = false;
+};
+
+// Suspends the body of `pacer` until the recording has begun, has room for a frame, or has finished.
+void await(const Recording& recording, Pacer& pacer);
+
+}  // namespace racebeam

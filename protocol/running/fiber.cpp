@@ -1,0 +1,89 @@
+#include "protocol/running/fiber.hpp"
+
+#include <boost/context/fiber.hpp>
+
+#include "protocol/running/fiber_stack.hpp"
+#include "protocol/running/sanitizer_fiber.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace context = boost::context;
+
+struct Cancelled {};  // unwinds the body
+
+struct NoAllocator {  // the stack is the Run's
+  void deallocate(context::stack_context&) {}
+};
+
+}  // namespace
+
+struct Fiber::Run {
+  context::preallocated whole_stack() {
+    context::stack_context place;
+    place.size = FiberStack::kBytes;
+    place.sp = stack.bottom() + FiberStack::kBytes;
+    return {place.sp, place.size, place};
+  }
+
+  void run(void (*body)(void*), void* context);
+  bool go_on();  // true: the body has returned
+
+  FiberStack stack;
+  SanitizerFiber sanitizer{stack.bottom(), FiberStack::kBytes};
+  context::fiber body;    // suspended, or empty
+  context::fiber caller;  // of the body, while it runs
+  bool cancelled = false;
+};
+
+void Fiber::Run::run(void (*call)(void*), void* with) {
+  body = context::fiber(std::allocator_arg, whole_stack(), NoAllocator{},
+                        [this, call, with](context::fiber&& from) {
+                          sanitizer.arrived_in_body();
+                          caller = std::move(from);
+                          try {
+                            call(with);
+                          } catch (const Cancelled&) {
+                          }
+                          sanitizer.leaves_body_for_good();
+                          return std::move(caller);
+                        });
+}
+
+bool Fiber::Run::go_on() {
+  sanitizer.leaves_caller();
+  body = std::move(body).resume();
+  sanitizer.arrived_in_caller();
+  return !body;
+}
+
+Fiber::Fiber() = default;
+Fiber::~Fiber() { cancel(); }
+
+bool Fiber::start(void (*body)(void*), void* context) {
+  run_ = std::make_unique<Run>();
+  run_->run(body, context);
+  return resume();
+}
+
+bool Fiber::resume() {
+  if (!run_->go_on()) return false;
+  run_.reset();
+  return true;
+}
+
+void Fiber::suspend() {
+  Run& run = *run_;
+  run.sanitizer.leaves_body();
+  run.caller = std::move(run.caller).resume();
+  run.sanitizer.arrived_in_body();
+  if (run.cancelled) throw Cancelled{};
+}
+
+void Fiber::cancel() {
+  if (!run_) return;
+  run_->cancelled = true;
+  while (!resume()) continue;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,41 @@
+"""Where the tools find cartridge images: our own are built in, others are in RACEBEAM_ROMS, else in ale-py."""
+import importlib.util
+import os
+import pathlib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+OURS = ("beamfall", "updraft")
+WITHOUT_RULE = ("combat", "joust", "maze_craze", "warlords")  # the reference has images of them, and can't play them
+
+
+def folder():
+    """The folder of images, or None if there is none."""
+    given = os.environ.get("RACEBEAM_ROMS")
+    if given:
+        candidates = [pathlib.Path(given)]
+    else:
+        here = importlib.util.find_spec("ale_py")
+        candidates = [pathlib.Path(here.origin).parent / "roms"] if here else []
+        candidates += ROOT.glob(".venv/lib/python*/site-packages/ale_py/roms")
+    return next((path for path in candidates if path.is_dir()), None)
+
+
+def games():
+    """All that the reference can play and that there are images of, sorted."""
+    place = folder()
+    names = [] if place is None else sorted(path.stem for path in place.glob("*.bin"))
+    return [name for name in names if name not in WITHOUT_RULE]
+
+
+def image(game):
+    """What --rom takes. Raises LookupError, with a sentence, for a game that there is no image of."""
+    if game in OURS:
+        return f"builtin:{game}"
+    place = folder()
+    if place is None:
+        raise LookupError(f"there is no image of {game}: neither RACEBEAM_ROMS nor an ale-py in .venv has images "
+                          f"(scripts/reference installs it); our own games are {' and '.join(OURS)}")
+    path = place / f"{game}.bin"
+    if not path.is_file():
+        raise LookupError(f"there is no image of {game} in {place}")
+    return str(path)

@@ -1,0 +1,127 @@
+#include "server/access/address.hpp"
+
+#include <charconv>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>  // Asio 1.74 forgets it
+
+#include <boost/asio/ip/address.hpp>
+
+namespace racebeam {
+namespace {
+
+constexpr std::string_view kClassic = "classic+", kTls = "tls+", kTlsScheme = "tls://";
+constexpr std::string_view kTcp = "tcp://", kUnix = "unix:", kSystemd = "systemd",
+                           kPipes = "pipes:", kStdio = "stdio";
+
+bool cut(std::string_view& text, std::string_view prefix) {
+  if (!text.starts_with(prefix)) return false;
+  text.remove_prefix(prefix.size());
+  return true;
+}
+
+std::optional<std::uint16_t> parse_port(std::string_view text) {
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  return whole ? std::optional(port) : std::nullopt;
+}
+
+std::optional<TcpAddress> parse_tcp(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  const auto port = parse_port(text.substr(colon + 1));
+  std::string host(text.substr(0, colon));
+  if (host == "localhost") host = "127.0.0.1";
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  boost::system::error_code error;
+  boost::asio::ip::make_address(host, error);
+  if (error || !port) return std::nullopt;
+  return TcpAddress{host, *port};
+}
+
+// A path may be written as in a URL: unix:///run/s is /run/s.
+std::string path_of(std::string_view text) {
+  cut(text, "//");
+  return std::string(text);
+}
+
+std::optional<Address> parse_address(std::string_view text) {
+  if (text == kStdio) return StandardStreams{};
+  if (text == kSystemd) return InheritedAddress{};
+  if (cut(text, kTcp)) {
+    if (auto address = parse_tcp(text)) return *address;
+    return std::nullopt;
+  }
+  const bool inherited = text.starts_with("systemd:"), pipes = text.starts_with(kPipes);
+  const bool local = text.starts_with(kUnix);
+  if (!inherited && !pipes && !local) return std::nullopt;
+  const std::string rest = path_of(text.substr(text.find(':') + 1));
+  if (rest.empty()) return std::nullopt;
+  if (inherited) return InheritedAddress{rest};
+  if (pipes) return Pipes{rest};
+  return UnixAddress{rest};
+}
+
+struct Writer {
+  std::string operator()(const TcpAddress& address) const {
+    const bool colons = address.host.find(':') != std::string::npos;
+    return std::string(kTcp) + (colons ? "[" + address.host + "]" : address.host) + ":" +
+           std::to_string(address.port);
+  }
+  std::string operator()(const UnixAddress& address) const { return std::string(kUnix) + address.path; }
+  std::string operator()(const InheritedAddress& address) const {
+    return std::string(kSystemd) + (address.name.empty() ? "" : ":" + address.name);
+  }
+  std::string operator()(StandardStreams) const { return std::string(kStdio); }
+  std::string operator()(const Pipes& pipes) const { return std::string(kPipes) + pipes.prefix; }
+  std::string operator()(AlePipes) const { return "pipes:ale_fifo"; }
+};
+
+}  // namespace
+
+Endpoint parse_endpoint(const std::string& text) {
+  std::string_view rest = text;
+  Endpoint endpoint;
+  endpoint.classic = cut(rest, kClassic);
+  endpoint.tls = cut(rest, kTls);
+  std::string in_full(rest);
+  if (!endpoint.tls && cut(rest, kTlsScheme)) {
+    endpoint.tls = true;
+    (in_full = kTcp) += rest;
+  }
+  const auto address = parse_address(in_full);
+  if (address && !(endpoint.tls && is_stream(*address))) {
+    endpoint.address = *address;
+    return endpoint;
+  }
+  throw std::invalid_argument(
+      "'" + text +
+      "' is not an address to listen on; there are tcp://HOST:PORT and tls://HOST:PORT (an IP address or "
+      "localhost; port 0 picks a free one), unix:PATH, systemd or systemd:NAME, stdio and pipes:PREFIX; "
+      "classic+ before one speaks the classic protocol there");
+}
+
+TcpAddress parse_host_and_port(const std::string& text) {
+  if (const auto address = parse_tcp(text)) return *address;
+  throw std::invalid_argument("'" + text +
+                              "' is not HOST:PORT, with an IP address or localhost; port 0 picks a free one");
+}
+
+std::string to_string(const Address& address) { return std::visit(Writer{}, address); }
+
+std::string to_string(const Endpoint& endpoint) {
+  std::string text = to_string(endpoint.address);
+  if (endpoint.tls) text = text.starts_with(kTcp) ? "tls://" + text.substr(kTcp.size()) : "tls+" + text;
+  return (endpoint.classic ? "classic+" : "") + text;
+}
+
+bool is_stream(const Address& address) {
+  return std::holds_alternative<StandardStreams>(address) || std::holds_alternative<Pipes>(address) ||
+         std::holds_alternative<AlePipes>(address);
+}
+
+bool is_loopback(const std::string& host) { return boost::asio::ip::make_address(host).is_loopback(); }
+
+}  // namespace racebeam

@@ -1,0 +1,87 @@
+#include "server/access/tokens.hpp"
+
+#include <openssl/crypto.h>
+#include <openssl/evp.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "server/operation/log.hpp"
+#include "system/input_file.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::size_t kShortest = 16, kLongest = 1024, kLargestFile = 1 << 24;
+
+bool is_comment(std::string_view line) { return line.empty() || line.starts_with('#'); }
+
+std::string_view trimmed(std::string_view line) {
+  while (line.ends_with('\r') || line.ends_with(' ')) line.remove_suffix(1);
+  return line;
+}
+
+bool is_token(std::string_view text) {
+  return text.size() >= kShortest && text.size() <= kLongest &&
+         std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; });
+}
+
+void warn_if_open(const std::string& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0 || (found.st_mode & S_IROTH) == 0) return;
+  log_warning("every user of this machine can read the tokens in " + path + "; chmod 600 keeps them");
+}
+
+}  // namespace
+
+Tokens::Tokens(std::string path) : path_(std::move(path)), digests_(read(path_)) {}
+
+void Tokens::read_again() {
+  auto digests = read(path_);
+  const std::lock_guard lock(mutex_);
+  digests_.swap(digests);
+}
+
+std::size_t Tokens::count() const {
+  const std::lock_guard lock(mutex_);
+  return digests_.size();
+}
+
+bool Tokens::admits(std::string_view token) const {
+  const Digest candidate = digest_of(token);
+  const std::lock_guard lock(mutex_);
+  bool known = false;
+  for (const Digest& digest : digests_)
+    known |= CRYPTO_memcmp(digest.data(), candidate.data(), digest.size()) == 0;
+  return known;
+}
+
+Tokens::Digest Tokens::digest_of(std::string_view token) {
+  Digest digest{};
+  if (EVP_Digest(token.data(), token.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
+    throw std::runtime_error("libcrypto has no SHA-256 here");
+  return digest;
+}
+
+std::vector<Tokens::Digest> Tokens::read(const std::string& path) {
+  std::istringstream file(read_input_file("cannot read the token file", path, kLargestFile));
+  std::vector<Digest> digests;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    const std::string_view text = trimmed(line);
+    if (is_comment(text)) continue;
+    if (!is_token(text)) {
+      throw std::runtime_error(path + ", line " + std::to_string(number) +
+                               ": a token has 16 to 1024 printable characters and no blanks");
+    }
+    digests.push_back(digest_of(text));
+  }
+  if (digests.empty()) throw std::runtime_error("there is no token in " + path);
+  warn_if_open(path);
+  return digests;
+}
+
+}  // namespace racebeam

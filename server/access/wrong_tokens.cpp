@@ -1,0 +1,62 @@
+#include "server/access/wrong_tokens.hpp"
+
+#include <algorithm>
+
+namespace racebeam {
+namespace {
+
+namespace ip = boost::asio::ip;
+using namespace std::chrono_literals;
+
+constexpr auto kFirstDelay = 100ms;
+constexpr auto kMemory = 10min;  // of a wrong token
+constexpr std::size_t kMostSources = 4096;
+constexpr int kMostDoublings = 16;
+
+}  // namespace
+
+std::string WrongTokens::source_of(const ip::address& address) {
+  if (address.is_v4()) return address.to_string();
+  const ip::address_v6 six = address.to_v6();
+  if (six.is_v4_mapped()) return ip::make_address_v4(ip::v4_mapped, six).to_string();
+  ip::address_v6::bytes_type bytes = six.to_bytes();
+  std::fill(bytes.begin() + 8, bytes.end(), 0);
+  return ip::address_v6(bytes).to_string() + "/64";
+}
+
+WrongTokens::Delay WrongTokens::delay(const std::string& source) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = rows_.find(source);
+  if (found == rows_.end() || Clock::now() - found->second.latest > kMemory) return 0ms;
+  return std::min<Delay>(longest_, kFirstDelay * (1 << std::min(found->second.wrong - 1, kMostDoublings)));
+}
+
+int WrongTokens::count(const std::string& source) {
+  const std::lock_guard lock(mutex_);
+  if (!rows_.contains(source)) make_room();
+  Row& row = rows_[source];
+  const auto now = Clock::now();
+  row.wrong = now - row.latest > kMemory ? 1 : row.wrong + 1;
+  row.latest = now;
+  return row.wrong;
+}
+
+void WrongTokens::forgive(const std::string& source) {
+  const std::lock_guard lock(mutex_);
+  rows_.erase(source);
+}
+
+void WrongTokens::make_room() {
+  if (rows_.size() < kMostSources) return;
+  const auto earlier = [](const auto& a, const auto& b) { return a.second.latest < b.second.latest; };
+  rows_.erase(std::ranges::min_element(rows_, earlier));
+}
+
+std::pair<int, int> Guesser::heard(int wrong) {
+  int in_a_row = 0;
+  const int more = wrong - wrong_;
+  for (; wrong_ < wrong; ++wrong_) in_a_row = all_->count(source_);
+  return {more, in_a_row};
+}
+
+}  // namespace racebeam

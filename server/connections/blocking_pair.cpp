@@ -1,0 +1,128 @@
+#include "server/connections/blocking_pair.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <stdexcept>
+#include <system_error>
+
+namespace racebeam {
+namespace {
+
+constexpr int kWakingSignal = SIGUSR1;
+
+// A pipe holds 64 KiB unless it is told otherwise: a longer reply, of many machines, would wait for its
+// reader in between. Where it is no pipe, or may not be larger, it stays as it is.
+void make_room(int pipe) {
+  constexpr int kRoom = 1 << 18;
+  if (::fcntl(pipe, F_GETPIPE_SZ) < kRoom) ::fcntl(pipe, F_SETPIPE_SZ, kRoom);
+}
+
+void wait_until(int descriptor, short ready) {
+  pollfd state{descriptor, ready, 0};
+  ::poll(&state, 1, -1);
+}
+
+}  // namespace
+
+// A handler that does nothing, and calls that are not restarted after it: they end with EINTR.
+void Halt::prepare() {
+  struct sigaction action {};
+  action.sa_handler = [](int) {};
+  ::sigaction(kWakingSignal, &action, nullptr);
+}
+
+void Halt::wake(pthread_t thread) { ::pthread_kill(thread, kWakingSignal); }
+
+BlockingPair::~BlockingPair() {
+  for (const int descriptor : {in_, out_}) {
+    if (descriptor > STDERR_FILENO) ::close(descriptor);
+  }
+}
+
+void BlockingPair::use(int in, int out) {
+  in_ = in;
+  out_ = out;
+  make_room(out_);
+}
+
+bool BlockingPair::open(int& descriptor, const std::string& path, int flags) {
+  while (!halt_.reading) {
+    descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+    if (descriptor >= 0) return true;
+    if (errno == EINTR) continue;
+    throw std::runtime_error("cannot open the pipe " + path + ": " + std::generic_category().message(errno));
+  }
+  return false;
+}
+
+bool BlockingPair::open_out(const std::string& path, int flags) {
+  if (!open(out_, path, O_WRONLY | flags)) return false;
+  make_room(out_);
+  return true;
+}
+
+bool BlockingPair::open_in(const std::string& path) { return open(in_, path, O_RDONLY); }
+
+std::size_t BlockingPair::read(std::span<char> space) {
+  const auto began = BusyPoll::Clock::now();
+  const auto found = quick_ ? read_awake(space) : std::nullopt;
+  const std::size_t count = found ? *found : read_asleep(space);
+  quick_ = busy_.came_after(BusyPoll::Clock::now() - began);
+  return count;
+}
+
+std::optional<std::size_t> BlockingPair::read_at_once(std::span<char> space) {
+  if (halt_.reading) return std::nullopt;
+  iovec part{space.data(), space.size()};
+  const ssize_t count = ::preadv2(in_, &part, 1, -1, RWF_NOWAIT);
+  return count < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(count));
+}
+
+// Where the system can't look without waiting, it is left to read_asleep().
+std::optional<std::size_t> BlockingPair::read_awake(std::span<char> space) {
+  for (busy_.begin(); busy_.again();) {
+    if (const auto count = read_at_once(space)) return count;
+    if (halt_.reading || errno != EAGAIN) break;
+  }
+  return std::nullopt;
+}
+
+std::size_t BlockingPair::read_asleep(std::span<char> space) {
+  while (!halt_.reading) {
+    const ssize_t count = ::read(in_, space.data(), space.size());
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno == EAGAIN) {
+      wait_until(in_, POLLIN);
+    } else if (errno != EINTR) {
+      break;
+    }
+  }
+  return 0;
+}
+
+bool BlockingPair::write(std::string_view text) {
+  while (!text.empty()) {
+    if (halt_.all) return false;
+    const ssize_t count = ::write(out_, text.data(), text.size());
+    if (count >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EAGAIN) {
+      wait_until(out_, POLLOUT);
+    } else if (errno != EINTR) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool BlockingPair::reader_left() const {
+  pollfd state{out_, 0, 0};
+  return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLERR | POLLHUP)) != 0;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,59 @@
+// Two descriptors, one to read from and one to write to, for a thread that has nothing else to do; it can be
+// woken up by another.
+#pragma once
+
+#include <pthread.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "server/scheduling/busy_poll.hpp"
+
+namespace racebeam {
+
+// What another thread wants of the one that waits.
+struct Halt {
+  std::atomic<bool> reading = false;  // nothing more is to be read
+  std::atomic<bool> all = false;      // nothing more is to be done
+
+  // Interrupts the call of the system that the thread is in. It may come just before the call: repeat it.
+  static void wake(pthread_t thread);
+  static void prepare();  // before wake(), once in a process
+};
+
+class BlockingPair {
+ public:
+  BlockingPair(const Halt& halt, std::chrono::microseconds busy_poll) : halt_(halt), busy_(busy_poll) {}
+  ~BlockingPair();
+  BlockingPair(const BlockingPair&) = delete;
+  BlockingPair& operator=(const BlockingPair&) = delete;
+
+  void use(int in, int out);
+  // Each waits for somebody to open a pipe's other end. False: told to halt. Throws std::runtime_error.
+  bool open_out(const std::string& path, int flags);
+  bool open_in(const std::string& path);
+
+  std::size_t read(std::span<char> space);  // 0: the end, or told to halt
+  // Without waiting; nothing: nothing has come, or the system can't tell.
+  std::optional<std::size_t> read_at_once(std::span<char> space);
+  bool write(std::string_view text);  // false: the client does not read any more, or told to halt
+  bool reader_left() const;           // without waiting
+
+ private:
+  bool open(int& descriptor, const std::string& path, int flags);
+
+  std::optional<std::size_t> read_awake(std::span<char> space);  // nothing: nothing has come
+  std::size_t read_asleep(std::span<char> space);
+
+  const Halt& halt_;
+  BusyPoll busy_;
+  bool quick_ = false;  // the other end wrote at once, the last time
+  int in_ = -1, out_ = -1;
+};
+
+}  // namespace racebeam

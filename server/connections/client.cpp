@@ -1,0 +1,50 @@
+#include "server/connections/client.hpp"
+
+namespace racebeam {
+
+using namespace std::chrono_literals;
+
+constexpr auto kLong = 50us;  // of a request
+
+Client::Client(Socket connection, Loop& home, std::string who)
+    : socket(std::move(connection)), loop(home), name(std::move(who)) {
+  ++loop.sessions;
+}
+
+Client::~Client() { --loop.sessions; }
+
+void Client::came_in() { loop.clients.insert(this); }
+void Client::left() { loop.clients.erase(this); }
+
+void Client::received(std::size_t bytes) {
+  const auto answered = active_;
+  is_active();
+  quick_ = loop.busy.came_after(active_ - answered);
+  loop.meter.bytes_in.add(static_cast<std::int64_t>(bytes));
+}
+
+void Client::sent(std::size_t bytes) {
+  const auto asked = active_;
+  is_active();
+  sleeps_ = active_ - asked > kLong;
+  loop.meter.bytes_out.add(static_cast<std::int64_t>(bytes));
+  if (quick_) loop.busy.begin();
+}
+
+void Client::rest() {
+  if (on_rest && !std::exchange(rests_, true)) on_rest();
+}
+
+void Client::end(Code code, const std::string& sentence) {
+  boost::system::error_code ignored;
+  if (ending()) {
+    if (Clock::now() - ended_ > 2s) socket.close(ignored);
+    return;
+  }
+  ended_ = Clock::now();
+  reason_ = sentence;
+  ((((farewell_ = "error ") += name_of(code)) += ' ') += sentence) += '\n';
+  socket.cancel(ignored);
+}
+
+}  // namespace racebeam

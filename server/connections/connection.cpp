@@ -1,0 +1,321 @@
+#include "server/connections/connection.hpp"
+
+#include <netinet/tcp.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string_view>
+
+#include <boost/asio/ssl.hpp>
+
+#include "server/connections/departure.hpp"
+#include "server/connections/request_peeker.hpp"
+#include "server/operation/log.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace net = boost::asio;
+using boost::system::error_code;
+using net::use_awaitable;
+using namespace std::chrono_literals;
+using TlsStream = net::ssl::stream<Socket&>;
+
+// A short reply fits into the socket's buffer: sent at once, it costs one call of the system, and no turn of
+// the event loop. The rest, or all, is left to async_write.
+std::size_t send_at_once(Socket& socket, std::string_view text) {
+  error_code full;
+  return socket.write_some(net::buffer(text), full);
+}
+std::size_t send_at_once(TlsStream&, std::string_view) { return 0; }
+
+// In pieces, each of which shows that the client still reads.
+template <typename Stream>
+net::awaitable<void> send_rest(Stream& stream, Client& client, std::string_view text) {
+  constexpr std::size_t kPiece = 1 << 16;
+  error_code error;
+  for (; !text.empty(); text.remove_prefix(std::min(kPiece, text.size()))) {
+    const auto piece = net::buffer(text.data(), std::min(kPiece, text.size()));
+    co_await net::async_write(stream, piece, net::redirect_error(use_awaitable, error));
+    if (client.ending()) throw std::runtime_error("closed, it did not read: " + client.reason());
+    if (error) throw std::runtime_error("the client stopped reading");
+    client.sent(piece.size());
+  }
+}
+
+template <typename Token>
+auto read_some(Socket& socket, net::mutable_buffer space, Socket::message_flags flags, Token token) {
+  return socket.async_receive(space, flags, std::move(token));
+}
+template <typename Token>
+auto read_some(TlsStream& stream, net::mutable_buffer space, Socket::message_flags, Token token) {
+  return stream.async_read_some(space, std::move(token));
+}
+
+// Bytes that came; 0: no more will.
+template <typename Stream>
+net::awaitable<std::size_t> receive(Stream& stream, Client& client, std::span<char> space,
+                                    Socket::message_flags flags = 0) {
+  error_code error;
+  const std::size_t count = co_await read_some(stream, net::buffer(space.data(), space.size()), flags,
+                                               net::redirect_error(use_awaitable, error));
+  client.received(count);
+  co_return count;
+}
+
+// The last word, when it is the server that ends the session.
+template <typename Stream>
+net::awaitable<void> take_leave(Stream& stream, Client& client) {
+  error_code ignored;
+  co_await net::async_write(stream, net::buffer(client.farewell()),
+                            net::redirect_error(use_awaitable, ignored));
+  throw std::runtime_error("closed: " + client.reason());
+}
+
+RequestPeeker look_ahead(Socket& socket) { return RequestPeeker(&socket); }
+RequestPeeker look_ahead(TlsStream&) { return RequestPeeker(nullptr); }
+
+bool found_more(RequestPeeker& ahead, Client& client, LineSession& session) {
+  const std::size_t count = client.ending() ? 0 : ahead.look(session.space());
+  if (count == 0) return false;  // the end and errors are left to receive()
+  client.received(count);
+  session.received(count);
+  return true;
+}
+
+// A client that writes a request in pieces may hold the next one back until this one is acknowledged (Nagle's
+// algorithm), which the system puts off by 40 ms. It has to be told each time.
+void acknowledge(Socket& socket) {
+  error_code is_unix;
+  socket.set_option(net::detail::socket_option::boolean<IPPROTO_TCP, TCP_QUICKACK>(true), is_unix);
+}
+
+// Before a token may be looked at.
+net::awaitable<void> hold_back(Client& client) {
+  const auto delay = client.guesser->delay();
+  if (delay == 0ms) co_return;
+  net::steady_timer timer(client.socket.get_executor(), delay);
+  co_await timer.async_wait(use_awaitable);
+}
+
+void judge(Client& client, const LineSession& session, Metrics& metrics) {
+  const auto [more, in_a_row] = client.guesser->heard(session.wrong_tokens());
+  metrics.wrong_tokens += more;
+  if (more > 0) {
+    log_warning(client.name + ": a wrong token from " + client.guesser->source() + ", number " +
+                    std::to_string(in_a_row) + " in a row",
+                {{"client", client.name}, {"event", "wrong-token"}, {"address", client.guesser->source()}});
+  }
+  if (!session.admitted()) return;
+  client.guesser->admitted();
+  client.guesser.reset();
+}
+
+// Waits for the session's turn on its loop.
+net::awaitable<void> take_turn(Client& client) {
+  client.working = true;
+  co_await client.loop.turns.wait(client.usage);
+  client.working = false;
+}
+
+// Works until the session has a reply or wants input.
+net::awaitable<void> work(Client& client, PacedClassic& session) {
+  Turns& turns = client.loop.turns;
+  Departure departure;
+  for (bool done = false; !done;) {
+    if (!turns.may_work(client.usage)) co_await take_turn(client);
+    done = session.work();
+    turns.worked(client.usage, session.worked());
+    if (!done && departure.has_gone(client.socket))
+      throw std::runtime_error("the client left in the middle of an act");
+    if (!done) co_await take_turn(client);
+    if (client.ending()) throw std::runtime_error("closed: " + client.reason());
+  }
+}
+
+template <typename Stream>
+net::awaitable<void> serve_connection(Stream& stream, Client& client, PacedClassic& session, Metrics&) {
+  error_code error;
+  bool piece = false;  // of a line
+  while (!session.ended()) {
+    co_await work(client, session);
+    if (const auto text = session.reply()) {
+      co_await net::async_write(stream, net::buffer(*text), net::redirect_error(use_awaitable, error));
+      client.sent(text->size());
+      client.loop.meter.frames.add(session.take_frames());
+      piece = false;
+      if (error && !session.ended()) throw std::runtime_error("the client stopped reading");
+    } else {
+      if (piece) acknowledge(client.socket);
+      session.received(co_await receive(stream, client, session.space()));
+      piece = true;
+    }
+    if (client.ending()) throw std::runtime_error("closed: " + client.reason());
+  }
+}
+
+// As long as a recording needs for a few frames, of which its queue has more.
+net::awaitable<void> await_recording(Client& client) {
+  net::steady_timer timer(client.socket.get_executor(), 1ms);
+  client.working = true;
+  co_await timer.async_wait(use_awaitable);
+  client.working = false;
+}
+
+// Between two slices of a long request, or of many that were sent ahead, the loop's other sessions have their
+// turn. Of the latter a slice has some parts, each of which ends with replies that are sent.
+template <typename Stream>
+net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSession& session,
+                                      Metrics& metrics) {
+  constexpr int kMostParts = 4;
+  RequestPeeker ahead = look_ahead(stream);
+  Departure departure;
+  Turns& turns = client.loop.turns;
+  bool piece = false;  // all that came last is a piece of a line
+  for (int parts = 0;;) {
+    if (!turns.may_work(client.usage)) co_await take_turn(client);
+    const bool more = session.run();
+    turns.worked(client.usage, session.worked());
+    if (session.wants_more() && found_more(ahead, client, session)) continue;
+    client.admitted = session.admitted();
+    if (client.guesser) judge(client, session, metrics);
+    const std::string_view text = session.output();
+    if (!text.empty()) {
+      piece = false;
+      const std::size_t count = send_at_once(stream, text);
+      client.sent(count);
+      if (count < text.size()) co_await send_rest(stream, client, text.substr(count));
+      session.sent(text.size());
+      ahead.take();
+    }
+    if (session.finished()) break;
+    if (more) {
+      if (text.empty() && departure.has_gone(client.socket))
+        throw std::runtime_error("the client left in the middle of a request");
+      if (!text.empty() && ++parts < kMostParts) continue;
+      parts = 0;
+      if (session.waits()) {  // GCC 12 destroys both results of a conditional expression
+        co_await await_recording(client);
+      } else {
+        co_await take_turn(client);
+      }
+      if (client.ending()) co_await take_leave(stream, client);
+      continue;
+    }
+    if (!client.ending()) {
+      if (piece) acknowledge(client.socket);
+      ahead.take();
+      const auto flags = ahead.flags(client.sleeps());
+      const std::size_t count = co_await receive(stream, client, session.space(), flags);
+      ahead.was_read(flags, count);
+      if (count > 0 || !client.ending()) session.received(count);
+      piece = true;
+      if (client.guesser) co_await hold_back(client);
+    }
+    if (client.ending()) co_await take_leave(stream, client);
+  }
+}
+
+// A client that is slow to close its end is not waited for.
+class Patience {
+ public:
+  explicit Patience(std::shared_ptr<Client> client) : timer_(client->socket.get_executor(), 2s) {
+    timer_.async_wait([client](error_code cancelled) {
+      error_code ignored;
+      if (!cancelled) client->socket.close(ignored);
+    });
+  }
+
+ private:
+  net::steady_timer timer_;
+};
+
+// Closing with input unread would make the system throw away what the client has not read yet.
+net::awaitable<void> close_gently(std::shared_ptr<Client> client) {
+  error_code error;
+  client->socket.shutdown(Socket::shutdown_send, error);
+  const Patience patience(client);
+  std::array<char, 4096> rest;
+  while (!error) {
+    co_await client->socket.async_read_some(net::buffer(rest), net::redirect_error(use_awaitable, error));
+  }
+}
+
+// What a client's session does in a pause, as long as there is the session.
+class Resting {
+ public:
+  Resting(Client& client, std::function<void()> rest) : client_(client) { client_.on_rest = std::move(rest); }
+  ~Resting() { client_.on_rest = nullptr; }
+  Resting(const Resting&) = delete;
+  Resting& operator=(const Resting&) = delete;
+
+ private:
+  Client& client_;
+};
+
+template <typename Stream>
+net::awaitable<void> play(Stream& stream, Client& client, const ClassicService& service, Metrics& metrics) {
+  client.admitted = true;
+  PacedClassic session(service);
+  co_await work(client, session);
+  session.check_machine();
+  log(client.name + ": " + describe(session.machine()), {{"client", client.name}, {"event", "came"}});
+  const Resting resting(client, [&session] { session.rest(); });
+  co_await serve_connection(stream, client, session, metrics);
+}
+
+template <typename Stream>
+net::awaitable<void> play(Stream& stream, Client& client, const LineService& service, Metrics& metrics) {
+  LineSession session(service, &client.loop.meter);
+  log(client.name + ": came", {{"client", client.name}, {"event", "came"}});
+  const Resting resting(client, [&session] { session.rest(); });
+  co_await serve_connection(stream, client, session, metrics);
+  log(client.name + ": " + session.summary(), {{"client", client.name}, {"event", "left"}});
+}
+
+template <typename Stream>
+net::awaitable<void> play(Stream& stream, Client& client, const Service& service, Metrics& metrics) {
+  return std::visit([&](const auto& kind) { return play(stream, client, kind, metrics); }, service);
+}
+
+net::awaitable<void> play_over_tls(std::shared_ptr<Client> client, const Service& service,
+                                   net::ssl::context& context, Metrics& metrics) {
+  TlsStream stream(client->socket, context);
+  error_code error;
+  co_await stream.async_handshake(TlsStream::server, net::redirect_error(use_awaitable, error));
+  if (error) {
+    ++metrics.refused_tls;
+    throw std::runtime_error("no TLS came about: " + error.message());
+  }
+  co_await play(stream, *client, service, metrics);
+  const Patience patience(client);
+  co_await stream.async_shutdown(net::redirect_error(use_awaitable, error));
+}
+
+}  // namespace
+
+net::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Service& service,
+                                      std::shared_ptr<net::ssl::context> tls, Metrics& metrics) {
+  client->came_in();
+  try {
+    if (tls) {
+      co_await play_over_tls(client, service, *tls, metrics);
+    } else {
+      co_await play(client->socket, *client, service, metrics);
+    }
+  } catch (const std::exception& error) {
+    log(client->name + ": " + error.what(), {{"client", client->name}, {"event", "left"}});
+  }
+  client->left();
+  --metrics.sessions_open;
+  co_await close_gently(client);
+}
+
+net::awaitable<void> turn_away(std::shared_ptr<Client> client, bool understands) {
+  error_code ignored;
+  if (understands) client->socket.write_some(net::buffer(client->farewell()), ignored);
+  co_await close_gently(client);
+}
+
+}  // namespace racebeam

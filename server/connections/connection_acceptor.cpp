@@ -1,0 +1,198 @@
+#include "server/connections/connection_acceptor.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "server/connections/connection.hpp"
+#include "server/operation/log.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace net = boost::asio;
+using boost::system::error_code;
+using net::use_awaitable;
+using namespace std::chrono_literals;
+
+void set_options(Socket& socket) {
+  error_code ignored;  // a Unix socket knows no delay
+  socket.set_option(net::ip::tcp::no_delay(true), ignored);
+  socket.set_option(net::socket_base::keep_alive(true), ignored);
+  socket.non_blocking(true, ignored);
+}
+
+net::awaitable<void> pause() {
+  net::steady_timer timer(co_await net::this_coro::executor, 100ms);
+  co_await timer.async_wait(use_awaitable);
+}
+
+bool has_memory_for_one_more(const Service& service) {
+  constexpr std::uint64_t kSession = 1 << 20;
+  const auto& memory = std::visit(
+      [](const auto& kind) -> const auto& { return kind.memory; }, service);
+  return !memory || memory->has(kSession);
+}
+
+// Of a token that waits: it has to be looked at before the time for it is over.
+WrongTokens::Delay longest_delay(const ServerSettings& settings) {
+  return std::min<WrongTokens::Delay>(5s, 500ms * settings.handshake_seconds);
+}
+
+// A client that has left already has no address.
+std::string source_of(const Socket& socket) {
+  error_code gone;
+  const Protocol::endpoint peer = socket.remote_endpoint(gone);
+  net::ip::tcp::endpoint address;
+  std::memcpy(address.data(), peer.data(), std::min(peer.size(), address.capacity()));
+  return WrongTokens::source_of(address.address());
+}
+
+template <typename Part>
+void read_again(std::optional<Part>& part, const std::string& what) {
+  if (!part) return;
+  try {
+    part->read_again();
+    log("read the " + what + " again");
+  } catch (const std::exception& error) {
+    log_warning(std::string(error.what()) + "; the old " + what + " stays in use");
+  }
+}
+
+}  // namespace
+
+ConnectionAcceptor::ConnectionAcceptor(const ServerSettings& settings, const Services& services, Loops& loops,
+                                       Metrics& metrics)
+    : settings_(settings),
+      services_(services),
+      loops_(loops),
+      metrics_(metrics),
+      wrong_tokens_(longest_delay(settings)) {
+  if (!settings.token_file.empty()) tokens_.emplace(settings.token_file);
+  if (!settings.tls_certificate.empty()) tls_.emplace(settings.tls_certificate, settings.tls_key);
+  if (tokens_ && services.line) {
+    guarded_ = services.line;
+    std::get<LineService>(*guarded_).admission = [this](std::string_view token) {
+      return tokens_->admits(token);
+    };
+  }
+  for (const Endpoint& endpoint : settings.endpoints) {
+    if (const auto* inherited = std::get_if<InheritedAddress>(&endpoint.address)) {
+      listen_inherited(endpoint, inherited->name);
+    } else if (!is_stream(endpoint.address)) {
+      listen(endpoint);
+    }
+  }
+}
+
+void ConnectionAcceptor::listen(const Endpoint& endpoint) {
+  check(listeners_.emplace_back(loops_.first().context.get_executor(), endpoint));
+}
+
+void ConnectionAcceptor::listen_inherited(const Endpoint& endpoint, const std::string& name) {
+  bool found = false;
+  for (const InheritedSocket& socket : inherited_sockets()) {
+    if (!name.empty() && socket.name != name) continue;
+    if (!taken_.insert(socket.descriptor).second)
+      throw std::runtime_error("the socket '" + socket.name + "' of systemd is listened on twice");
+    check(listeners_.emplace_back(loops_.first().context.get_executor(), endpoint, socket));
+    found = true;
+  }
+  if (found) return;
+  const std::string which = name.empty() ? "socket" : "socket of the name '" + name + "'";
+  throw std::runtime_error("systemd has passed on no " + which +
+                           " (LISTEN_FDS, LISTEN_FDNAMES); start the unit's socket, not its service");
+}
+
+void ConnectionAcceptor::check(const Listener& listener) const {
+  const std::string& name = listener.name();
+  if (listener.endpoint().tls && !tls_) throw std::runtime_error(name + " needs --tls-cert and --tls-key");
+  if (listener.is_loopback()) return;
+  if (listener.endpoint().classic) {
+    throw std::runtime_error(name +
+                             " can be reached from other machines, but the classic protocol has no "
+                             "tokens; use 127.0.0.1, or the line protocol");
+  }
+  if (!tokens_) {
+    throw std::runtime_error(name +
+                             " can be reached from other machines: give --token-file, so that not "
+                             "everyone can use this one, or listen on 127.0.0.1");
+  }
+  if (!listener.endpoint().tls) {
+    log_warning(name +
+                " can be reached from other machines, without TLS: who sees the packets can read the "
+                "tokens and play in others' names; tls:// and --tls-cert encrypt");
+  }
+}
+
+// The file system guards a Unix socket.
+const Service& ConnectionAcceptor::service_of(const Listener& listener) const {
+  if (listener.endpoint().classic) return *services_.classic;
+  return guarded_ && !listener.is_local() ? *guarded_ : *services_.line;
+}
+
+std::vector<std::string> ConnectionAcceptor::names() const {
+  std::vector<std::string> all;
+  for (const Listener& listener : listeners_) all.push_back(listener.full_name());
+  return all;
+}
+
+void ConnectionAcceptor::open() {
+  for (Listener& listener : listeners_) {
+    net::co_spawn(loops_.first().context, welcome(listener), net::detached);
+    log("listening on " + listener.name(), {{"event", "listening"}, {"address", listener.full_name()}});
+  }
+}
+
+void ConnectionAcceptor::close() {
+  closed_ = true;
+  for (Listener& listener : listeners_) listener.close();
+}
+
+void ConnectionAcceptor::read_again() {
+  racebeam::read_again(tokens_, "token file");
+  racebeam::read_again(tls_, "certificate");
+}
+
+net::awaitable<void> ConnectionAcceptor::welcome(Listener& listener) {
+  for (int number = 1; !closed_; ++number) {
+    Loop& loop = loops_.idlest();
+    error_code error;
+    Socket socket =
+        co_await listener.acceptor().async_accept(loop.context, net::redirect_error(use_awaitable, error));
+    if (closed_) break;
+    if (error) {  // out of descriptors, most likely; it may pass
+      log_warning("cannot take a client on " + listener.name() + ": " + error.message());
+      co_await pause();
+      continue;
+    }
+    set_options(socket);
+    admit(std::move(socket), loop, listener, number);
+  }
+}
+
+void ConnectionAcceptor::admit(Socket socket, Loop& loop, const Listener& listener, int number) {
+  std::string name = listener.name() + " client " + std::to_string(number);
+  auto client = std::make_shared<Client>(std::move(socket), loop, std::move(name));
+  const bool has_memory = has_memory_for_one_more(service_of(listener));
+  if (metrics_.sessions_open >= settings_.max_sessions || !has_memory) {
+    ++metrics_.refused_busy;
+    const std::string why = has_memory ? "there are " + std::to_string(settings_.max_sessions) +
+                                             " sessions, as many as this server takes"
+                                       : "the server's sessions hold all the memory that they may";
+    log_warning(client->name + ": refused, " + why);
+    client->end(Code::kBusy, why + "; try again later");
+    const bool understands = !listener.endpoint().classic && !listener.endpoint().tls;
+    net::co_spawn(loop.context, turn_away(std::move(client), understands), net::detached);
+    return;
+  }
+  ++metrics_.sessions_open;
+  ++(listener.endpoint().classic ? metrics_.sessions_classic : metrics_.sessions_line);
+  const Service& service = service_of(listener);
+  if (guarded_ && &service == &*guarded_) client->guesser.emplace(wrong_tokens_, source_of(client->socket));
+  auto tls = listener.endpoint().tls ? tls_->context() : nullptr;
+  net::co_spawn(loop.context, serve_connection(std::move(client), service, std::move(tls), metrics_),
+                net::detached);
+}
+
+}  // namespace racebeam

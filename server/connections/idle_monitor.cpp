@@ -1,0 +1,65 @@
+#include "server/connections/idle_monitor.hpp"
+
+#include <chrono>
+#include <string>
+
+#include "server/operation/log.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace net = boost::asio;
+using std::chrono::seconds;
+using namespace std::chrono_literals;
+
+constexpr auto kBetweenLooks = 250ms;
+constexpr auto kPause = 2s;  // of a client, after which its session is at rest
+
+}  // namespace
+
+void IdleMonitor::start() {
+  for (Loop& loop : loops_.all()) net::co_spawn(loop.context, look_after(loop), net::detached);
+}
+
+void IdleMonitor::end_all() {
+  for (Loop& loop : loops_.all()) {
+    net::post(loop.context, [this, &loop] {
+      for (Client* client : loop.clients) {
+        ++metrics_.ended_stopping;
+        client->end(Code::kStopping, "the server stops");
+      }
+    });
+  }
+}
+
+net::awaitable<void> IdleMonitor::look_after(Loop& loop) {
+  net::steady_timer timer(loop.context);
+  for (;;) {
+    timer.expires_after(kBetweenLooks);
+    co_await timer.async_wait(net::use_awaitable);
+    for (Client* client : loop.clients) look_at(*client);
+    write_log();
+  }
+}
+
+void IdleMonitor::look_at(Client& client) {
+  const auto now = Clock::now();
+  const auto idle = seconds(settings_.idle_seconds), handshake = seconds(settings_.handshake_seconds);
+  if (client.ending()) {
+    client.end(Code::kIdle, {});  // for good
+  } else if (!client.admitted && now - client.came() > handshake) {
+    ++metrics_.ended_handshake;
+    client.end(Code::kUnauthorized,
+               "no token came within " + std::to_string(settings_.handshake_seconds) + " seconds");
+  } else if (client.working) {
+    return;
+  } else if (idle > 0s && now - client.active() > idle) {
+    ++metrics_.ended_idle;
+    client.end(Code::kIdle,
+               "nothing came or went for " + std::to_string(settings_.idle_seconds) + " seconds");
+  } else if (now - client.active() > kPause) {
+    client.rest();
+  }
+}
+
+}  // namespace racebeam

@@ -1,0 +1,106 @@
+#include "server/connections/listener.hpp"
+
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+namespace racebeam {
+namespace {
+
+namespace net = boost::asio;
+using net::ip::tcp;
+using Unix = net::local::stream_protocol;
+using boost::system::error_code;
+
+// A socket file outlives its server; nobody answers there any more.
+void remove_stale(const std::string& path) {
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown)) return;
+  if (!std::filesystem::is_socket(path)) throw std::runtime_error(path + " exists, but is not a socket");
+  net::io_context context;
+  error_code error;
+  Unix::socket probe(context, Unix());
+  probe.non_blocking(true);  // a server that is busy has a full queue: the system would wait for it
+  probe.connect(Unix::endpoint(path), error);
+  if (error == net::error::connection_refused) std::filesystem::remove(path);
+}
+
+}  // namespace
+
+Listener::Listener(const net::any_io_executor& executor, const Endpoint& endpoint)
+    : endpoint_(endpoint), acceptor_(executor), name_(to_string(endpoint)) {
+  if (const auto* address = std::get_if<TcpAddress>(&endpoint.address)) {
+    listen(*address);
+  } else {
+    listen(std::get<UnixAddress>(endpoint.address));
+  }
+  describe();
+}
+
+Listener::Listener(const net::any_io_executor& executor, const Endpoint& endpoint,
+                   const InheritedSocket& inherited)
+    : endpoint_(endpoint), acceptor_(executor) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  ::getsockname(inherited.descriptor, reinterpret_cast<sockaddr*>(&address), &size);
+  acceptor_.assign(Protocol(address.ss_family, SOCK_STREAM), inherited.descriptor);
+  describe();
+}
+
+Listener::~Listener() { close(); }
+
+bool Listener::is_loopback() const { return local_ || racebeam::is_loopback(host_); }
+
+void Listener::close() {
+  error_code ignored;
+  acceptor_.close(ignored);
+  file_.remove();
+}
+
+void Listener::listen(const TcpAddress& address) {
+  bind(tcp::endpoint(net::ip::make_address(address.host), address.port));
+}
+
+void Listener::listen(const UnixAddress& address) {
+  constexpr std::size_t kLongestPath = sizeof(sockaddr_un::sun_path) - 1;
+  if (address.path.size() > kLongestPath) {
+    throw std::runtime_error(name_ + " is too long; a socket's path has at most " +
+                             std::to_string(kLongestPath) + " bytes");
+  }
+  remove_stale(address.path);
+  bind(Unix::endpoint(address.path));
+  file_ = UnlinkOnExit(address.path);
+}
+
+void Listener::bind(const Protocol::endpoint& endpoint) {
+  error_code error;
+  acceptor_.open(endpoint.protocol());
+  acceptor_.set_option(net::socket_base::reuse_address(true));
+  acceptor_.bind(endpoint, error);
+  if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
+  if (error == net::error::address_in_use) throw std::runtime_error(name_ + " is in use by another server");
+  if (error) throw std::runtime_error("cannot listen on " + name_ + ": " + error.message());
+}
+
+// Where it really listens, whoever has opened the socket.
+void Listener::describe() {
+  const Protocol::endpoint here = acceptor_.local_endpoint();
+  local_ = here.protocol().family() == AF_UNIX;
+  Endpoint found = endpoint_;
+  if (local_) {
+    const auto* address = static_cast<const sockaddr_un*>(static_cast<const void*>(here.data()));
+    found.address = UnixAddress{address->sun_path};
+  } else {
+    tcp::endpoint bound;
+    std::memcpy(bound.data(), here.data(), std::min(here.size(), bound.capacity()));
+    host_ = bound.address().to_string();
+    found.address = TcpAddress{host_, bound.port()};
+  }
+  found.classic = false;
+  name_ = to_string(found);
+}
+
+}  // namespace racebeam

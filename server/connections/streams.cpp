@@ -1,0 +1,199 @@
+#include "server/connections/streams.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "server/operation/log.hpp"
+#include "server/operation/terminal.hpp"
+
+namespace racebeam {
+
+using namespace std::chrono_literals;
+
+// Exit statuses.
+constexpr int kClientGone = 1;  // it stopped reading in the middle
+constexpr int kRefused = 1;     // the first error of a strict session
+
+// The session, made before its streams are opened.
+class StreamSession::Conversation {
+ public:
+  virtual ~Conversation() = default;
+  virtual int hold(BlockingPair& streams, const Halt& halt) = 0;  // the exit status
+  virtual std::string description() const = 0;
+};
+
+namespace {
+
+int client_gone(const Halt& halt) {
+  if (halt.all) return 0;
+  log("the client stopped reading");
+  return kClientGone;
+}
+
+void make_if_missing(const std::string& path) {
+  if (::mkfifo(path.c_str(), 0600) == 0) return log("made the pipe " + path);
+  const int error = errno;
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) {
+    throw std::runtime_error("cannot make the pipe " + path + ": " + std::generic_category().message(error));
+  }
+  if (!S_ISFIFO(found.st_mode)) throw std::runtime_error(path + " exists, but is not a named pipe");
+}
+
+}  // namespace
+
+class StreamSession::LineConversation final : public Conversation {
+ public:
+  LineConversation(const LineService& service, Meter& meter, int columns)
+      : meter_(meter), session_(service, &meter) {
+    session_.set_columns(columns);
+  }
+
+  int hold(BlockingPair& streams, const Halt& halt) override {
+    while (!session_.finished()) {
+      const bool more = session_.run();
+      if (session_.waits()) std::this_thread::sleep_for(1ms);
+      if (session_.wants_more() && read_at_once(streams)) continue;
+      const std::string_view text = session_.output();
+      if (!streams.write(text)) return client_gone(halt);
+      meter_.bytes_out.add(static_cast<std::int64_t>(text.size()));
+      session_.sent(text.size());
+      if (more && (halt.all || streams.reader_left())) return client_gone(halt);
+      if (more || session_.finished()) continue;
+      const std::size_t count = streams.read(session_.space());
+      if (halt.reading) break;
+      meter_.bytes_in.add(static_cast<std::int64_t>(count));
+      session_.received(count);
+    }
+    return session_.refused() ? kRefused : 0;
+  }
+
+  std::string description() const override { return "the line protocol"; }
+
+ private:
+  bool read_at_once(BlockingPair& streams) {  // what has come by now; not the end
+    const auto count = streams.read_at_once(session_.space());
+    if (!count || *count == 0) return false;
+    meter_.bytes_in.add(static_cast<std::int64_t>(*count));
+    session_.received(*count);
+    return true;
+  }
+
+  Meter& meter_;
+  LineSession session_;
+};
+
+class StreamSession::ClassicConversation final : public Conversation {
+ public:
+  ClassicConversation(const ClassicService& service, Meter& meter) : meter_(meter), session_(service) {
+    while (!session_.work()) continue;
+    session_.check_machine();
+  }
+
+  int hold(BlockingPair& streams, const Halt& halt) override {
+    try {
+      return converse(streams, halt) ? 0 : client_gone(halt);
+    } catch (const ClassicError& error) {
+      log(error.what());
+      return error.status();
+    }
+  }
+
+  std::string description() const override { return describe(session_.machine()); }
+
+ private:
+  bool converse(BlockingPair& streams, const Halt& halt);  // false: the client stopped reading
+
+  Meter& meter_;
+  PacedClassic session_;
+};
+
+bool StreamSession::ClassicConversation::converse(BlockingPair& streams, const Halt& halt) {
+  while (!session_.ended()) {
+    if (!session_.work()) {
+      if (halt.all || streams.reader_left()) return false;
+    } else if (const auto text = session_.reply()) {
+      if (!streams.write(*text) && !session_.ended()) return false;
+      meter_.bytes_out.add(static_cast<std::int64_t>(text->size()));
+      meter_.frames.add(session_.take_frames());
+    } else {
+      const std::size_t count = streams.read(session_.space());
+      if (halt.reading) break;
+      meter_.bytes_in.add(static_cast<std::int64_t>(count));
+      session_.received(count);
+    }
+  }
+  return true;
+}
+
+StreamSession::StreamSession(const Endpoint& endpoint, const Service& service,
+                             std::chrono::microseconds busy_poll, Metrics& metrics)
+    : address_(endpoint.address), name_(to_string(endpoint)), metrics_(metrics), streams_(halt_, busy_poll) {
+  Meter& meter = metrics.add_meter();
+  if (const auto* line = std::get_if<LineService>(&service)) {
+    const bool standard = std::holds_alternative<StandardStreams>(address_);
+    const int columns = standard ? terminal_columns(STDOUT_FILENO) : 0;
+    conversation_ = std::make_unique<LineConversation>(*line, meter, columns);
+    ++metrics.sessions_line;
+  } else {
+    conversation_ = std::make_unique<ClassicConversation>(std::get<ClassicService>(service), meter);
+    ++metrics.sessions_classic;
+  }
+  if (const auto* pipes = std::get_if<Pipes>(&address_)) {
+    make_if_missing(pipes->prefix + "_out");
+    make_if_missing(pipes->prefix + "_in");
+  }
+}
+
+StreamSession::~StreamSession() {
+  if (thread_.joinable()) thread_.join();
+}
+
+void StreamSession::start(std::function<void()> ended) {
+  on_end_ = std::move(ended);
+  Halt::prepare();
+  thread_ = std::thread([this] { run(); });
+}
+
+void StreamSession::stop(bool at_once) {
+  halt_.reading = true;
+  if (at_once) halt_.all = true;
+  if (thread_.joinable() && !ended_) Halt::wake(thread_.native_handle());
+}
+
+void StreamSession::run() {
+  ++metrics_.sessions_open;
+  try {
+    if (connect()) status_ = conversation_->hold(streams_, halt_);
+  } catch (const std::exception& error) {
+    log(LogLevel::kError, error.what());
+    status_ = 1;
+  }
+  conversation_.reset();  // what it records is kept before anybody hears of the end
+  --metrics_.sessions_open;
+  ended_ = true;
+  on_end_();
+}
+
+// Each open waits for the client's; a client that opens them in the other order waits for ever.
+bool StreamSession::connect() {
+  const std::string what = conversation_->description();
+  if (std::holds_alternative<StandardStreams>(address_)) {
+    log(what + ", on standard input and output");
+    streams_.use(STDIN_FILENO, STDOUT_FILENO);
+    return true;
+  }
+  const auto* pipes = std::get_if<Pipes>(&address_);
+  const std::string prefix = pipes ? pipes->prefix : "ale_fifo";
+  log(what + ", for a client that opens " + prefix + "_out for reading, then " + prefix + "_in for writing");
+  return streams_.open_out(prefix + "_out", pipes ? 0 : O_CREAT | O_TRUNC) &&
+         streams_.open_in(prefix + "_in");
+}
+
+}  // namespace racebeam

@@ -1,0 +1,92 @@
+#include "server/operation/log.hpp"
+
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <nlohmann/json.hpp>
+
+#include "server/operation/log_sink.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::array kLevels = {spdlog::level::debug, spdlog::level::info, spdlog::level::warn,
+                                spdlog::level::err, spdlog::level::off};
+constexpr std::array kNames = {"debug", "info", "warning", "error", "off"};
+
+std::atomic<LogFormat> format = LogFormat::kText;
+
+// What a client sent may be in it. A line has to fit into a page, which a pipe takes whole or not at all.
+std::string printable(std::string_view text) {
+  constexpr std::size_t kLongest = 1000;
+  std::string clean(text.substr(0, kLongest));
+  std::ranges::replace_if(
+      clean, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return clean;
+}
+
+std::string as_json(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields) {
+  nlohmann::ordered_json line;
+  line["level"] = kNames[static_cast<std::size_t>(level)];
+  line["message"] = printable(sentence);
+  for (const LogField& field : fields) line[std::string(field.key)] = printable(field.value);
+  return line.dump().substr(1);  // the time comes before it, from the pattern
+}
+
+// What stands behind the pattern.
+std::string payload(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields) {
+  if (format == LogFormat::kJson) return as_json(level, sentence, fields);
+  const char* mark = level == LogLevel::kWarning ? "warning: " : level == LogLevel::kError ? "error: " : "";
+  return mark + printable(sentence);
+}
+
+std::string tell_of_lost(std::int64_t lines) {
+  return payload(LogLevel::kWarning, std::to_string(lines) + " lines of the log are lost: nobody read it",
+                 {{"event", "lost"}});
+}
+
+const std::shared_ptr<LogSink>& sink() {
+  struct Closing {
+    const std::shared_ptr<LogSink> sink;
+    ~Closing() { sink->close(); }
+  };
+  static const Closing made{LogSink::start(STDERR_FILENO, LogSink::kind_of(STDERR_FILENO), tell_of_lost)};
+  return made.sink;
+}
+
+spdlog::logger& logger() {
+  static spdlog::logger made = [] {
+    spdlog::logger standard_error("racebeam", sink());
+    standard_error.set_pattern("racebeam: %v");
+    standard_error.flush_on(spdlog::level::trace);
+    return standard_error;
+  }();
+  return made;
+}
+
+}  // namespace
+
+void set_up_log(LogLevel least, LogFormat wanted) {
+  format = wanted;
+  logger().set_level(kLevels[static_cast<std::size_t>(least)]);
+  if (wanted == LogFormat::kText) return;
+  auto in_utc = std::make_unique<spdlog::pattern_formatter>(R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ",%v)",
+                                                            spdlog::pattern_time_type::utc);
+  logger().set_formatter(std::move(in_utc));
+}
+
+void log(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields) {
+  const auto importance = kLevels[static_cast<std::size_t>(level)];
+  if (!logger().should_log(importance)) return;
+  logger().log(importance, "{}", payload(level, sentence, fields));
+}
+
+void write_log() { sink()->flush(); }
+
+std::int64_t log_lines_lost() { return sink()->lost(); }
+
+}  // namespace racebeam

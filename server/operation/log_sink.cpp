@@ -1,0 +1,138 @@
+#include "server/operation/log_sink.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+namespace racebeam {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kLastMoment = 200ms;
+
+// May wait for ever. What can't be written, on a full disk, is as good as written.
+void write_whole(int descriptor, std::string_view line) {
+  while (!line.empty()) {
+    const ssize_t count = ::write(descriptor, line.data(), line.size());
+    if (count < 0 && errno != EINTR) return;
+    if (count > 0) line.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace
+
+// The thread shares it, and is left alone with it in the end: it may hang in a write for ever.
+std::shared_ptr<LogSink> LogSink::start(int descriptor, Kind kind,
+                                        std::function<std::string(std::int64_t)> tell) {
+  std::shared_ptr<LogSink> sink(new LogSink(descriptor, kind, std::move(tell)));
+  if (kind == Kind::kFile) std::thread([sink] { sink->write_file(); }).detach();
+  return sink;
+}
+
+LogSink::LogSink(int descriptor, Kind kind, std::function<std::string(std::int64_t)> tell)
+    : descriptor_(descriptor), kind_(kind), tell_(std::move(tell)) {}
+
+void LogSink::close() {
+  const auto end = std::chrono::steady_clock::now() + kLastMoment;
+  std::unique_lock lock(mutex_);
+  const auto all_written = [this] {
+    flush_();
+    return waiting_.empty() && !writing_;
+  };
+  while (!all_written() && std::chrono::steady_clock::now() < end) changed_.wait_for(lock, 5ms);
+  closed_ = true;
+  changed_.notify_all();
+}
+
+LogSink::Kind LogSink::kind_of(int descriptor) {
+  struct stat found {};
+  if (::fstat(descriptor, &found) != 0) return Kind::kOther;
+  return S_ISREG(found.st_mode) ? Kind::kFile : S_ISSOCK(found.st_mode) ? Kind::kSocket : Kind::kOther;
+}
+
+void LogSink::sink_it_(const spdlog::details::log_msg& message) {
+  if (waiting_.size() >= kMostWaiting) lose_oldest();
+  add(message);
+}
+
+void LogSink::add(const spdlog::details::log_msg& message) {
+  spdlog::memory_buf_t text;
+  formatter_->format(message, text);
+  waiting_.emplace_back(text.data(), text.size());
+}
+
+void LogSink::lose_oldest() {
+  waiting_.erase(waiting_.begin() + (begun_ ? 1 : 0));
+  ++untold_;
+  ++lost_;
+}
+
+// Where they are missing, before the lines that are left.
+void LogSink::tell_of_lost() {
+  const std::string sentence = tell_(std::exchange(untold_, 0));
+  add({{}, "racebeam", spdlog::level::warn, sentence});
+  std::rotate(waiting_.begin() + (begun_ ? 1 : 0), waiting_.end() - 1, waiting_.end());
+}
+
+void LogSink::flush_() {
+  if (kind_ == Kind::kFile) return changed_.notify_all();
+  while (!waiting_.empty() && has_room()) {
+    if (untold_ > 0) tell_of_lost();
+    if (!write(waiting_.front())) return;
+    waiting_.pop_front();
+  }
+}
+
+void LogSink::write_file() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return closed_ || !waiting_.empty(); });
+    if (closed_) return;
+    if (untold_ > 0) tell_of_lost();
+    const std::string line = std::move(waiting_.front());
+    waiting_.pop_front();
+    writing_ = true;
+    lock.unlock();
+    write_whole(descriptor_, line);
+    lock.lock();
+    writing_ = false;
+    changed_.notify_all();
+  }
+}
+
+// A pipe or a terminal with any room has it for a line of a page, unless somebody else writes there, too.
+bool LogSink::has_room() const {
+  pollfd state{descriptor_, POLLOUT, 0};
+  return ::poll(&state, 1, 0) > 0;
+}
+
+// What can't be written, since nobody is there any more, is as good as written.
+bool LogSink::write(std::string& line) {
+  const ssize_t count = write_some(line);
+  if (count < 0) return errno != EAGAIN && errno != EINTR;
+  begun_ = static_cast<std::size_t>(count) < line.size();
+  if (begun_) line.erase(0, static_cast<std::size_t>(count));
+  return !begun_;
+}
+
+ssize_t LogSink::write_some(const std::string& line) const {
+  if (kind_ == Kind::kSocket)
+    return ::send(descriptor_, line.data(), line.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  if (kind_ == Kind::kOther) {
+    iovec part{const_cast<char*>(line.data()), line.size()};
+    const ssize_t count = ::pwritev2(descriptor_, &part, 1, -1, RWF_NOWAIT);
+    if (count >= 0 || (errno != EOPNOTSUPP && errno != EINVAL && errno != ENOSYS)) return count;
+  }
+  return ::write(descriptor_, line.data(), line.size());
+}
+
+}  // namespace racebeam

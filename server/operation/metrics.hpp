@@ -1,0 +1,33 @@
+// The numbers of a server, in the text format of Prometheus.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <list>
+#include <string>
+
+#include "protocol/line/meter.hpp"
+
+namespace racebeam {
+
+class Metrics {
+ public:
+  Meter& add_meter();  // for a thread that serves; before others read
+
+  std::string text() const;  // from any thread
+
+  // Any thread counts.
+  std::atomic<std::int64_t> sessions_open = 0, sessions_classic = 0, sessions_line = 0;
+  std::atomic<std::int64_t> refused_busy = 0, refused_tls = 0, wrong_tokens = 0;
+  std::atomic<std::int64_t> ended_idle = 0, ended_handshake = 0, ended_stopping = 0;
+
+ private:
+  template <typename Part>
+  std::int64_t sum(Part part) const;
+  void append_requests(std::string& out) const;
+  void append_latencies(std::string& out) const;
+
+  std::list<Meter> meters_;
+};
+
+}  // namespace racebeam

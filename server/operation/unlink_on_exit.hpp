@@ -1,0 +1,42 @@
+// A file that this server has made, told from that of a successor under the same name.
+#pragma once
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <string>
+#include <utility>
+
+namespace racebeam {
+
+class UnlinkOnExit {
+ public:
+  UnlinkOnExit() = default;  // none
+  explicit UnlinkOnExit(std::string path) : path_(std::move(path)), mark_(mark_of(path_)) {}
+
+  // Unless it is gone, or another's. Once.
+  void remove() {
+    const Mark mark = std::exchange(mark_, {});
+    if (mark.number != 0 && mark_of(path_) == mark) ::unlink(path_.c_str());
+  }
+
+ private:
+  // The system gives the number of a file that was removed to the next one; the time differs.
+  struct Mark {
+    ino_t number = 0;
+    time_t seconds = 0;
+    long nanoseconds = 0;
+    bool operator==(const Mark&) const = default;
+  };
+
+  static Mark mark_of(const std::string& path) {
+    struct stat found {};
+    if (::lstat(path.c_str(), &found) != 0) return {};
+    return {found.st_ino, found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
+  }
+
+  std::string path_;
+  Mark mark_;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,49 @@
+// A pool of threads, each with an event loop of its own. A session stays on one of them, so that nothing is
+// locked and nobody is woken up between two of its lines; one loop for all threads cost four futex calls a
+// line.
+#pragma once
+
+#include <atomic>
+#include <list>
+#include <unordered_set>
+#include <utility>  // Asio 1.74 forgets it
+
+#include <boost/asio/io_context.hpp>
+
+#include "server/operation/metrics.hpp"
+#include "server/scheduling/busy_poll.hpp"
+#include "server/scheduling/turns.hpp"
+
+namespace racebeam {
+
+class Client;
+
+struct Loop {
+  Loop(Meter& counting, std::chrono::microseconds busy_poll) : meter(counting), busy(busy_poll) {}
+
+  void run();  // until its context is stopped
+
+  std::atomic<int> sessions = 0;
+  Meter& meter;
+  BusyPoll busy;                        // only touched on the loop's thread
+  Turns turns;                          // the same
+  std::unordered_set<Client*> clients;  // those in a session; only touched on the loop's thread
+  boost::asio::io_context context{1};   // the last, so that what waits in it goes first
+};
+
+class Loops {
+ public:
+  Loops(unsigned threads, std::chrono::microseconds busy_poll, Metrics& metrics);
+
+  Loop& first() { return loops_.front(); }
+  Loop& idlest();  // with the fewest sessions
+  std::list<Loop>& all() { return loops_; }
+  int sessions() const;
+  void run();  // until stop() is called
+  void stop();
+
+ private:
+  std::list<Loop> loops_;
+};
+
+}  // namespace racebeam

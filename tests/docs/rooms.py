@@ -1,0 +1,82 @@
+"""The tree's shape: folders that one can look over, and links that stay inside."""
+
+import os
+import pathlib
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MOST_SUBJECTS = 25
+NOT_OURS = {"build", "__pycache__"}  # and what begins with a dot
+DATA = ("games/catalogue", "fuzz/corpora", "docs/spec")  # folders of files of one kind
+
+
+def folders(root):
+    """Each folder below `root` that holds sources, relative to it, with its folders and files."""
+    for path, inside, files in os.walk(root):
+        inside[:] = [name for name in inside if name not in NOT_OURS and not name.startswith(".")]
+        yield pathlib.Path(path).relative_to(root), inside, [name for name in files if not name.startswith(".")]
+
+
+def subjects(inside, files):
+    """A header and its source are one subject; so is a folder."""
+    return {pathlib.Path(name).stem for name in files} | set(inside)
+
+
+def crowded(root):
+    """The folders with too many subjects, with their number."""
+    found = {}
+    for path, inside, files in folders(root):
+        count = len(subjects(inside, files))
+        if count > MOST_SUBJECTS and not path.as_posix().startswith(DATA):
+            found[path.as_posix()] = count
+    return found
+
+
+def leaving_links(root):
+    """The symbolic links that are absolute, or point at something outside `root`."""
+    links = [root / path / name for path, inside, files in folders(root) for name in inside + files
+             if (root / path / name).is_symlink()]
+    return [link.relative_to(root).as_posix() for link in links
+            if os.path.isabs(os.readlink(link)) or not link.resolve().is_relative_to(root.resolve())]
+
+
+class Tree(unittest.TestCase):
+    def test_no_folder_has_too_many_subjects(self):
+        self.assertEqual(crowded(ROOT), {})
+
+    def test_no_link_leads_out(self):
+        self.assertEqual(leaving_links(ROOT), [])
+
+
+class Checks(unittest.TestCase):
+    """That the two checks find what they look for."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def fill(self, name, count):
+        (self.root / name).mkdir(parents=True)
+        for number in range(count):
+            for ending in ("hpp", "cpp"):
+                (self.root / name / f"subject{number}.{ending}").touch()
+
+    def test_a_crowded_folder_is_named(self):
+        self.fill("full", MOST_SUBJECTS)
+        self.fill("crowded", MOST_SUBJECTS + 1)
+        self.fill("fuzz/corpora/image", MOST_SUBJECTS + 1)
+        self.fill("build", MOST_SUBJECTS + 1)
+        self.assertEqual(crowded(self.root), {"crowded": MOST_SUBJECTS + 1})
+
+    def test_a_link_that_leaves_is_named(self):
+        self.fill("room", 1)
+        for name, target in (("inside", "subject0.hpp"), ("absolute", str(self.root / "room/subject0.hpp")),
+                             ("outside", "../../elsewhere")):
+            (self.root / "room" / name).symlink_to(target)
+        self.assertEqual(sorted(leaving_links(self.root)), ["room/absolute", "room/outside"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,86 @@
+// Which lines are remembered for how long: what a picture shows, and rows that flicker.
+#include <catch2/catch.hpp>
+#include <functional>
+#include <set>
+
+#include "emulator/tia/line_cache/line_memory.hpp"
+#include "emulator/tia/frame_buffer.hpp"
+
+namespace racebeam::test {
+namespace {
+
+constexpr std::size_t kRows = 40;
+
+// As a drawn line whose background has this colour.
+LineNumber draw(LineMemory& memory, std::size_t row, unsigned colour) {
+  TiaRegisters registers;
+  registers.color[3] = static_cast<std::uint8_t>(colour);
+  LineRecord& record = memory.row(row);
+  record.open(registers);
+  record.view.seen = kLit;
+  return memory.add(record);
+}
+
+// Frames of which each row is drawn in the colour that `colour(frame, row)` says. Answers whether each row had a record of
+// its own in the last two.
+bool ends_with_two_sets(int frames, const std::function<unsigned(int, std::size_t)>& colour) {
+  LineMemory memory;
+  std::set<const LineRecord*> last;
+  for (int frame = 0; frame < frames; ++frame) {
+    memory.begin_frame();
+    memory.aim(kRows);
+    for (std::size_t row = 0; row < kRows; ++row) {
+      if (frame >= frames - 2) last.insert(&memory.row(row));
+      const LineRecord& known = memory.row(row);
+      const bool is_there = known.number != kNoLine && known.start.color[3] == colour(frame, row);
+      if (!is_there) draw(memory, row, colour(frame, row));
+    }
+  }
+  return last.size() == 2 * kRows;
+}
+
+TEST_CASE("Rows that flicker are remembered twice, others are not") {
+  const auto flickers = [](int frame, std::size_t row) { return row < 12 && frame % 2 == 0 ? 0x1EU : 0U; };
+  const auto stands_still = [](int, std::size_t row) { return static_cast<unsigned>(row); };
+  const auto moves = [](int frame, std::size_t) { return static_cast<unsigned>(frame & 0xFF); };
+  const auto stops = [&](int frame, std::size_t row) { return frame < 100 ? flickers(frame, row) : moves(frame, row); };
+  CHECK(ends_with_two_sets(100, flickers));
+  CHECK_FALSE(ends_with_two_sets(100, stands_still));
+  CHECK_FALSE(ends_with_two_sets(100, moves));
+  CHECK_FALSE(ends_with_two_sets(700, stops));
+}
+
+TEST_CASE("No two lines have the same number, on different machines either") {
+  std::set<LineNumber> numbers = {kNoLine, kAnyLine};
+  LineMemory one, other;
+  for (LineMemory* memory : {&one, &other, &one}) {
+    memory->begin_frame();
+    memory->aim(kRows);
+    for (std::size_t row = 0; row < kRows; ++row) CHECK(numbers.insert(draw(*memory, row, 0)).second);
+  }
+}
+
+TEST_CASE("A row is copied from the other picture if that shows the line, and not else") {
+  FrameBuffer picture, other;
+  for (FrameBuffer* one : {&picture, &other}) one->make_room(2);
+  other.pixels()[kLinePixels] = 0x42;
+  other.shows(1) = 7;
+  CHECK_FALSE(picture.copy_row(&other, 1, 8));
+  CHECK_FALSE(picture.copy_row(&other, 0, 7));
+  CHECK_FALSE(picture.copy_row(&other, 2, 7));
+  CHECK_FALSE(picture.copy_row(nullptr, 1, 7));
+  CHECK(picture.pixels()[kLinePixels] == 0);
+  REQUIRE(picture.copy_row(&other, 1, 7));
+  CHECK(picture.pixels()[kLinePixels] == 0x42);
+  CHECK(picture.shows(1) == 7);
+  picture.forget_lines();
+  CHECK(picture.shows(1) == kAnyLine);
+  picture.blank();
+  CHECK(picture.rows() == 0);
+  picture.make_room(2);
+  CHECK(picture.pixels()[kLinePixels] == 0);
+  CHECK(picture.shows(1) == kAnyLine);
+}
+
+}  // namespace
+}  // namespace racebeam::test

@@ -1,0 +1,153 @@
+#include <catch2/catch.hpp>
+
+#include "environment/input/controller_input.hpp"
+
+namespace racebeam {
+namespace {
+
+// What is pressed, and where the paddles end up.
+struct Player {
+  ControllerInput hands;
+  Inputs inputs{};
+  PaddleValues paddles = hands.middle();
+
+  void press(int a, float strength_a = 1.0F, int b = 18, float strength_b = 0.0F, int difficulty = 0) {
+    hands.press(inputs, {{a, strength_a}, {b, strength_b}}, difficulty, paddles);
+  }
+  std::int32_t paddle_after(int a, float strength = 1.0F) {
+    press(a, strength);
+    CHECK(inputs.paddle[0] == paddles[0]);
+    return paddles[0];
+  }
+};
+
+Player with_joysticks() { return {ControllerInput(false, {})}; }
+Player with_paddles() { return {ControllerInput(true, {})}; }
+
+constexpr int kRight = 3, kLeft = 4;
+
+TEST_CASE("Each action presses the stick as its name says") {
+  constexpr std::uint8_t kUp = kStickUp, kDown = kStickDown, kL = kStickLeft, kR = kStickRight,
+                         kFire = kStickFire;
+  constexpr std::uint8_t kExpected[18] = {0,
+                                          kFire,
+                                          kUp,
+                                          kR,
+                                          kL,
+                                          kDown,
+                                          kUp | kR,
+                                          kUp | kL,
+                                          kDown | kR,
+                                          kDown | kL,
+                                          kUp | kFire,
+                                          kR | kFire,
+                                          kL | kFire,
+                                          kDown | kFire,
+                                          kUp | kR | kFire,
+                                          kUp | kL | kFire,
+                                          kDown | kR | kFire,
+                                          kDown | kL | kFire};
+  Player player = with_joysticks();
+  for (int a = 0; a < 18; ++a) {
+    player.press(a);
+    CHECK(player.inputs.joystick == std::array<std::uint8_t, 2>{kExpected[a], 0});
+    player.press(0, 1.0F, 18 + a);
+    CHECK(player.inputs.joystick == std::array<std::uint8_t, 2>{0, kExpected[a]});
+  }
+  CHECK(player.inputs.paddle_fire == 0);
+}
+
+TEST_CASE("Every frame starts with everything released") {
+  Player player = with_joysticks();
+  ControllerInput::press_select(player.inputs, 0);
+  player.press(17, 1.0F, 35);
+  player.press(40);
+  CHECK(player.inputs.joystick == std::array<std::uint8_t, 2>{});
+  CHECK(player.inputs.switches == (kSwitchesAtRest & ~kSwitchReset));
+  player.press(0);
+  CHECK(player.inputs.switches == kSwitchesAtRest);
+}
+
+TEST_CASE("A number that is no action presses nothing") {
+  Player player = with_paddles();
+  for (const int odd : {18, 36, 41, 99, -1}) {
+    player.press(odd, 1.0F, odd, 1.0F);
+    CHECK(player.inputs.paddle_fire == 0);
+    CHECK(player.paddles == PaddleValues{408823, 408823});
+    CHECK(player.inputs.switches == kSwitchesAtRest);
+  }
+}
+
+TEST_CASE("The difficulty sets the switches, also while SELECT is held") {
+  Player player = with_joysticks();
+  for (int difficulty = 0; difficulty < 4; ++difficulty) {
+    const int bits = (difficulty & 1 ? kSwitchLeftA : 0) | (difficulty & 2 ? kSwitchRightA : 0);
+    player.press(0, 1.0F, 18, 0.0F, difficulty);
+    CHECK(player.inputs.switches == (kSwitchesAtRest | bits));
+    ControllerInput::press_select(player.inputs, difficulty);
+    CHECK(player.inputs.switches == ((kSwitchesAtRest & ~kSwitchSelect) | bits));
+  }
+}
+
+// docs/spec/environment.md, 17: "Paddle"
+TEST_CASE("A paddle turns as in the reference, and stops at its ends") {
+  Player player = with_paddles();
+  CHECK(player.paddles[0] == 408823);
+  CHECK(player.paddle_after(kRight) == 385823);
+  CHECK(player.paddle_after(kLeft) == 408823);
+  CHECK(player.paddle_after(kLeft, 0.5F) == 420323);
+  CHECK(player.paddle_after(kLeft, -0.3333F) == 427988);
+  for (int i = 0; i < 39; ++i) player.press(kRight);
+  CHECK(player.paddle_after(kRight) == 27450);
+  for (int i = 0; i < 59; ++i) player.press(kLeft);
+  CHECK(player.paddle_after(kLeft) == 790196);
+  CHECK(player.hands.middle() == PaddleValues{408823, 408823});
+}
+
+// docs/spec/console.md, "More cases", 4
+TEST_CASE("A strength is widened to double before the product") {
+  Player player = with_paddles();
+  CHECK(player.paddle_after(kRight, 0.7F) == 392724);
+  CHECK(player.paddle_after(kLeft, 0.35F) == 400773);
+}
+
+TEST_CASE("Paddle 1 is player B's") {
+  Player player = with_paddles();
+  player.press(1, 1.0F, 18 + kLeft, 0.5F);
+  CHECK(player.paddles == PaddleValues{408823, 420323});
+  CHECK(player.inputs.paddle[1] == 420323);
+  CHECK(player.inputs.paddle_fire == 1);
+  player.press(11, 1.0F, 18 + 12, 1.0F);  // RIGHTFIRE, LEFTFIRE
+  CHECK(player.paddles == PaddleValues{385823, 443323});
+  CHECK(player.inputs.paddle_fire == 3);
+  player.press(40, 1.0F, 19);
+  CHECK(player.inputs.paddle_fire == 2);
+  CHECK(player.inputs.switches == (kSwitchesAtRest & ~kSwitchReset));
+}
+
+TEST_CASE("With paddles, up and down do nothing and the sticks are not driven") {
+  Player player = with_paddles();
+  for (const int a : {2, 5, 10, 13}) player.press(a, 1.0F, 18 + a, 1.0F);
+  CHECK(player.paddles == PaddleValues{408823, 408823});
+  CHECK(player.inputs.joystick == std::array<std::uint8_t, 2>{});
+  CHECK(player.inputs.paddle_fire == 3);
+  CHECK(player.paddle_after(6) == 385823);  // UPRIGHT
+}
+
+TEST_CASE("SELECT leaves the paddles where they are") {
+  Player player = with_paddles();
+  player.press(kRight, 1.0F, 19, 0.0F);
+  ControllerInput::press_select(player.inputs, 0);
+  CHECK(player.inputs.paddle[0] == 385823);
+  CHECK(player.inputs.paddle_fire == 0);
+}
+
+TEST_CASE("A paddle never leaves its limits, however strong the turn") {
+  Player player{ControllerInput(true, {100, 1000})};
+  CHECK(player.paddles[0] == 550);
+  CHECK(player.paddle_after(kLeft, 3.0e38F) == 1000);
+  CHECK(player.paddle_after(kRight, -3.0e38F) == 100);
+}
+
+}  // namespace
+}  // namespace racebeam

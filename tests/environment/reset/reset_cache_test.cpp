@@ -1,0 +1,124 @@
+// A copied reset is what a run one would have been, on every game whose image is there.
+#include "environment/reset/reset_cache.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "environment/reset/boot_study.hpp"
+#include "environment/saved_state.hpp"
+#include "tests/environment/steered.hpp"
+#include "tests/support/observation.hpp"
+#include "tests/support/roms.hpp"
+
+namespace racebeam {
+namespace {
+
+using test::observe;
+
+Settings with_copies(bool copies) {
+  Settings settings;
+  settings.random_seed = 31;
+  settings.sound = true;
+  settings.copy_resets = copies;
+  return settings;
+}
+
+void require_same(const Environment& one, const Environment& other) {
+  REQUIRE(observe(one) == observe(other));
+  REQUIRE(one.same_state(other));
+  REQUIRE(std::ranges::equal(one.previous_screen(), other.previous_screen()));
+  REQUIRE(one.sound().registers == other.sound().registers);
+}
+
+// Plays both the same, spoils RAM, resets, compares; then again.
+void check_resets(const std::shared_ptr<const Image>& image, const std::shared_ptr<const Game>& game, int resets) {
+  INFO(game->name);
+  Environment copied(image, game, with_copies(true)), run(image, game, with_copies(false));
+  std::mt19937 random(5);
+  const auto both = [&](auto action) { action(copied), action(run); };
+  for (int reset = 0; reset < resets; ++reset) {
+    for (auto acts = 5 + random() % 60; acts > 0; --acts) {
+      const int action = game->legal_actions[random() % game->legal_actions.size()];
+      both([action](Environment& e) { e.act(action); });
+    }
+    if (reset % 3 == 2) {
+      const auto seed = random();
+      both([seed](Environment& e) {
+        std::mt19937 bytes(seed);
+        for (int i = 0; i < kRamSize; ++i) e.set_ram(i, static_cast<std::uint8_t>(bytes()));
+      });
+    }
+    if (reset % 4 == 3) both([&](Environment& e) { e.set_difficulty(game->difficulties.back()); });
+    both([](Environment& e) { e.reset_game(); });
+    require_same(copied, run);
+  }
+  for (int frame = 0; frame < 60; ++frame) {
+    both([&](Environment& e) { e.act(game->legal_actions[static_cast<std::size_t>(frame) % game->legal_actions.size()]); });
+    require_same(copied, run);
+  }
+}
+
+TEST_CASE("A copied reset of our own image is what a run one is") {
+  check_resets(test::counter_image(), test::game(), 30);
+}
+
+TEST_CASE("A copied reset of every game is what a run one is") {
+  int games = 0;
+  for (const CatalogueEntry& entry : catalogue()) {
+    const auto game = find_game(entry.name);
+    const auto image = test::find_rom_of(*game);
+    if (!image) continue;
+    check_resets(image, game, 8);
+    ++games;
+  }
+  if (games == 0) WARN("SKIPPED: no images in RACEBEAM_ROMS or .venv");
+}
+
+TEST_CASE("The resets that are kept are bounded, and the ones that were used last stay") {
+  ResetCache cache;
+  ResetStart start;
+  for (std::size_t i = 0; i < ResetCache::kMost + 10; ++i) {
+    start.mode = 0;
+    if (i > 0) REQUIRE(cache.find(start));
+    start.mode = static_cast<std::int32_t>(i);
+    ResetEnd end;
+    end.frames = static_cast<std::uint32_t>(i);
+    cache.keep(start, end);
+    REQUIRE(cache.find(start)->frames == i);
+  }
+  CHECK(cache.size() == ResetCache::kMost);
+  start.mode = 1;
+  CHECK_FALSE(cache.find(start));
+  start.mode = 0;
+  CHECK(cache.find(start));
+}
+
+// A program that overwrites RAM, timer and sound, and one that looks at them first.
+BootFacts study(std::initializer_list<std::uint8_t> program) {
+  auto bytes = std::make_shared<std::vector<std::uint8_t>>(4096, 0xEA);
+  std::ranges::copy(program, bytes->begin());
+  (*bytes)[0xFFC] = 0x00, (*bytes)[0xFFD] = 0xF0;
+  SystemGenerator generator{1};
+  Properties properties;
+  properties.format = Format::kNtsc;
+  const Console console{bytes, properties, generator};
+  return study_boot(console, "4K");
+}
+
+TEST_CASE("What a program overwrites before it looks is found") {
+  // LDX #0; TXA; loop: STA 0,X; INX; BNE loop; LDA #1; STA $296; then LDA INTIM
+  const auto all = study({0xA2, 0, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0xA9, 1, 0x8D, 0x96, 2, 0xAD, 0x84, 2});
+  CHECK((all.clears_ram && all.sets_timer && all.sets_sound));
+  // The timer is looked at first.
+  const auto timer = study({0xA2, 0, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0xAD, 0x84, 2, 0x8D, 0x96, 2});
+  CHECK((timer.clears_ram && !timer.sets_timer && timer.sets_sound));
+  // RAM is looked at first: LDA $80.
+  const auto warm = study({0xA5, 0x80, 0xA2, 0, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0x8D, 0x96, 2});
+  CHECK((!warm.clears_ram && !warm.sets_timer && !warm.sets_sound));
+  // From $81 on: LDX #$81.
+  const auto most = study({0xA2, 0x81, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0x4C, 0, 0xF0});
+  CHECK((!most.clears_ram && !most.sets_timer));
+}
+
+}  // namespace
+}  // namespace racebeam

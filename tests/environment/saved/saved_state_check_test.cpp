@@ -1,0 +1,182 @@
+// What is wrong in a state is named. That whatever passes does no harm is saved_state_fuzz_test.cpp's business.
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "emulator/cartridge/mappers/dpc.hpp"
+#include "environment/saved/saved_state_format.hpp"
+#include "environment/saved_state.hpp"
+#include "tests/environment/steered.hpp"
+#include "tests/support/random_image.hpp"
+
+namespace racebeam {
+namespace {
+
+using Values = Environment::Saved::Values;
+
+struct Wrong {
+  const char* sentence;
+  std::function<void(Values&)> spoil;
+};
+
+// `spoil` is told to change one field of a right state; the bytes' checksum is right all the same.
+std::string refusal(Environment& environment, const std::function<void(Values&)>& spoil) {
+  Environment::Saved saved = *environment.save(true);
+  spoil(saved.values);
+  try {
+    from_bytes(to_bytes(saved, environment), environment);
+    return "";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+TEST_CASE("A state with a value that no machine has is refused by the field's name") {
+  Environment environment = test::steered();
+  for (int i = 0; i < 5; ++i) environment.act(i);
+  REQUIRE(refusal(environment, [](Values&) {}).empty());
+  const Wrong wrongs[] = {
+      {"the cycle is -1", [](Values& v) { v.machine.cycle = -1; }},
+      {"the number of draws", [](Values& v) { v.machine.drawn = 0xFFFFFFFF; }},
+      {"the processor's status", [](Values& v) { v.machine.cpu.P |= 0x10; }},
+      {"the processor's jam flag is 2; it must be from 0 to 1", [](Values& v) { v.machine.cpu.jammed = 2; }},
+      {"the timer's shift is 40; it must be 0, 3, 6 or 10", [](Values& v) { v.machine.riot.shift = 40; }},
+      {"a player's position is 160", [](Values& v) { v.machine.tia.player[1].position = 160; }},
+      {"a player's motion is 16", [](Values& v) { v.machine.tia.player[0].motion = 16; }},
+      {"a player's NUSIZ", [](Values& v) { v.machine.tia.player[0].nusiz = 8; }},
+      {"a missile's position is 255", [](Values& v) { v.machine.tia.missile[0].position = 255; }},
+      {"the ball's position is 200", [](Values& v) { v.machine.tia.ball.position = 200; }},
+      {"the set of enabled objects", [](Values& v) { v.machine.tia.enabled ^= 1; }},
+      {"the Cosmic Ark count", [](Values& v) { v.machine.tia.cosmic_count = 4; }},
+      {"the Cosmic Ark shape", [](Values& v) { v.machine.tia.cosmic_shape = static_cast<CosmicShape>(3); }},
+      {"the frame's origin is 3", [](Values& v) { v.machine.tia.origin = 3; }},
+      {"the clocks left on the line is 229", [](Values& v) { v.machine.tia.left = 229; }},
+      {"the beam's clock", [](Values& v) { v.machine.tia.cursor = 1 << 30; }},
+      {"the next pixel", [](Values& v) { v.machine.tia.pixel += 160; }},
+      {"the collisions", [](Values& v) { v.machine.tia.collisions |= 1U << 12; }},
+      {"the number of lines", [](Values& v) { v.machine.frame.lines = -1; }},
+      {"the flag of a greyed frame", [](Values& v) { v.machine.frame.greyed = 1, v.machine.frame.open = 0; }},
+      {"a cartridge of scheme 4K has no such banks", [](Values& v) { v.machine.cartridge.bank[3] = 1; }},
+      {"a paddle's resistance is -1", [](Values& v) { v.machine.inputs.paddle[2] = -1; }},
+      {"a joystick is 32", [](Values& v) { v.machine.inputs.joystick[1] = 32; }},
+      {"strength", [](Values& v) { v.play.held.a.strength = std::numeric_limits<float>::quiet_NaN(); }},
+      {"a turned paddle", [](Values& v) { v.play.paddles[0] = -5; }},
+      {"the frame number is 4294967295", [](Values& v) { v.play.frames = 0xFFFFFFFF; }},
+      {"the mode is 2; it must be one of 0, 1, 3", [](Values& v) { v.play.mode = 2; }},
+      {"the difficulty is 9; it must be one of", [](Values& v) { v.play.difficulty = 9; }},
+      {"the flag of an old RAM", [](Values& v) { v.play.ram_is_stale = 2; }},
+      {"a variable that the rule has not", [](Values& v) { v.tally.values.back() = 1; }},
+      {"the divider of a sound channel is 32", [](Values& v) { v.sound.channel[1].divider = 32; }},
+  };
+  for (const Wrong& wrong : wrongs) {
+    INFO(wrong.sentence);
+    CHECK_THAT(refusal(environment, wrong.spoil), Catch::Contains(wrong.sentence));
+  }
+}
+
+// The most that a byte of CartridgeState::bank can be; 0 for all that are not listed.
+struct Most {
+  const char* scheme;
+  std::size_t index;
+  std::uint8_t most;
+};
+
+constexpr std::uint8_t kAny = 255;
+const std::vector<Most> kMost = {
+    {"F8", 0, 1},    {"F8 swapped", 0, 1}, {"F8SC", 0, 1}, {"F6", 0, 3},   {"F6SC", 0, 3}, {"F4", 0, 7},
+    {"F4SC", 0, 7},  {"FASC", 0, 2},       {"E0", 0, 7},   {"E0", 1, 7},   {"E0", 2, 7},   {"E0", 3, 7},
+    {"E7", 0, 7},    {"E7", 1, 3},         {"DPC", 0, 1},  {"3F", 0, 3},   {"3E", 0, 7},   {"3E", 1, 31},
+    {"3E", 2, 1},    {"UA", 0, 1},         {"AR", 0, kAny}, {"AR", 1, kAny}, {"AR", 2, 1}, {"MB", 0, 15},
+    {"MC", 0, kAny}, {"MC", 1, kAny},      {"MC", 2, kAny}, {"MC", 3, kAny}, {"MC", 4, 1}};
+
+std::uint8_t most_of(std::string_view scheme, std::size_t index) {
+  for (const Most& one : kMost)
+    if (one.scheme == scheme && one.index == index) return one.most;
+  return 0;
+}
+
+Environment random_machine(std::string_view scheme) {
+  return {test::random_image(scheme, 1), test::random_game(scheme), test::plain()};
+}
+
+TEST_CASE("A state with a bank that the cartridge has not is refused, in every scheme") {
+  for (const std::string_view scheme : test::random_schemes()) {
+    Environment environment = random_machine(scheme);
+    REQUIRE(refusal(environment, [](Values&) {}).empty());
+    for (std::size_t index = 0; index < 8; ++index) {
+      INFO(scheme << ", bank " << index);
+      const std::uint8_t most = most_of(scheme, index);
+      const auto with_bank = [&](int bank) {
+        return refusal(environment, [&](Values& values) {
+          values.machine.cartridge.bank[index] = static_cast<std::uint8_t>(bank);
+        });
+      };
+      CHECK(with_bank(most).empty());
+      if (most == kAny) continue;
+      CHECK_THAT(with_bank(most + 1), Catch::Contains("has no such banks"));
+      CHECK_THAT(with_bank(255), Catch::Contains("has no such banks"));
+    }
+  }
+}
+
+TEST_CASE("E0's last window shows the last slice in every state") {
+  Environment environment = random_machine("E0");
+  CHECK_THAT(refusal(environment, [](Values& values) { values.machine.cartridge.bank[3] = 6; }),
+             Catch::Contains("has no such banks"));
+}
+
+TEST_CASE("Bytes behind a cartridge's RAM must be zero") {
+  for (const std::string_view scheme : {"F8", "F8SC", "E7", "DPC", "AR"}) {
+    INFO(scheme);
+    Environment environment = random_machine(scheme);
+    CHECK_THAT(refusal(environment, [](Values& values) { values.machine.cartridge.ram[255] = 1; }),
+               Catch::Contains("a byte behind the cartridge's RAM"));
+  }
+}
+
+TEST_CASE("Registers that DPC's chip can't have are refused") {
+  Environment environment = random_machine("DPC");
+  const auto with_chip = [&](const std::function<void(dpc::Chip&)>& spoil) {
+    return refusal(environment, [&](Values& values) {
+      dpc::Chip chip;
+      std::memcpy(&chip, values.machine.cartridge.ram.data(), sizeof chip);
+      spoil(chip);
+      std::memcpy(values.machine.cartridge.ram.data(), &chip, sizeof chip);
+    });
+  };
+  const auto highest = [](dpc::Chip& chip) { chip.fetcher[7].counter = 2047, chip.fetcher[7].music = 1; };
+  CHECK(with_chip(highest).empty());
+  const std::function<void(dpc::Chip&)> spoilt[] = {
+      [](dpc::Chip& chip) { chip.fetcher[3].counter = 2048; },
+      [](dpc::Chip& chip) { chip.fetcher[0].flag = 1; },
+      [](dpc::Chip& chip) { chip.fetcher[4].music = 1; },
+      [](dpc::Chip& chip) { chip.fetcher[5].music = 2; },
+      [](dpc::Chip& chip) { chip.fraction = 1; },
+      [](dpc::Chip& chip) { chip.fraction = std::numeric_limits<double>::quiet_NaN(); },
+      [](dpc::Chip& chip) { chip.spare[6] = 1; }};
+  for (const auto& spoil : spoilt)
+    CHECK_THAT(with_chip(spoil), Catch::Contains("has no such banks or registers"));
+}
+
+TEST_CASE("Cartridge RAM of another size is refused") {
+  Environment environment = random_machine("E7");
+  for (const int size : {0, 1024, 2047, 2049, 32768}) {
+    Environment::Saved saved = *environment.save(true);
+    saved.cartridge_ram.resize(static_cast<std::size_t>(size));
+    CHECK_THROWS_WITH(from_bytes(to_bytes(saved, environment), environment), Catch::Contains("bytes of cartridge RAM"));
+  }
+}
+
+TEST_CASE("A generator that can't be one is refused") {
+  Environment environment = test::steered();
+  auto saved = *environment.save(true);
+  std::stringstream zeros;
+  for (int i = 0; i < 624; ++i) zeros << "0 ";
+  zeros << 7;
+  zeros >> *saved.random;
+  CHECK_THROWS_WITH(from_bytes(to_bytes(saved, environment), environment), Catch::Contains("generator are all 0"));
+}
+
+}  // namespace
+}  // namespace racebeam

@@ -1,0 +1,131 @@
+// A state as bytes: exact, and nothing else is taken for one.
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "environment/saved_state.hpp"
+#include "environment/saved/saved_state_format.hpp"
+#include "games/digest.hpp"
+#include "tests/support/counter_image.hpp"
+#include "tests/support/observation.hpp"
+
+namespace racebeam {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Environment counter(const std::string& name = "steered") {
+  Settings settings;
+  settings.random_seed = 5;
+  return {test::counter_image(), test::game(test::kSteeredGame, name), settings};
+}
+
+Bytes some_state(bool with_random = false) {
+  Environment environment = counter();
+  for (int i = 0; i < 10; ++i) environment.act(i);
+  return to_bytes(*environment.save(with_random), environment);
+}
+
+TEST_CASE("Bytes of a state give the same bytes again") {
+  Environment environment = counter();
+  for (const bool with_random : {false, true}) {
+    const Bytes bytes = some_state(with_random);
+    const auto saved = from_bytes(bytes, environment);
+    CHECK(to_bytes(*saved, environment) == bytes);
+    CHECK(saved->random.has_value() == with_random);
+    environment.restore(*saved);
+    CHECK(to_bytes(*environment.save(with_random), environment) == bytes);
+  }
+}
+
+TEST_CASE("A state carries its generator through bytes") {
+  Environment first = counter(), second = counter();
+  for (int i = 0; i < 700; ++i) first.act(i % 18);  // past one turn of the generator's 624 words
+  second.restore(*from_bytes(to_bytes(*first.save(true), first), second));
+  CHECK(*second.save(true)->random == *first.save(true)->random);
+}
+
+// 4K of CommaVid's: counts frames in the cartridge's RAM, which a state has no room for, and shows the count at $80.
+std::shared_ptr<const Image> image_with_ram() {
+  std::vector<std::uint8_t> bytes(4096, 0xEA);
+  bytes[0] = 100;  // first contents of the RAM
+  const std::uint8_t code[] = {0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0xA9, 0x00, 0x85, 0x00,  // VSYNC
+                               0xAE, 0x00, 0xF0, 0xE8, 0x8E, 0x00, 0xF4, 0x86, 0x80,                    // count
+                               0x4C, 0x00, 0xF8, 0x9D, 0xFF, 0xF3};                                     // again; signature
+  std::ranges::copy(code, bytes.begin() + 2048);
+  bytes[4093] = bytes[4095] = 0xF8;
+  bytes[4092] = bytes[4094] = 0x00;
+  Image image{std::make_shared<const std::vector<std::uint8_t>>(bytes), md5_of(bytes), "ram"};
+  return std::make_shared<const Image>(std::move(image));
+}
+
+TEST_CASE("A state has the cartridge's RAM, in memory and as bytes") {
+  Environment environment(image_with_ram(), test::game(), {});
+  environment.set_ram(0x11, 0);  // the game is not over, whatever was there at power-on
+  environment.reset_game();
+  for (int i = 0; i < 10; ++i) environment.act(0);
+  const auto saved = environment.save();
+  const int count = environment.ram()[0];
+  const Bytes bytes = to_bytes(*saved, environment);
+  for (int i = 0; i < 5; ++i) environment.act(0);
+  REQUIRE(int{environment.ram()[0]} == count + 5);
+
+  Environment other(image_with_ram(), test::game(), {});
+  for (Environment* restored : {&environment, &other}) {
+    restored->restore(*from_bytes(bytes, *restored));
+    CHECK(to_bytes(*restored->save(), *restored) == bytes);
+    for (int i = 0; i < 5; ++i) restored->act(0);
+    CHECK(int{restored->ram()[0]} == count + 5);
+  }
+  environment.restore(*saved);
+  environment.act(0);
+  CHECK(int{environment.ram()[0]} == count + 1);
+}
+
+TEST_CASE("Bytes that are no state are refused") {
+  const Environment environment = counter();
+  const auto refusal = [&](const Bytes& bytes) { from_bytes(bytes, environment); };
+  CHECK_THROWS_WITH(refusal({}), Catch::Contains("not a state"));
+  CHECK_THROWS_WITH(refusal(Bytes(100, 0)), Catch::Contains("not a state"));
+  CHECK_THROWS_WITH(refusal(Bytes(100000, 'x')), Catch::Contains("not a state"));
+}
+
+TEST_CASE("A state that was cut, at any place, is refused") {
+  const Environment environment = counter();
+  const Bytes bytes = some_state(true);
+  for (std::size_t size = 0; size < bytes.size(); size += size < 400 ? 1 : 997) {
+    CHECK_THROWS_AS(from_bytes(std::span(bytes).first(size), environment), std::invalid_argument);
+  }
+  CHECK_THROWS_WITH(from_bytes(std::span(bytes).first(bytes.size() - 1), environment),
+                    Catch::Contains("was cut"));
+  Bytes longer = bytes;
+  longer.push_back(0);
+  CHECK_THROWS_WITH(from_bytes(longer, environment), Catch::Contains("something was added"));
+}
+
+TEST_CASE("A state that was altered, at any place, is refused") {
+  const Environment environment = counter();
+  Bytes bytes = some_state(true);
+  for (std::size_t i = 0; i < bytes.size(); i += i < 400 ? 1 : 499) {
+    bytes[i] ^= 0x10;
+    CHECK_THROWS_AS(from_bytes(bytes, environment), std::invalid_argument);
+    bytes[i] ^= 0x10;
+  }
+  bytes[5000] ^= 1;
+  CHECK_THROWS_WITH(from_bytes(bytes, environment), Catch::Contains("altered"));
+}
+
+TEST_CASE("A state of another format is refused by its number") {
+  Bytes bytes = some_state();
+  const std::uint32_t version = 77;
+  std::memcpy(&bytes[8], &version, sizeof version);
+  CHECK_THROWS_WITH(from_bytes(bytes, counter()),
+                    Catch::Contains("format 77") && Catch::Contains("reads format " + std::to_string(kSnapshotVersion)));
+}
+
+TEST_CASE("A state of another game or image is refused") {
+  CHECK_THROWS_WITH(from_bytes(some_state(), counter("other")),
+                    "the state is of the game steered; the one that runs is other");
+}
+
+}  // namespace
+}  // namespace racebeam
