@@ -85,6 +85,7 @@ bool Console::Impl::run_step(Picture& picture, const FrameStart& start, Pixels p
     repeat(pixels);
   }
   board.end_step();
+  if (translator != nullptr) translator->end_step();
   if (!board.needs_exact_step()) return true;
   if (pixels == Pixels::kNone) return false;
   repeat(Pixels::kExact);

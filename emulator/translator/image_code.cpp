@@ -75,7 +75,7 @@ void ImageCode::make_gates(const Layout& layout) {
   enter_ = reinterpret_cast<Enter>(reinterpret_cast<std::uintptr_t>(enter));
 }
 
-const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout, std::size_t& bytes) {
+const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout) {
   const std::lock_guard lock(mutex_);
   if (const void* entry = view.entry(pc)) return entry;
   if (memory_.left() < kRoomForBatch) full_ = true;
@@ -91,11 +91,11 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
     full_ = true;
     return nullptr;
   }
-  bytes += assembler.getSize();
   memory_.seal(assembler.getSize());
   for (const Block& block : blocks) {
     const auto offset = static_cast<std::uint16_t>(block.pc - view.code.first);
     view.known[offset] = true;
+    view.worth[offset].set_length(block.instructions.size() + 1);
     const void* start = assembler.blocks[block.pc].getAddress();
     std::atomic_ref(view.entries[offset]).store(start, std::memory_order_release);
   }

@@ -11,6 +11,7 @@
 #include "emulator/state.hpp"
 #include "emulator/translator/assembler.hpp"
 #include "emulator/translator/code_memory.hpp"
+#include "emulator/translator/worth.hpp"
 
 namespace racebeam {
 struct WriteLog;
@@ -21,12 +22,13 @@ namespace racebeam::translator {
 // A run of the image that the CPU sees at certain addresses, and its blocks.
 struct View {
   View(const CodeWindow& window, std::size_t offset)
-      : code(window), rom_offset(offset), entries(window.span), known(window.span) {}
+      : code(window), rom_offset(offset), entries(window.span), worth(window.span), known(window.span) {}
 
   const CodeWindow code;          // in the copy of the image that belongs to the code
   const std::size_t rom_offset;   // of its first byte
   std::vector<const void*> entries;  // by offset: where the block that starts there begins; read by other threads
-  std::vector<bool> known;        // the same for the translator alone
+  std::vector<Worth> worth;          // by offset: of the blocks that start there
+  std::vector<bool> known;        // where blocks start, for the translator alone
 
   const void* entry(std::uint16_t pc) {
     const auto offset = static_cast<std::uint16_t>(pc - code.first);
@@ -45,9 +47,8 @@ class ImageCode {
   // The view through this window of a machine's memory. Null if it shows something else than this image.
   View* view(const CodeWindow& window, const Rom& rom);
 
-  // Translates what can be reached from `pc`, which must be in the view. Null if there is no room. Adds to `bytes` how much
-  // code was made.
-  const void* translate(View& view, std::uint16_t pc, const Layout& layout, std::size_t& bytes);
+  // Translates what is near to `pc`, which must be in the view. Null if there is no room.
+  const void* translate(View& view, std::uint16_t pc, const Layout& layout);
 
   // Runs from `entry` on; returns the new PC, with kInterpretNext or not.
   using Enter = std::uint32_t (*)(const void* entry, Board* board, WriteLog* log);

@@ -1,4 +1,4 @@
-// What can be reached from an entry without leaving a run of plain ROM, cut into blocks.
+// What can be reached soon from an entry without leaving a run of plain ROM, cut into blocks.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,7 @@ struct Block {
 };
 
 constexpr int kMostBlockCycles = 300;  // of a block, WSYNC apart
+extern int kMostBatchInstructions;  // that are followed from an entry
 
 // An instruction of the window: the whole of it can be read there.
 inline bool holds(const CodeWindow& window, std::uint16_t pc) {
