@@ -34,16 +34,14 @@ std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom, const Wiring& wiring) {
 ImageCode::ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity)
     : rom_(rom), wiring_(wiring), memory_(std::max(capacity, 2 * kRoomForBatch)) {}
 
-View* ImageCode::view(const CodeWindow& window, const Rom& rom) {
+View* ImageCode::view(const CodeWindow& window, const Rom& rom, bool make) {
   const std::less<> before;
   if (before(window.memory, rom.data()) || !before(window.memory, rom.data() + rom.size())) return nullptr;
   const auto rom_offset = static_cast<std::size_t>(window.memory - rom.data());
   const std::lock_guard lock(mutex_);
-  for (const auto& view : views_)
-    if (view->rom_offset == rom_offset && view->code.first == window.first && view->code.span == window.span)
-      return view.get();
-  views_.push_back(std::make_unique<View>(CodeWindow{rom_.data() + rom_offset, window.first, window.span}, rom_offset));
-  return views_.back().get();
+  std::unique_ptr<View>& view = views_[{rom_offset, window.first, window.span}];
+  if (view == nullptr && make) view = std::make_unique<View>(CodeWindow{rom_.data() + rom_offset, window.first, window.span});
+  return view.get();
 }
 
 // The way in: saves what belongs to the caller, loads the 6507's registers and jumps. The way out: the reverse.

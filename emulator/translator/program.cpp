@@ -1,14 +1,16 @@
 #include "emulator/translator/program.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 
 #include "emulator/registers.hpp"
 
 namespace racebeam::translator {
-int kMostBatchInstructions = [] { const char* e = getenv("RB_BATCH"); return e ? atoi(e) : 96; }();
 namespace {
+
+// What a batch may take, an instruction being 1: some 50 microseconds. The less, the later is code made that is seldom run.
+constexpr int kMostWork = 100;
+constexpr int kWorkOfBlock = 3;
 
 bool ends_flow(const Instruction& instruction) { return instruction.access == Access::Jump; }
 
@@ -25,7 +27,7 @@ class Discovery {
 
   std::vector<Block> run(std::uint16_t entry) {
     lead(entry, kLeader);
-    for (std::size_t next = 0; next < pending_.size() && scanned_ < kMostBatchInstructions; ++next) scan(pending_[next]);
+    for (std::size_t next = 0; next < pending_.size(); ++next) scan(pending_[next]);
     std::erase_if(leaders_, [this](const auto& leader) { return !seen_[leader.first]; });
     std::vector<Block> blocks;
     for (auto leader = leaders_.begin(); leader != leaders_.end(); ++leader) blocks.push_back(block_at(*leader));
@@ -42,7 +44,7 @@ class Discovery {
   void lead(std::uint16_t pc, Role role) {
     if (!holds(window_, pc) || known_[offset(pc)]) return;
     const auto [leader, is_new] = leaders_.emplace(offset(pc), role);
-    if (is_new) pending_.push_back(pc);
+    if (is_new) pending_.push_back(pc), work_ += kWorkOfBlock;
     leader->second = std::max(leader->second, role);
   }
 
@@ -54,9 +56,9 @@ class Discovery {
 
   // Follows the instructions from `pc` on, and makes leaders of all that they lead to.
   void scan(std::uint16_t pc) {
-    while (holds(window_, pc) && !seen_[offset(pc)]) {
+    while (holds(window_, pc) && !seen_[offset(pc)] && work_ < kMostWork) {
       seen_[offset(pc)] = true;
-      ++scanned_;
+      ++work_;
       const Instruction instruction = at(pc);
       if (instruction.access == Access::Branch || instruction.operation == Operation::jsr ||
           (instruction.operation == Operation::jmp && instruction.mode == Mode::absolute))
@@ -76,7 +78,7 @@ class Discovery {
     block.loops = role == kLoop;
     for (int cycles = 0; holds(window_, block.next);) {
       const std::size_t here = offset(block.next);
-      if (here != start && (leaders_.contains(here) || known_[here])) break;
+      if (here != start && (leaders_.contains(here) || known_[here] || !seen_[here])) break;
       const Instruction instruction = at(block.next);
       if (!is_translatable(instruction) || leads_out(instruction)) break;
       cycles += instruction.cycles + 2;
@@ -96,7 +98,7 @@ class Discovery {
   Leaders leaders_;
   std::vector<bool> seen_;
   std::vector<std::uint16_t> pending_;
-  int scanned_ = 0;  // instructions
+  int work_ = 0;
 };
 
 }  // namespace

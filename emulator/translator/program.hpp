@@ -19,7 +19,6 @@ struct Block {
 };
 
 constexpr int kMostBlockCycles = 300;  // of a block, WSYNC apart
-extern int kMostBatchInstructions;  // that are followed from an entry
 
 // An instruction of the window: the whole of it can be read there.
 inline bool holds(const CodeWindow& window, std::uint16_t pc) {

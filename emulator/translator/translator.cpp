@@ -10,6 +10,7 @@
 #include "emulator/cpu.hpp"
 #include "emulator/translator/image_code.hpp"
 #include "emulator/translator/program.hpp"
+#include "emulator/translator/purse.hpp"
 
 namespace racebeam {
 namespace {
@@ -18,6 +19,23 @@ namespace {
 constexpr std::int32_t kMargin = 400;
 
 constexpr std::int32_t kFewestCycles = 2;  // of an instruction
+
+// Rows of instructions that are interpreted: short ones end exactly, others at a jump or branch, after so many more at most.
+constexpr std::int32_t kShortRow = 32, kMostRow = 4096;
+
+// Where a step is longer than what translated code may run, it is run again by the interpreter. After such a step others
+// are left to it at once: one, then three, up to 63.
+class Retreat {
+ public:
+  bool goes_on() { return left_ > 0 && left_-- > 0; }
+  void note(bool whole) {
+    length_ = whole ? length_ / 2 : std::min(2 * length_ + 1, 63);
+    if (!whole) left_ = length_;
+  }
+
+ private:
+  int length_ = 0, left_ = 0;  // steps
+};
 
 // How many instructions the interpreter runs before translated code is looked for again. Where there is none that pays, it
 // runs twice as many each time: looking costs as much as interpreting a few.
@@ -70,10 +88,10 @@ const std::string& refusal() {
 }  // namespace
 
 struct Translator::Impl {
-  Impl(Board& board, bool always)
+  Impl(Board& board, const translator::Purse& given)
       : code(translator::ImageCode::of(board.slot.rom, {board.plain_registers(), board.slot.scheme.port_reader})),
         layout(board),
-        purse(always) {}
+        purse(given) {}
 
   // Windows that were looked into before, by their place: a bank switch finds its way back without asking the image.
   struct Seen {
@@ -97,6 +115,7 @@ struct Translator::Impl {
   std::array<Seen, 32> seen{};
   translator::Purse purse;
   Row row;
+  Retreat retreat;
 };
 
 translator::View* Translator::Impl::current_view(Board& board) {
@@ -104,7 +123,10 @@ translator::View* Translator::Impl::current_view(Board& board) {
   if (static_cast<std::uint16_t>(pc - board.code.first) >= board.code.span && !board.find_code(pc)) return nullptr;
   const std::uintptr_t place = reinterpret_cast<std::uintptr_t>(board.code.memory) / MemoryMap::kPageSize;
   Seen& known = seen[(place ^ board.code.first / 1024U) % seen.size()];
-  if (known.view == nullptr || !same(known.window, board.code)) known = {board.code, code->view(board.code, board.slot.rom)};
+  if (known.view == nullptr || !same(known.window, board.code)) {
+    const translator::Purse::Payment payment(purse);
+    known = {board.code, code->view(board.code, board.slot.rom, purse.affords_batch())};
+  }
   return known.view;
 }
 
@@ -117,10 +139,8 @@ Translator::Impl::Block Translator::Impl::block(Board& board) {
   translator::Worth* const worth = &view->worth[static_cast<std::uint16_t>(pc - view->code.first)];
   if (const void* known = view->entry(pc)) return {known, worth};
   if (code->is_full() || !purse.affords_batch()) return {};
-  const std::int64_t before = translator::processor_time();
-  const void* const made = code->translate(*view, pc, layout);
-  purse.pay(translator::processor_time() - before);
-  return {made, worth};
+  const translator::Purse::Payment payment(purse);
+  return {code->translate(*view, pc, layout), worth};
 }
 
 // True if the interpreter must do the next instruction.
@@ -153,11 +173,22 @@ std::unique_ptr<Translator> Translator::make(Board& board, CpuKind kind) {
     if (kind == CpuKind::kAuto) return nullptr;
     throw std::system_error(std::make_error_code(std::errc::permission_denied), refusal());
   }
-  return std::unique_ptr<Translator>(new Translator(std::make_unique<Impl>(board, kind == CpuKind::kTranslator)));
+  return std::unique_ptr<Translator>(new Translator(std::make_unique<Impl>(board, translator::Purse(kind == CpuKind::kTranslator))));
 }
 
 bool Translator::run(Board& board, std::int32_t instructions) {
   impl_->purse.begin_step();
+  if (impl_->retreat.goes_on()) {
+    interpret(board, instructions);
+    return true;
+  }
+  const bool begins_frame = board.state.cycle < board.overlong_cycle() - kMargin;
+  const bool whole = run_blocks(board, instructions);
+  if (begins_frame) impl_->retreat.note(whole);
+  return whole;
+}
+
+bool Translator::run_blocks(Board& board, std::int32_t instructions) {
   if (impl_->code->is_full()) renew(board);
   board.stop = false;
   const std::int32_t first_cycle = board.state.cycle;
@@ -171,7 +202,9 @@ bool Translator::run(Board& board, std::int32_t instructions) {
     }
     const Impl::Block block = impl_->block(board);
     const std::int32_t row = block.start != nullptr ? impl_->run_block(board, block) : impl_->row.next(1);
-    if (row != 0 && !board.stop) interpret(board, std::min(row, left));
+    if (row == 0 || board.stop) continue;
+    if (row < kShortRow || left < row + kMostRow) interpret(board, std::min(row, left));
+    else interpret(board, row + kMostRow, row);
   }
   return true;
 }
@@ -179,11 +212,14 @@ bool Translator::run(Board& board, std::int32_t instructions) {
 // A new generation of code, since the old one is full.
 void Translator::renew(Board& board) {
   if (!impl_->purse.affords_batch()) return;
-  const std::int64_t before = translator::processor_time();
   translator::Purse purse = impl_->purse;
-  impl_ = std::make_unique<Impl>(board, purse.is_endless());
-  purse.pay(translator::processor_time() - before);
+  const Retreat retreat = impl_->retreat;
+  {
+    const translator::Purse::Payment payment(purse);
+    impl_ = std::make_unique<Impl>(board, purse);
+  }
   impl_->purse = purse;
+  impl_->retreat = retreat;
 }
 
 void Translator::end_step() { impl_->purse.end_step(); }

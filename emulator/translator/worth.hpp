@@ -10,7 +10,7 @@ namespace racebeam::translator {
 class Worth {
  public:
   // Cycles of a stay that is as fast as interpreting them.
-  static constexpr std::int32_t kFewestCycles = 24;
+  static constexpr std::int32_t kFewestCycles = 48;
 
   bool is_poor() const { return vain_.load(std::memory_order_relaxed) >= kMostVain; }
 
