@@ -24,17 +24,23 @@ constexpr std::int32_t kFewestCycles = 2;  // of an instruction
 constexpr std::int32_t kShortRow = 32, kMostRow = 4096;
 
 // Where a step is longer than what translated code may run, it is run again by the interpreter. After such a step others
-// are left to it at once: one, then three, up to 63.
+// are left to it at once: one, then three, up to 63; fewer again after many that were not so long.
 class Retreat {
  public:
   bool goes_on() { return left_ > 0 && left_-- > 0; }
   void note(bool whole) {
-    length_ = whole ? length_ / 2 : std::min(2 * length_ + 1, 63);
-    if (!whole) left_ = length_;
+    if (whole) {
+      if (++calm_ % kCalm == 0) length_ /= 2;
+      return;
+    }
+    calm_ = 0;
+    left_ = length_ = std::min(2 * length_ + 1, kLongest);
   }
 
  private:
-  int length_ = 0, left_ = 0;  // steps
+  static constexpr int kLongest = 63, kCalm = 64;
+
+  int length_ = 0, left_ = 0, calm_ = 0;  // steps
 };
 
 // How many instructions the interpreter runs before translated code is looked for again. Where there is none that pays, it
@@ -49,7 +55,7 @@ class Row {
   void end() { length_ = 1; }
 
  private:
-  static constexpr std::int32_t kLongest = 16384;
+  static constexpr std::int32_t kLongest = 128;
 
   std::int32_t length_ = 1;
 };
@@ -88,10 +94,7 @@ const std::string& refusal() {
 }  // namespace
 
 struct Translator::Impl {
-  Impl(Board& board, const translator::Purse& given)
-      : code(translator::ImageCode::of(board.slot.rom, {board.plain_registers(), board.slot.scheme.port_reader})),
-        layout(board),
-        purse(given) {}
+  Impl(Board& board, bool always) : layout(board), purse(always) {}
 
   // Windows that were looked into before, by their place: a bank switch finds its way back without asking the image.
   struct Seen {
@@ -105,18 +108,33 @@ struct Translator::Impl {
     translator::Worth* worth = nullptr;
   };
 
+  bool has_code(Board& board);
   translator::View* current_view(Board& board);
   Block block(Board& board);
   bool enter(Board& board, const void* start);
   std::int32_t run_block(Board& board, const Block& block);
 
-  std::shared_ptr<translator::ImageCode> code;
+  std::shared_ptr<translator::ImageCode> code;  // null until some can be afforded
   const translator::Layout layout;
   std::array<Seen, 32> seen{};
   translator::Purse purse;
   Row row;
   Retreat retreat;
 };
+
+// False as long as there is none. A new generation is begun when the old one is full.
+bool Translator::Impl::has_code(Board& board) {
+  const bool is_useful = code != nullptr && !code->is_full();
+  if (is_useful || !purse.affords_batch()) return code != nullptr;
+  const translator::Purse::Payment payment(purse);
+  try {
+    code = translator::ImageCode::of(board.slot.rom, {board.plain_registers(), board.slot.scheme.port_reader});
+    seen = {};
+  } catch (const std::system_error&) {
+    // There is no memory for code now: it is tried again at a later step.
+  }
+  return code != nullptr;
+}
 
 translator::View* Translator::Impl::current_view(Board& board) {
   const std::uint16_t pc = board.state.cpu.PC;
@@ -173,12 +191,12 @@ std::unique_ptr<Translator> Translator::make(Board& board, CpuKind kind) {
     if (kind == CpuKind::kAuto) return nullptr;
     throw std::system_error(std::make_error_code(std::errc::permission_denied), refusal());
   }
-  return std::unique_ptr<Translator>(new Translator(std::make_unique<Impl>(board, translator::Purse(kind == CpuKind::kTranslator))));
+  return std::unique_ptr<Translator>(new Translator(std::make_unique<Impl>(board, kind == CpuKind::kTranslator)));
 }
 
 bool Translator::run(Board& board, std::int32_t instructions) {
   impl_->purse.begin_step();
-  if (impl_->retreat.goes_on()) {
+  if (impl_->retreat.goes_on() || !impl_->has_code(board)) {
     interpret(board, instructions);
     return true;
   }
@@ -189,7 +207,6 @@ bool Translator::run(Board& board, std::int32_t instructions) {
 }
 
 bool Translator::run_blocks(Board& board, std::int32_t instructions) {
-  if (impl_->code->is_full()) renew(board);
   board.stop = false;
   const std::int32_t first_cycle = board.state.cycle;
   const std::int32_t limit = board.translated.limit = board.overlong_cycle() - kMargin;
@@ -207,19 +224,6 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
     else interpret(board, row + kMostRow, row);
   }
   return true;
-}
-
-// A new generation of code, since the old one is full.
-void Translator::renew(Board& board) {
-  if (!impl_->purse.affords_batch()) return;
-  translator::Purse purse = impl_->purse;
-  const Retreat retreat = impl_->retreat;
-  {
-    const translator::Purse::Payment payment(purse);
-    impl_ = std::make_unique<Impl>(board, purse);
-  }
-  impl_->purse = purse;
-  impl_->retreat = retreat;
 }
 
 void Translator::end_step() { impl_->purse.end_step(); }

@@ -38,7 +38,6 @@ class Translator {
  private:
   struct Impl;
   bool run_blocks(Board& board, std::int32_t instructions);
-  void renew(Board& board);
   explicit Translator(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -5,13 +5,6 @@
 #include <algorithm>
 #include <memory>
 
-#if __has_include(<valgrind/callgrind.h>)
-#include <valgrind/callgrind.h>
-#else  // nothing can be counted
-#define CALLGRIND_ZERO_STATS
-#define CALLGRIND_DUMP_STATS
-#endif
-
 namespace racebeam::test {
 namespace {
 
@@ -55,13 +48,6 @@ double median(std::vector<double> values) {
 constexpr CpuKind kBoth[] = {CpuKind::kInterpreter, CpuKind::kAuto};
 
 }  // namespace
-
-void counted_run(const Program& program, int steps, CpuKind cpu) {
-  const auto image = std::make_shared<const std::vector<std::uint8_t>>(program.rom);
-  CALLGRIND_ZERO_STATS;
-  run(image, properties_for(program), cpu, steps, Look::kNone, [](int) {});
-  CALLGRIND_DUMP_STATS;
-}
 
 Cost cost_of(const Program& program, int steps, Look look, int rounds) {
   const auto image = std::make_shared<const std::vector<std::uint8_t>>(program.rom);

@@ -22,8 +22,4 @@ Cost cost_of(const Program& program, int steps, Look look, int rounds);
 // The longest step of such a run, and of each the shortest time that it took in `rounds` rounds.
 Cost longest_step(const Program& program, int steps, Look look, int rounds);
 
-// One such run, undrawn. Under valgrind's callgrind, the instructions that it takes are written to a file of
-// its own.
-void counted_run(const Program& program, int steps, CpuKind cpu);
-
 }  // namespace racebeam::test
