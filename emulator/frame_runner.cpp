@@ -87,6 +87,7 @@ bool Console::Impl::run_step(FrameBuffer& picture, const FrameStart& start, Pixe
     repeat(pixels);
   }
   board.end_step();
+  if (translator != nullptr) translator->end_step();
   if (!board.needs_exact_step()) return true;
   if (pixels == Pixels::kNone) return false;
   repeat(Pixels::kExact);

@@ -25,6 +25,7 @@ struct Core {
   std::uintptr_t start, end;  // of the window; end is 0 if locate() must be asked for the next instruction
   std::uintptr_t origin;   // where address 0 would be
   std::int32_t budget;     // instructions that may be executed
+  std::int32_t enough;     // from so many on, it ends where they are counted
   std::uint32_t nz;        // N is bit 15 or bit 7; Z is set when bits 7-0 are 0
   std::uint8_t A, X, Y, SP;
   std::uint8_t C, V, D, I; // 0 or 1
@@ -39,8 +40,8 @@ struct Core {
   static constexpr std::int64_t kAlarm = 1 << (kCycleBit - 1);
   static constexpr std::int32_t kLongestRow = 4096;
 
-  Core(Board& on, std::int32_t instructions)
-      : board(on), budget(instructions), A(on.state.cpu.A), X(on.state.cpu.X), Y(on.state.cpu.Y), SP(on.state.cpu.SP),
+  Core(Board& on, std::int32_t most, std::int32_t at_least)
+      : board(on), budget(most), enough(at_least), A(on.state.cpu.A), X(on.state.cpu.X), Y(on.state.cpu.Y), SP(on.state.cpu.SP),
         latch(on.state.cpu.latch) {
     clock = on.state.cycle * kCycle + kAlarm - (budget - kLongestRow);
     take_window();
@@ -101,7 +102,7 @@ struct Core {
   // Finds the next instruction where it may be anywhere. False if there is none to be executed.
   RACEBEAM_INLINE bool locate() {
     counted = (clock & kAlarm) != 0;
-    if (board.stop || board.state.cpu.jammed || (counted && executed() >= budget)) return false;
+    if (board.stop || board.state.cpu.jammed || (counted && executed() >= enough)) return false;
     const std::uint16_t pc = PC(), offset = static_cast<std::uint16_t>(pc - board.code.first);
     at = place(offset < board.code.span ? board.code.memory + offset : board.locate_code(pc, latch, cycle()));
     take_window();

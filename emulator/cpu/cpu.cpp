@@ -67,13 +67,15 @@ constexpr bool is_read(char first_letter_of_kind) { return first_letter_of_kind 
 
 void reset_cpu(Board& board) {
   board.state.cpu = CpuState{};
-  Core cpu(board, 0);
+  Core cpu(board, 0, 0);
   const std::uint8_t low = cpu.read(0xFFFC);
   cpu.jump(static_cast<std::uint16_t>(low | cpu.read(0xFFFD) << 8));
   cpu.store_state();
 }
 
-void interpret(Board& board, std::int32_t instructions) {
+void interpret(Board& board, std::int32_t instructions) { interpret(board, instructions, instructions); }
+
+void interpret(Board& board, std::int32_t most, std::int32_t enough) {
   if (board.state.cpu.jammed) return;
   board.stop = false;
 
@@ -83,7 +85,7 @@ void interpret(Board& board, std::int32_t instructions) {
 #undef OP
   };
 
-  Core cpu(board, instructions);
+  Core cpu(board, most, enough);
 
 #define FOLLOWER(code) \
   if (often_follows(0x##code, kBefore) && next == 0x##code) goto op_##code;

@@ -23,6 +23,7 @@ Layout::Layout(Board& board) {
   sound = at(board.sound.registers);
   limit = at(board.translated.limit);
   first_line = at(board.translated.first_line);
+  waited = at(board.translated.waited);
   nz = at(board.translated.nz);
   carry = at(board.translated.carry);
   overflow = at(board.translated.V);

@@ -19,7 +19,7 @@ struct Layout {
   explicit Layout(Board& board);
 
   std::int32_t ram, a, x, y, sp, cycle, pages, stop, code_span, last_access, slot, sound;
-  std::int32_t limit, first_line, nz, carry, overflow, decimal, interrupt;
+  std::int32_t limit, first_line, waited, nz, carry, overflow, decimal, interrupt;
 };
 
 class Assembler : public Xbyak::CodeGenerator {

@@ -104,8 +104,20 @@ void BlockEmitter::jump_to(std::uint16_t target) {
     as_.jmp(entry, Xbyak::CodeGenerator::T_NEAR);
     return;
   }
+  if (holds(as_.window.code, target)) jump_if_made(target);
   as_.mov(as_.eax, target);
   as_.jmp(as_.way_out, Xbyak::CodeGenerator::T_NEAR);
+}
+
+// The block at `target` may be made later.
+void BlockEmitter::jump_if_made(std::uint16_t target) {
+  Xbyak::Label not_yet;
+  as_.mov(as_.rsi, reinterpret_cast<std::uintptr_t>(&as_.window.entries[as_.offset_of(target)]));
+  as_.mov(as_.rsi, as_.ptr[as_.rsi]);
+  as_.test(as_.rsi, as_.rsi);
+  as_.jz(not_yet);
+  as_.jmp(as_.rsi);
+  as_.L(not_yet);
 }
 
 void BlockEmitter::emit_branch(const Instruction& instruction) {

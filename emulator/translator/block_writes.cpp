@@ -123,6 +123,8 @@ void BlockEmitter::write_wsync(const Instruction& instruction) {
   as_.add(as_.eax, as_.ecx);
   touch_tia(cycles);
   as_.mov(as_.ebp, as_.eax);
+  as_.sub(as_.eax, as_.edx);
+  as_.add(as_.dword_of(as_.layout.waited), as_.eax);
   elapsed_ = -static_cast<int>(instruction.cycles);  // they are counted when the instruction is done
   clobbered_flags();
 }

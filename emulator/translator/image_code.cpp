@@ -34,16 +34,14 @@ std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom, const Wiring& wiring) {
 ImageCode::ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity)
     : rom_(rom), wiring_(wiring), memory_(std::max(capacity, 2 * kRoomForBatch)) {}
 
-View* ImageCode::view(const CodeWindow& window, const Rom& rom) {
+View* ImageCode::view(const CodeWindow& window, const Rom& rom, bool make) {
   const std::less<> before;
   if (before(window.memory, rom.data()) || !before(window.memory, rom.data() + rom.size())) return nullptr;
   const auto rom_offset = static_cast<std::size_t>(window.memory - rom.data());
   const std::lock_guard lock(mutex_);
-  for (const auto& view : views_)
-    if (view->rom_offset == rom_offset && view->code.first == window.first && view->code.span == window.span)
-      return view.get();
-  views_.push_back(std::make_unique<View>(CodeWindow{rom_.data() + rom_offset, window.first, window.span}, rom_offset));
-  return views_.back().get();
+  std::unique_ptr<View>& view = views_[{rom_offset, window.first, window.span}];
+  if (view == nullptr && make) view = std::make_unique<View>(CodeWindow{rom_.data() + rom_offset, window.first, window.span});
+  return view.get();
 }
 
 // The way in: saves what belongs to the caller, loads the 6507's registers and jumps. The way out: the reverse.
@@ -75,7 +73,7 @@ void ImageCode::make_gates(const Layout& layout) {
   enter_ = reinterpret_cast<Enter>(reinterpret_cast<std::uintptr_t>(enter));
 }
 
-const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout, std::size_t& bytes) {
+const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout) {
   const std::lock_guard lock(mutex_);
   if (const void* entry = view.entry(pc)) return entry;
   if (memory_.left() < kRoomForBatch) full_ = true;
@@ -91,11 +89,11 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
     full_ = true;
     return nullptr;
   }
-  bytes += assembler.getSize();
   memory_.seal(assembler.getSize());
   for (const Block& block : blocks) {
     const auto offset = static_cast<std::uint16_t>(block.pc - view.code.first);
     view.known[offset] = true;
+    view.worth[offset].set_length(block.instructions.size() + 1);
     const void* start = assembler.blocks[block.pc].getAddress();
     std::atomic_ref(view.entries[offset]).store(start, std::memory_order_release);
   }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <tuple>
 #include <vector>
 
 #include "emulator/cartridge/cartridge.hpp"
@@ -11,6 +13,7 @@
 #include "emulator/state/state.hpp"
 #include "emulator/translator/assembler.hpp"
 #include "emulator/translator/code_memory.hpp"
+#include "emulator/translator/worth.hpp"
 
 namespace racebeam {
 struct WriteLog;
@@ -20,13 +23,13 @@ namespace racebeam::translator {
 
 // A run of the image that the CPU sees at certain addresses, and its blocks.
 struct View {
-  View(const CodeWindow& window, std::size_t offset)
-      : code(window), rom_offset(offset), entries(window.span), known(window.span) {}
+  explicit View(const CodeWindow& window)
+      : code(window), entries(window.span), worth(window.span), known(window.span) {}
 
-  const CodeWindow code;          // in the copy of the image that belongs to the code
-  const std::size_t rom_offset;   // of its first byte
+  const CodeWindow code;             // in the copy of the image that belongs to the code
   std::vector<const void*> entries;  // by offset: where the block that starts there begins; read by other threads
-  std::vector<bool> known;        // the same for the translator alone
+  std::vector<Worth> worth;          // by offset: of the blocks that start there
+  std::vector<bool> known;           // by offset: where blocks start, for the translator alone
 
   const void* entry(std::uint16_t pc) {
     const auto offset = static_cast<std::uint16_t>(pc - code.first);
@@ -42,12 +45,12 @@ class ImageCode {
 
   ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity);
 
-  // The view through this window of a machine's memory. Null if it shows something else than this image.
-  View* view(const CodeWindow& window, const Rom& rom);
+  // The view through this window of a machine's memory. Null if it shows something else than this image, or if there is none
+  // yet and `make` is false: to make one takes as long as some thousand instructions.
+  View* view(const CodeWindow& window, const Rom& rom, bool make);
 
-  // Translates what can be reached from `pc`, which must be in the view. Null if there is no room. Adds to `bytes` how much
-  // code was made.
-  const void* translate(View& view, std::uint16_t pc, const Layout& layout, std::size_t& bytes);
+  // Translates what is near to `pc`, which must be in the view. Null if there is no room.
+  const void* translate(View& view, std::uint16_t pc, const Layout& layout);
 
   // Runs from `entry` on; returns the new PC, with kInterpretNext or not.
   using Enter = std::uint32_t (*)(const void* entry, Board* board, WriteLog* log);
@@ -62,7 +65,8 @@ class ImageCode {
   const Wiring wiring_;
   std::mutex mutex_;
   CodeMemory memory_;
-  std::vector<std::unique_ptr<View>> views_;
+  // By the offset of its first byte in the image, the first address, and how many addresses there are.
+  std::map<std::tuple<std::size_t, std::uint16_t, std::uint16_t>, std::unique_ptr<View>> views_;
   Enter enter_ = nullptr;
   const void* way_out_ = nullptr;
   std::atomic<bool> full_ = false;

@@ -1,9 +1,16 @@
 #include "emulator/translator/program.hpp"
 
+#include <algorithm>
+#include <map>
+
 #include "emulator/tia/registers/registers.hpp"
 
 namespace racebeam::translator {
 namespace {
+
+// What a batch may take, an instruction being 1: some 50 microseconds. The less, the later is code made that is seldom run.
+constexpr int kMostWork = 100;
+constexpr int kWorkOfBlock = 3;
 
 bool ends_flow(const Instruction& instruction) { return instruction.access == Access::Jump; }
 
@@ -16,32 +23,29 @@ bool is_wsync(const Instruction& instruction) {
 class Discovery {
  public:
   Discovery(const CodeWindow& window, const std::vector<bool>& known)
-      : window_(window), known_(known), role_(window.span, kNone), seen_(window.span) {}
+      : window_(window), known_(known), seen_(window.span) {}
 
   std::vector<Block> run(std::uint16_t entry) {
     lead(entry, kLeader);
-    while (!pending_.empty()) {
-      const std::uint16_t pc = pending_.back();
-      pending_.pop_back();
-      scan(pc);
-    }
+    for (std::size_t next = 0; next < pending_.size(); ++next) scan(pending_[next]);
+    std::erase_if(leaders_, [this](const auto& leader) { return !seen_[leader.first]; });
     std::vector<Block> blocks;
-    for (std::size_t offset = 0; offset < role_.size(); ++offset)
-      if (role_[offset] != kNone) blocks.push_back(block_at(offset));
+    for (auto leader = leaders_.begin(); leader != leaders_.end(); ++leader) blocks.push_back(block_at(*leader));
     return blocks;
   }
 
  private:
-  enum Role : std::uint8_t { kNone, kLeader, kLoop };
+  enum Role : std::uint8_t { kLeader, kLoop };
+  using Leaders = std::map<std::size_t, Role>;  // by offset in the window
 
   std::size_t offset(std::uint16_t pc) const { return static_cast<std::uint16_t>(pc - window_.first); }
   Instruction at(std::uint16_t pc) const { return decode(window_.memory + offset(pc), pc); }
 
   void lead(std::uint16_t pc, Role role) {
     if (!holds(window_, pc) || known_[offset(pc)]) return;
-    Role& known = role_[offset(pc)];
-    if (known == kNone) pending_.push_back(pc);
-    if (role > known) known = role;
+    const auto [leader, is_new] = leaders_.emplace(offset(pc), role);
+    if (is_new) pending_.push_back(pc), work_ += kWorkOfBlock;
+    leader->second = std::max(leader->second, role);
   }
 
   // What lies beyond the window may be a device, and reads what was on the data bus: the interpreter knows that.
@@ -52,8 +56,9 @@ class Discovery {
 
   // Follows the instructions from `pc` on, and makes leaders of all that they lead to.
   void scan(std::uint16_t pc) {
-    while (holds(window_, pc) && !seen_[offset(pc)]) {
+    while (holds(window_, pc) && !seen_[offset(pc)] && work_ < kMostWork) {
       seen_[offset(pc)] = true;
+      ++work_;
       const Instruction instruction = at(pc);
       if (instruction.access == Access::Branch || instruction.operation == Operation::jsr ||
           (instruction.operation == Operation::jmp && instruction.mode == Mode::absolute))
@@ -66,18 +71,19 @@ class Discovery {
   }
 
   // Up to the next leader, a jump, what the interpreter must do, or the most cycles; then a new leader goes on.
-  Block block_at(std::size_t start) {
+  Block block_at(const Leaders::value_type& leader) {
+    const auto [start, role] = leader;
     Block block;
     block.pc = block.next = static_cast<std::uint16_t>(window_.first + start);
-    block.loops = role_[start] == kLoop;
+    block.loops = role == kLoop;
     for (int cycles = 0; holds(window_, block.next);) {
       const std::size_t here = offset(block.next);
-      if (here != start && (role_[here] != kNone || known_[here])) break;
+      if (here != start && (leaders_.contains(here) || known_[here] || !seen_[here])) break;
       const Instruction instruction = at(block.next);
       if (!is_translatable(instruction) || leads_out(instruction)) break;
       cycles += instruction.cycles + 2;
       if (cycles > kMostBlockCycles) {
-        role_[here] = kLeader;  // it lies further on: its turn comes
+        leaders_.emplace(here, kLeader);  // it lies further on: its turn comes
         break;
       }
       block.instructions.push_back(instruction);
@@ -89,9 +95,10 @@ class Discovery {
 
   const CodeWindow window_;
   const std::vector<bool>& known_;
-  std::vector<Role> role_;
+  Leaders leaders_;
   std::vector<bool> seen_;
   std::vector<std::uint16_t> pending_;
+  int work_ = 0;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What can be reached from an entry without leaving a run of plain ROM, cut into blocks.
+// What can be reached soon from an entry without leaving a run of plain ROM, cut into blocks.
 #pragma once
 
 #include <cstdint>

@@ -25,6 +25,9 @@ class Translator {
   // the frame closed: then there were no more, and the step must be run again by who counts.
   bool run(Board& board, std::int32_t instructions);
 
+  // After run(), and what the machine does besides for its step: that time counts for what may be spent on translation.
+  void end_step();
+
   // The most bytes of translated code for one image, at least 131072; 4 MiB unless told. When they are used up, all is
   // translated anew. Applies to images that are translated from now on.
   static void set_code_capacity(std::size_t bytes);
@@ -34,8 +37,7 @@ class Translator {
 
  private:
   struct Impl;
-  bool run_on(Board& board, std::int32_t instructions, std::int32_t first_cycle);
-  void renew(Board& board);
+  bool run_blocks(Board& board, std::int32_t instructions);
   explicit Translator(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -63,11 +63,11 @@ std::string difference(Console& interpreted, Console& translated) {
   return found;
 }
 
-std::string difference_in_program(std::uint32_t seed, int steps) {
+std::string difference_in_program(std::uint32_t seed, int steps, CpuKind cpu) {
   Program program = make_program(seed);
   const Properties properties = properties_for(program);
   const auto rom = std::make_shared<const std::vector<std::uint8_t>>(std::move(program.rom));
-  Machine interpreted(rom, properties, seed, CpuKind::kInterpreter), translated(rom, properties, seed, CpuKind::kTranslator);
+  Machine interpreted(rom, properties, seed, CpuKind::kInterpreter), translated(rom, properties, seed, cpu);
   Console* both[] = {&interpreted.console, &translated.console};
   std::mt19937 random(seed);
   for (int step = 0; step < steps; ++step) {

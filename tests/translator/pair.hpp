@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "emulator/translator/translator.hpp"
+
 namespace racebeam {
 class Console;
 }
@@ -14,8 +16,8 @@ namespace racebeam::test {
 // sound on both.
 std::string difference(Console& interpreted, Console& translated);
 
-// Runs the program of a seed on both, `steps` steps, with states saved and restored on the way, and compares
+// Runs the program of a seed on the interpreter and on `cpu`, `steps` steps, with states saved and restored on the way, and compares
 // everything after each: state, cartridge RAM, pictures, sound. Empty if all is the same, else what differs.
-std::string difference_in_program(std::uint32_t seed, int steps);
+std::string difference_in_program(std::uint32_t seed, int steps, CpuKind cpu = CpuKind::kTranslator);
 
 }  // namespace racebeam::test
