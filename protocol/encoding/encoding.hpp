@@ -1,4 +1,4 @@
-// The ways in which the line protocol writes bytes as text (PROTOCOL.md, "Bytes").
+// The ways in which the line protocol writes bytes as text (PROTOCOL.md, "observe and look").
 #pragma once
 
 #include <cstdint>
