@@ -51,6 +51,7 @@ struct LineService {
   CpuKind cpu = CpuKind::kAuto;        // of all machines
   std::shared_ptr<MemoryBudget> memory;  // of all sessions; null: there is no limit
   bool strict = false;           // the first error ends a session; for scripts
+  std::function<void(const std::string& sentence)> report_fault;  // an `internal` error; from any thread; may be empty
 };
 
 class Session;

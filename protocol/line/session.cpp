@@ -6,6 +6,7 @@
 
 #include "protocol/line/commands/command.hpp"
 #include "protocol/line/session_recording.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -171,13 +172,20 @@ void Session::guarded(Step step) {
     step();
   } catch (const Refusal& refusal) {
     refuse(refusal.code(), refusal.what());
-  } catch (const std::invalid_argument& error) {
+  } catch (const InvalidInput& error) {
     refuse(Code::kBadValue, error.what());
   } catch (const std::bad_alloc&) {
     refuse(Code::kLimit, "the system has no more memory for this request");
   } catch (const std::exception& error) {
-    refuse(Code::kInternal, error.what());
+    refuse_fault(error.what());
   }
+}
+
+// Not the client's doing, so that those who run the server are told.
+void Session::refuse_fault(const std::string& what) {
+  refuse(Code::kInternal, what);
+  const std::string name(command_ < commands().size() ? commands()[command_].name : "a request");
+  if (service.report_fault) service.report_fault("internal error in " + name + ": " + what);
 }
 
 void Session::begin_request() {

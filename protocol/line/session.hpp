@@ -93,6 +93,7 @@ class Session {
   void execute(std::string_view line);
   void read_words(std::string_view line);
   void refuse(Code code, std::string_view sentence);
+  void refuse_fault(const std::string& what);
   std::size_t footprint() const;
   void finish_reply();
   void measure();
