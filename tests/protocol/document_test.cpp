@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "protocol/encoding/encoding.hpp"
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
 #include "protocol/line/play_settings.hpp"
 #include "protocol/refusal.hpp"

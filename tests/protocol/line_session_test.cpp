@@ -1,7 +1,7 @@
 // Lines, errors and limits of a session; load_test.cpp has what a game is loaded with.
 #include <catch2/catch.hpp>
 
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "recording/recorder.hpp"
 #include "tests/games/scratch.hpp"
 #include "tests/protocol/line_client.hpp"

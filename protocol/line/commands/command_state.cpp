@@ -7,7 +7,7 @@
 #include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/line/commands/branch.hpp"
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/session.hpp"
 #include "system/invalid_input.hpp"
 
