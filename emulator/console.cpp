@@ -1,13 +1,13 @@
 #include "emulator/console.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "emulator/console_impl.hpp"
 #include "emulator/cpu/cpu.hpp"
 #include "emulator/state_check.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -91,7 +91,7 @@ Format Console::Impl::detect_format() {
 
 void Console::Impl::check_ram_size(std::span<const std::uint8_t> cartridge_ram) const {
   if (cartridge_ram.size() == board.cartridge_ram.size()) return;
-  throw std::invalid_argument("the state has " + std::to_string(cartridge_ram.size()) +
+  throw InvalidInput("the state has " + std::to_string(cartridge_ram.size()) +
                               " bytes of cartridge RAM; the cartridge that runs has " +
                               std::to_string(board.cartridge_ram.size()));
 }

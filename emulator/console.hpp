@@ -21,7 +21,7 @@ namespace racebeam {
 class Console {
  public:
   // Builds the console around an image, as docs/spec/console.md, 1 says: power-on RAM, format detection,
-  // system reset. Throws std::invalid_argument when no cartridge scheme fits the image. `power_on` must
+  // system reset. Throws InvalidInput when no cartridge scheme fits the image. `power_on` must
   // outlive the console. cpu: what runs the instructions; kTranslator throws std::system_error where code
   // can't be translated. pace: is told of every step, those of format detection too, and must outlive the
   // console; null: none.
@@ -45,10 +45,10 @@ class Console {
   std::span<const std::uint8_t> cartridge_ram() const;
 
   // The machine alone: exact in everything but what undrawn rows of the two pictures show. Throws
-  // std::invalid_argument, and changes nothing, when `cartridge_ram` is not as large as this console's.
+  // InvalidInput, and changes nothing, when `cartridge_ram` is not as large as this console's.
   void restore(const State& state, std::span<const std::uint8_t> cartridge_ram = {});
 
-  // Throws std::invalid_argument, naming the field, when this machine can't be in `state`. What passes can be restored
+  // Throws InvalidInput, naming the field, when this machine can't be in `state`. What passes can be restored
   // and run, whoever wrote it.
   void check(const State& state, std::span<const std::uint8_t> cartridge_ram = {}) const;
 

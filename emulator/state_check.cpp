@@ -7,6 +7,7 @@
 #include "emulator/base/range_check.hpp"
 #include "emulator/board/riot.hpp"
 #include "emulator/tia/line/objects.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -106,7 +107,7 @@ void check_inputs(const Inputs& inputs) {
 
 void check_cartridge(const CartridgeState& state, const Slot& slot) {
   if (!slot.scheme.admits(slot, state))
-    throw std::invalid_argument("the state is none that this machine can be in: a cartridge of scheme " +
+    throw InvalidInput("the state is none that this machine can be in: a cartridge of scheme " +
                                 std::string(slot.scheme.name) + " has no such banks or registers");
   const std::size_t used = slot.scheme.ram > kRamInState ? 0 : slot.scheme.ram;
   check_zeros("a byte behind the cartridge's RAM", std::span(state.ram).subspan(used));

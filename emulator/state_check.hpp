@@ -8,7 +8,7 @@
 
 namespace racebeam {
 
-// Throws std::invalid_argument, with a sentence that names the field, its value and what is accepted. `video`
+// Throws InvalidInput, with a sentence that names the field, its value and what is accepted. `video`
 // and `slot` are those of the console that is to go on with `state`.
 void check_state(const State& state, const Video& video, const Slot& slot);
 

@@ -8,6 +8,7 @@
 #include "emulator/tia/palette.hpp"
 #include "environment/impl.hpp"
 #include "environment/reset/classic_power_on.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -26,7 +27,7 @@ std::shared_ptr<const Game> by_settings(std::shared_ptr<const Game> game, const 
 }
 
 void refuse_unless(bool good, const std::string& sentence) {
-  if (!good) throw std::invalid_argument(sentence);
+  if (!good) throw InvalidInput(sentence);
 }
 
 const Settings& checked(const Settings& settings, const Game& game) {
@@ -52,7 +53,7 @@ void check_offered(int number, const std::vector<int>& offered, const std::strin
   if (std::ranges::find(offered, number) != offered.end()) return;
   std::string list;
   for (const int one : offered) list += (list.empty() ? "" : ", ") + std::to_string(one);
-  throw std::invalid_argument(game.name + " has no " + what + " " + std::to_string(number) + "; it offers " +
+  throw InvalidInput(game.name + " has no " + what + " " + std::to_string(number) + "; it offers " +
                               list);
 }
 

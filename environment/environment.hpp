@@ -30,7 +30,7 @@ constexpr int kAudioSize = 512;
 
 class Environment {
  public:
-  // Powers a console on with `image` and resets `game`. Throws std::invalid_argument when a setting, or the
+  // Powers a console on with `image` and resets `game`. Throws InvalidInput when a setting, or the
   // image, can't be used. `pace` is told of every frame and must outlive the environment; null: none.
   Environment(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings,
               Pace* pace = nullptr);
@@ -47,7 +47,7 @@ class Environment {
     int a, b;
   };
   Rewards rewards() const;
-  void reset_game();  // throws std::invalid_argument when the image does not come to the mode that was set
+  void reset_game();  // throws InvalidInput when the image does not come to the mode that was set
 
   // The same for a number of frames that is not the settings': no-ops at the start of an episode.
   int act_for(int frames, int a);
@@ -65,7 +65,7 @@ class Environment {
   // Called after each frame of an act, not for those of a reset; nothing: no longer. For recordings.
   void watch(std::function<void()> each_frame);
 
-  // A mode takes effect at the next reset, a difficulty at the next frame. Throw std::invalid_argument,
+  // A mode takes effect at the next reset, a difficulty at the next frame. Throw InvalidInput,
   // naming what is offered.
   void set_mode(int mode);
   void set_difficulty(int difficulty);
@@ -112,7 +112,7 @@ class Environment {
   std::uint64_t state_hash() const;  // see state_hash.hpp
   bool same_state(const Environment& other) const;
 
-  // Throws std::invalid_argument, naming what is wrong, when acts and resets can't have led to `saved`, which is of
+  // Throws InvalidInput, naming what is wrong, when acts and resets can't have led to `saved`, which is of
   // this image and game but comes from elsewhere. What passes may play nonsense, but does no harm.
   void check(const Saved& saved) const;
 

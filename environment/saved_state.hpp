@@ -62,7 +62,7 @@ class Environment::Saved {
 
 static_assert(std::is_trivially_copyable_v<Environment::Saved::Values>);
 
-// Throws std::invalid_argument when a state of `saved` is not one of `running`.
+// Throws InvalidInput when a state of `saved` is not one of `running`.
 void check_identity(const Identity& saved, const Identity& running);
 
 }  // namespace racebeam

@@ -1,5 +1,5 @@
 // A session of the line protocol: the input is what a client sends.
-#include "protocol/line/line_session.hpp"
+#include "protocol/line_session.hpp"
 
 #include <chrono>
 #include <vector>

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
-#include <stdexcept>
 #include <utility>
 
 #include "games/files/game_file.hpp"
 #include "games/similar.hpp"
 #include "system/input_file.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -32,7 +32,7 @@ const CatalogueImage* known_image(std::string_view md5) {
 
 [[noreturn]] void refuse_name(const std::string& name) {
   const std::string near = did_you_mean(name, game_names());
-  throw std::invalid_argument("there is no game '" + name + "';" +
+  throw InvalidInput("there is no game '" + name + "';" +
                               (near.empty() ? " `racebeam games` lists them" : near));
 }
 
@@ -118,7 +118,7 @@ std::shared_ptr<const Game> load_game_file(const std::string& path) {
 
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name,
                       const std::optional<std::string>& game_file) {
-  if (game_name && game_file) throw std::invalid_argument("give the name of a game or a game file, not both");
+  if (game_name && game_file) throw InvalidInput("give the name of a game or a game file, not both");
   if (game_file) return given(load_game_file(*game_file), RecognisedBy::kGivenFile, image);
   if (game_name) {
     auto game = find_game(*game_name);

@@ -39,7 +39,7 @@ std::shared_ptr<const Game> find_game_by_md5(
 
 std::vector<std::string_view> game_names();  // of catalogue(), in its order
 
-// A game file of the user's. Throws std::invalid_argument: "FILE:LINE: FIELD: sentence".
+// A game file of the user's. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 std::shared_ptr<const Game> load_game_file(const std::string& path);
 
 enum class RecognisedBy { kMd5, kGivenName, kGivenFile, kFileName, kNothing };
@@ -51,7 +51,7 @@ struct Recognition {
 };
 
 // What was given explicitly wins; else the MD5 decides, else the file's name.
-// Throws std::invalid_argument for an unknown name (suggesting others) or a broken file.
+// Throws InvalidInput for an unknown name (suggesting others) or a broken file.
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name = std::nullopt,
                       const std::optional<std::string>& game_file = std::nullopt);
 

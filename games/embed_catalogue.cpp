@@ -11,6 +11,7 @@
 
 #include "games/digest.hpp"
 #include "games/files/game_file.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -53,11 +54,11 @@ class Catalogue {
     for (const auto& [name, text] : read_folder(folder, ".toml")) add(name, text, folder / (name + ".toml"));
     for (const auto& [name, bytes] : images_)
       if (std::ranges::find(names_, name) == names_.end())
-        throw std::invalid_argument("the built-in image " + name + " has no game file");
+        throw InvalidInput("the built-in image " + name + " has no game file");
     std::ranges::sort(md5s_, {}, &Md5Entry::md5);
     for (std::size_t i = 1; i < md5s_.size(); ++i)
       if (md5s_[i].md5 == md5s_[i - 1].md5)
-        throw std::invalid_argument("two games list the MD5 " + md5s_[i].md5);
+        throw InvalidInput("two games list the MD5 " + md5s_[i].md5);
   }
 
   void write(std::ostream& out) const {
@@ -95,7 +96,7 @@ class Catalogue {
     if (!image.md5.empty())
       md5s_.push_back({image.md5, names_.size(), image.accepted});
     else if (!is_built_in)
-      throw std::invalid_argument(path.string() + ":1: image.md5: an image that is not built in needs this");
+      throw InvalidInput(path.string() + ":1: image.md5: an image that is not built in needs this");
   }
 
   static std::string md5_of_text(const std::string& bytes) {
@@ -130,7 +131,7 @@ class Catalogue {
 
 int main(int argc, char** argv) try {
   if (argc != 4)
-    throw std::invalid_argument("usage: embed_catalogue OUTPUT CATALOGUE-FOLDER HOMEBREW-FOLDER");
+    throw racebeam::InvalidInput("usage: embed_catalogue OUTPUT CATALOGUE-FOLDER HOMEBREW-FOLDER");
   const racebeam::Catalogue catalogue(argv[2], racebeam::read_folder(argv[3], ".bin"));
   std::ofstream out(argv[1]);
   catalogue.write(out);

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <stdexcept>
 
 #include "games/digest.hpp"
 #include "system/input_file.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kBuiltIn = "builtin:";
 
 [[noreturn]] void refuse(const std::string& where, const std::string& why) {
-  throw std::invalid_argument("image " + where + ": " + why);
+  throw InvalidInput("image " + where + ": " + why);
 }
 
 std::string lower(std::string text) {
@@ -89,7 +89,7 @@ std::vector<std::string> image_files(const std::string& folder) {
     if (entry->is_regular_file(unknown) && looks_like_image(entry->path()))
       files.push_back(entry->path().string());
   }
-  if (error) throw std::invalid_argument("can't list the folder '" + folder + "': " + error.message());
+  if (error) throw InvalidInput("can't list the folder '" + folder + "': " + error.message());
   std::sort(files.begin(), files.end());
   return files;
 }

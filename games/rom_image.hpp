@@ -21,15 +21,15 @@ struct Image {
   std::string stem;  // the file's name without its ending, lower case; or the built-in's name
 };
 
-// `where`: a path (gzip is inflated), or builtin:NAME. Throws std::invalid_argument with a sentence.
+// `where`: a path (gzip is inflated), or builtin:NAME. Throws InvalidInput with a sentence.
 std::shared_ptr<const Image> load_image(const std::string& where);
 
-// Bytes that came another way. `stem` is what to call them. Throws std::invalid_argument when there are none or
+// Bytes that came another way. `stem` is what to call them. Throws InvalidInput when there are none or
 // too many.
 std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const std::string& stem);
 
 // The files of a folder that look like images: .bin, .a26 or .rom, also with .gz after it; sorted. Throws
-// std::invalid_argument when the folder can't be listed.
+// InvalidInput when the folder can't be listed.
 std::vector<std::string> image_files(const std::string& folder);
 
 // The images that are part of the program.

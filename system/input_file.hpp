@@ -6,12 +6,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "system/invalid_input.hpp"
+
 namespace racebeam {
 
 // The sentence is "WHAT PATH: REASON", such as "image pong.bin: there is no such file".
-class InputFileError : public std::invalid_argument {
+class InputFileError : public InvalidInput {
  public:
-  using std::invalid_argument::invalid_argument;
+  using InvalidInput::InvalidInput;
 };
 
 // Open for reading; the caller closes the descriptor. `what` begins the sentence of an error. Throws

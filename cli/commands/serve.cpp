@@ -86,6 +86,7 @@ LineService line_service(const ServeOptions& options, Workers& workers) {
   service.threads = static_cast<std::size_t>(options.server.threads);
   service.cpu = options.machine.settings.cpu;
   service.strict = options.strict;
+  service.report_fault = [](const std::string& sentence) { log(LogLevel::kError, sentence); };
   service.parallel = [&workers](std::size_t count, const std::function<void(std::size_t)>& task) {
     workers.run(count, task);
   };

@@ -8,7 +8,7 @@
 #include "cli/arguments/options.hpp"
 #include "cli/arguments/settings_sources.hpp"
 #include "protocol/classic/classic.hpp"
-#include "protocol/line/line_session.hpp"
+#include "protocol/line_session.hpp"
 #include "server/connections/settings.hpp"
 #include "server/operation/log.hpp"
 

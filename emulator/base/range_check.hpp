@@ -6,10 +6,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "system/invalid_input.hpp"
+
 namespace racebeam {
 
 [[noreturn]] inline void refuse_field(const char* what, std::int64_t value, const std::string& accepted) {
-  throw std::invalid_argument("the state is none that this machine can be in: " + std::string(what) + " is " +
+  throw InvalidInput("the state is none that this machine can be in: " + std::string(what) + " is " +
                               std::to_string(value) + "; it must be " + accepted);
 }
 

@@ -70,7 +70,7 @@ inline bool banks_unused(const CartridgeState& state, std::size_t first) {
 }
 
 // The scheme of an image by its size and signatures, or the one that is asked for by name. Throws
-// std::invalid_argument when none fits, no scheme has that name, or the image is too small for it.
+// InvalidInput when none fits, no scheme has that name, or the image is too small for it.
 const Scheme& scheme_of(const Rom& rom, std::string_view asked_for = {});
 
 // The detected name; empty when none fits.

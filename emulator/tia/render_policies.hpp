@@ -19,7 +19,7 @@
 namespace racebeam {
 
 // Draws what stood before a change, as far as the beam had come.
-struct Drawing {
+struct RenderPolicy {
   Beam& beam;
   std::int32_t& reached;
 
@@ -41,7 +41,7 @@ struct Drawing {
 };
 
 // Pixels are not wanted, collisions are: the beam stays behind, except while objects are shown that may meet.
-struct Following {
+struct TrackPolicy {
   Beam& beam;
   TiaState& tia;
   std::int32_t& reached;
@@ -74,7 +74,7 @@ struct Following {
 };
 
 // The line's pixels are there already; only the registers are wanted.
-struct Recalling {
+struct ReplayPolicy {
   Beam& beam;
 
   RACEBEAM_INLINE void reach(std::int32_t) const {}

@@ -91,7 +91,7 @@ bool Tia::play_log(std::int32_t cycle, Collisions asked) {
 // Where no pixels are wanted.
 bool Tia::follow_log() {
   skip(end_of_unseen());
-  const Following painter{beam_, tia_, reached_, watches_};
+  const TrackPolicy painter{beam_, tia_, reached_, watches_};
   painter.enabled();
   work_ += kWorkOfWrite * static_cast<std::uint32_t>(log_->next - played_);
   RegisterEffects(tia_, frame_, video_, painter).play(played_, log_->next, log_->base);
@@ -117,8 +117,8 @@ void Tia::find_collisions(std::int32_t cycle, Collisions asked) {
 }
 
 void Tia::touch(std::int32_t cycle) {
-  if (beam_.draws_pixels()) Drawing{beam_, reached_}.come_to(3 * cycle);
-  else Following{beam_, tia_, reached_, watches_}.come_to(3 * cycle);
+  if (beam_.draws_pixels()) RenderPolicy{beam_, reached_}.come_to(3 * cycle);
+  else TrackPolicy{beam_, tia_, reached_, watches_}.come_to(3 * cycle);
 }
 
 bool Tia::end_picture(std::int32_t cycle) {
@@ -136,7 +136,7 @@ bool Tia::stopped_inside(std::int32_t cycle) const {
 // Write by write, or up to `next`.
 void Tia::play(const std::uint32_t* next) {
   work_ += kWorkOfWrite * static_cast<std::uint32_t>(next - played_);
-  RegisterEffects(tia_, frame_, video_, Drawing{beam_, reached_}).play(played_, next, log_->base);
+  RegisterEffects(tia_, frame_, video_, RenderPolicy{beam_, reached_}).play(played_, next, log_->base);
   played_ = next;
   if (beam_.exact_spans()) beam_.draw_to(reached_);
 }
@@ -144,7 +144,7 @@ void Tia::play(const std::uint32_t* next) {
 // Up to `next`, for what needs no drawing.
 void Tia::skip(const std::uint32_t* next) {
   if (next == played_) return;
-  RegisterEffects(tia_, frame_, video_, Recalling{beam_}).play(played_, next, log_->base);
+  RegisterEffects(tia_, frame_, video_, ReplayPolicy{beam_}).play(played_, next, log_->base);
   tia_.enabled = enabled_objects(tia_);
   played_ = next;
 }
@@ -230,7 +230,7 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
 
 // The line is there, but its registers came from elsewhere.
 void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
-  RegisterEffects(tia_, frame_, video_, Recalling{beam_}).play(played_, next, log_->base);
+  RegisterEffects(tia_, frame_, video_, ReplayPolicy{beam_}).play(played_, next, log_->base);
   tia_.enabled = enabled_objects(tia_);
   tia_.comb_armed = record.end.comb_armed;
   beam_.end_line();

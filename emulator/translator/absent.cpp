@@ -20,6 +20,6 @@ std::unique_ptr<Translator> Translator::make(Board&, CpuKind kind) {
 bool Translator::run(Board&, std::int32_t) { return false; }
 void Translator::end_step() {}
 void Translator::set_code_capacity(std::size_t) {}
-const char* Translator::obstacle() { return "this build has no translator: it needs x86-64 and Xbyak"; }
+const char* Translator::obstacle() { return "this build has no translator (RACEBEAM_TRANSLATOR=OFF)"; }
 
 }  // namespace racebeam

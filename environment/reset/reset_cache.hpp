@@ -67,7 +67,7 @@ class ResetCache {
   std::vector<Entry> entries_;
 };
 
-// Of all machines of the process; the one thing that they share and that changes. From any thread.
+// The cache that all machines of the process share. Can be called from any thread.
 ResetCache& reset_cache();
 
 }  // namespace racebeam

@@ -1,10 +1,10 @@
 // States in memory: copies of values, and pictures that are shared until they are drawn on again
 // (docs/spec/environment.md, 13, for what the reference leaves out).
 #include <algorithm>
-#include <stdexcept>
 
 #include "environment/impl.hpp"
 #include "environment/saved/saved_state_check.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -27,11 +27,11 @@ std::string Identity::game_name() const { return text_of(game); }
 
 void check_identity(const Identity& saved, const Identity& running) {
   if (saved.md5 != running.md5) {
-    throw std::invalid_argument("the state is of the image with MD5 " + saved.md5_text() +
+    throw InvalidInput("the state is of the image with MD5 " + saved.md5_text() +
                                 "; the one that runs has MD5 " + running.md5_text());
   }
   if (saved.game != running.game) {
-    throw std::invalid_argument("the state is of the game " + saved.game_name() + "; the one that runs is " +
+    throw InvalidInput("the state is of the game " + saved.game_name() + "; the one that runs is " +
                                 running.game_name());
   }
 }
@@ -69,7 +69,7 @@ void Environment::Impl::restore(const Saved& saved) {
 void Environment::Impl::check(const Saved& saved) const {
   check_identity(saved.identity, identity);
   if (saved.properties == properties && saved.height == console.height()) return;
-  throw std::invalid_argument(
+  throw InvalidInput(
       "the state is of a console with another picture or other controllers than the one that runs");
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "emulator/base/range_check.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -22,7 +23,7 @@ void check_offered(const char* what, int number, const std::vector<int>& offered
 
 void check_strength(const Press& press) {
   if (!std::isfinite(press.strength))
-    throw std::invalid_argument(
+    throw InvalidInput(
         "the state is none that this machine can be in: the strength of a held action is no "
         "finite number");
 }
@@ -57,7 +58,7 @@ void check_sound(const Sound& sound) {
 void check_generator(std::span<const std::uint32_t, MersenneTwister::state_size> words, std::uint32_t position) {
   check_range("the position of the generator", position, 0, MersenneTwister::state_size);
   if (std::ranges::all_of(words, [](std::uint32_t word) { return word == 0; }))
-    throw std::invalid_argument(
+    throw InvalidInput(
         "the state is none that this machine can be in: the words of its generator are all 0");
 }
 

@@ -7,7 +7,7 @@
 
 namespace racebeam {
 
-// Throws std::invalid_argument, naming what is wrong, for values of `play` that acts and resets of `game`
+// Throws InvalidInput, naming what is wrong, for values of `play` that acts and resets of `game`
 // could not have left. Settings are not looked at: a state may be restored under others.
 void check_play(const EpisodeState& play, const Game& game);
 

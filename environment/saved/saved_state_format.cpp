@@ -6,10 +6,10 @@
 #include <bit>
 #include <cstring>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "environment/saved/saved_state_check.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -80,7 +80,7 @@ MersenneTwister generator_of(const GeneratorWords& words) {
   return generator;
 }
 
-[[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
+[[noreturn]] void refuse(const std::string& sentence) { throw InvalidInput(sentence); }
 
 void check(const Header& header, std::size_t size) {
   if (!std::ranges::equal(header.magic, kMagic)) refuse("this is not a state saved by racebeam");

@@ -19,10 +19,10 @@ namespace racebeam {
 constexpr std::uint32_t kSnapshotVersion = 2;
 
 // `environment` draws the pictures if they are not yet (Environment::set_drawing); it is one that could restore the state,
-// else std::invalid_argument is thrown, and is left as it was.
+// else InvalidInput is thrown, and is left as it was.
 std::vector<std::uint8_t> to_bytes(const Environment::Saved& saved, const Environment& environment);
 
-// Throws std::invalid_argument when `bytes` are no state, were cut or altered, are of another version of this
+// Throws InvalidInput when `bytes` are no state, were cut or altered, are of another version of this
 // program, or of another image or game than those of `environment`, or when a value in them is none that the
 // machine can have. Whoever wrote the bytes: the state that is returned can be restored and run.
 std::shared_ptr<const Environment::Saved> from_bytes(std::span<const std::uint8_t> bytes,

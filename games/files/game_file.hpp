@@ -8,7 +8,7 @@
 
 namespace racebeam {
 
-// `file` is how errors call it. Throws std::invalid_argument: "FILE:LINE: FIELD: sentence".
+// `file` is how errors call it. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 Game parse_game(std::string_view text, const std::string& name, const std::string& file);
 
 }  // namespace racebeam

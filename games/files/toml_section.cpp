@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "system/invalid_input.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -18,7 +20,7 @@ std::string joined(const std::vector<std::string>& words) {
 }  // namespace
 
 void TomlSource::refuse(int line, const std::string& field, const std::string& sentence) const {
-  throw std::invalid_argument(file + ":" + std::to_string(line) + ": " + field + ": " + sentence);
+  throw InvalidInput(file + ":" + std::to_string(line) + ": " + field + ": " + sentence);
 }
 
 toml::table parse_toml(const TomlSource& source) {
@@ -105,7 +107,7 @@ void Section::guard(const toml::node& at, std::string_view key, const std::funct
     work();
   } catch (const SourceError&) {
     throw;  // knows its line better
-  } catch (const std::invalid_argument& error) {
+  } catch (const InvalidInput& error) {
     refuse(at, key, error.what());
   }
 }

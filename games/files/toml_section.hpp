@@ -43,7 +43,7 @@ class Section {
   // Hands the text of `key` to a compiler; its errors name the line within the text.
   void compile(std::string_view key, const std::function<void(std::string_view)>& compiler) const;
 
-  // Runs `work`; its std::invalid_argument is refused as an error of this key.
+  // Runs `work`; its InvalidInput is refused as an error of this key.
   void guard(const toml::node& at, std::string_view key, const std::function<void()>& work) const;
 
   // One of a list of words, by its number.

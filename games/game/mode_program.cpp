@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 #include "games/game/game.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -58,7 +58,7 @@ class Runner {
   }
 
   [[noreturn]] void give_up(const std::string& why) const {
-    throw std::invalid_argument("mode " + std::to_string(mode_) + " of " + game_.name +
+    throw InvalidInput("mode " + std::to_string(mode_) + " of " + game_.name +
                                 " could not be set up on this image: " + why);
   }
 

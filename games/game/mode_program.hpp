@@ -46,7 +46,7 @@ struct ModeProgram {
 // the one the program was written for.
 constexpr int kModeTurns = 1000;
 
-// Puts `mode` in place. Throws std::invalid_argument when that can't be done with the image that is running.
+// Puts `mode` in place. Throws InvalidInput when that can't be done with the image that is running.
 void run_mode_program(const Game& game, Rule& rule, int mode, ModeHost& host);
 
 }  // namespace racebeam

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "games/game/mode_program.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -276,7 +277,7 @@ class Compiler {
       return emit({.op = Op::kVariable, .value = scope_.names.slot(wanted)});
     } catch (const SourceError&) {
       throw;
-    } catch (const std::invalid_argument& error) {
+    } catch (const InvalidInput& error) {
       in_.refuse(error.what());
     }
   }

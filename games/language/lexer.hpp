@@ -7,11 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "system/invalid_input.hpp"
+
 namespace racebeam {
 
 // What is wrong with a piece of a rule, and on which of its lines (from 1).
-struct SourceError : std::invalid_argument {
-  SourceError(int at, const std::string& sentence) : std::invalid_argument(sentence), line(at) {}
+struct SourceError : InvalidInput {
+  SourceError(int at, const std::string& sentence) : InvalidInput(sentence), line(at) {}
   int line;
 };
 

@@ -5,6 +5,7 @@
 #include "games/game/actions.hpp"
 #include "games/language/expression.hpp"
 #include "games/language/lexer.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -70,7 +71,7 @@ class Compiler {
     try {
       if (scope_.names.knows(name.text)) return scope_.names.slot(name.text);
       VariableNames().declare(name.text);  // is it a name at all?
-    } catch (const std::invalid_argument& error) {
+    } catch (const InvalidInput& error) {
       throw SourceError(name.line, error.what());
     }
     const auto found = scope_.locals.find(name.text);

@@ -4,6 +4,7 @@
 
 #include "games/language/lexer.hpp"
 #include "games/language/mode_compiler.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -15,7 +16,7 @@ bool starts_assignment(const TokenReader& reader) {
 void declare(VariableNames& names, const Token& name) {
   try {
     names.declare(name.text);
-  } catch (const std::invalid_argument& error) {
+  } catch (const InvalidInput& error) {
     throw SourceError(name.line, error.what());
   }
 }

@@ -1,6 +1,6 @@
 // Compiles the texts of a game file's rule and mode program. Call in this order: wraps, reset_to and keep,
 // step, terminal, lives, mode_program, finish. Throws SourceError, with the line of the text, and
-// std::invalid_argument.
+// InvalidInput.
 #pragma once
 
 #include <map>

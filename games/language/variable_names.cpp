@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <stdexcept>
 
 #include "games/language/lexer.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -31,9 +31,9 @@ VariableNames::VariableNames() {
 
 void VariableNames::declare(std::string_view name) {
   if (!is_name(name))
-    throw std::invalid_argument(quoted(name) + " is not a name: letters, digits and _ make one");
+    throw InvalidInput(quoted(name) + " is not a name: letters, digits and _ make one");
   if (std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end())
-    throw std::invalid_argument(quoted(name) + " is a word of the rule language and cannot name a variable");
+    throw InvalidInput(quoted(name) + " is a word of the rule language and cannot name a variable");
   if (!knows(name)) all_[std::string(name)].variable.name = name;
 }
 
@@ -52,7 +52,7 @@ VariableNames::Entry& VariableNames::entry(std::string_view name) { return all_.
 int VariableNames::slot(std::string_view name) {
   int& place = entry(name).slot;
   if (place < 0 && slots_ == kMaxVariables)
-    throw std::invalid_argument("more than " + std::to_string(kMaxVariables) +
+    throw InvalidInput("more than " + std::to_string(kMaxVariables) +
                                 " variables live from frame to frame");
   if (place < 0) place = slots_++;
   return place;

@@ -17,14 +17,14 @@ class VariableNames {
  public:
   VariableNames();  // with reward and terminal, in their slots
 
-  // Throws std::invalid_argument for a word that the language needs itself, or that is no name.
+  // Throws InvalidInput for a word that the language needs itself, or that is no name.
   void declare(std::string_view name);
   void reset_to(std::string_view name, std::int32_t initial);
   void keep(std::string_view name);
 
   bool knows(std::string_view name) const { return all_.find(name) != all_.end(); }
   int slot(std::string_view
-               name);  // of a name that is known; throws std::invalid_argument when there are too many
+               name);  // of a name that is known; throws InvalidInput when there are too many
   std::optional<int> slot_if_used(std::string_view name) const;
   std::vector<Variable> variables() const;  // in order of slots
 

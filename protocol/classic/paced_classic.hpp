@@ -36,7 +36,7 @@ class PacedClassic {
   std::chrono::steady_clock::duration worked() const { return worked_; }  // how long that took
 
   // Once work() has returned true: the text to be sent, good until work() is called again, or nothing if
-  // input is needed first. Throws ClassicError, and std::invalid_argument when the machine cannot be had.
+  // input is needed first. Throws ClassicError, and InvalidInput when the machine cannot be had.
   std::optional<std::string_view> reply();
   void check_machine() const;  // throws as reply(), which still has the same to tell
   bool ended() const { return session_ && session_->ended(); }

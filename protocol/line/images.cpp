@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "system/invalid_input.hpp"
+
 namespace racebeam {
 
 Images::Images() {
@@ -22,7 +24,7 @@ void Images::add_folder(const std::string& folder) {
   for (const std::string& path : image_files(folder)) {
     try {
       add_file(path);
-    } catch (const std::invalid_argument&) {
+    } catch (const InvalidInput&) {
       continue;  // `racebeam roms` says what is wrong with it
     }
   }

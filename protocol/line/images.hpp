@@ -16,7 +16,7 @@ class Images {
  public:
   Images();  // those that are part of the program
 
-  // Both throw std::invalid_argument for what can't be read. A file in a folder that can't is left out.
+  // Both throw InvalidInput for what can't be read. A file in a folder that can't is left out.
   // `game`, `game_file`: how to score it, as recognise() has it.
   void add_file(const std::string& path, const std::optional<std::string>& game = std::nullopt,
                 const std::optional<std::string>& game_file = std::nullopt);

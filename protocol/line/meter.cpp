@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-#include "protocol/line/commands/command.hpp"
-
 namespace racebeam {
 
-Meter::Meter() : requests(commands().size() + 1) {}
+Meter::Meter(std::size_t commands) : requests(commands + 1) {}
 
 void Meter::request(std::size_t command, bool refused, std::chrono::nanoseconds took) {
   (refused ? requests[command].refused : requests[command].done).add(1);

@@ -28,9 +28,9 @@ constexpr std::array kLatencyBounds = {0.00001, 0.000025, 0.00005, 0.0001, 0.000
 
 class Meter {
  public:
-  Meter();
+  explicit Meter(std::size_t commands);  // that there are
 
-  // One request, from its line to its reply. `command`: its row in commands(), or their number for what is
+  // One request, from its line to its reply. `command`: its row in the table of commands, or their number for what is
   // none.
   void request(std::size_t command, bool refused, std::chrono::nanoseconds took);
 

@@ -27,7 +27,7 @@ struct Place {
 
 class Player {
  public:
-  // Powers on, sets mode and difficulty, and begins an episode. Throws std::invalid_argument, and what
+  // Powers on, sets mode and difficulty, and begins an episode. Throws InvalidInput, and what
   // `pacer` throws, which outlives the player.
   Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields, Pacer& pacer);
 
@@ -48,7 +48,7 @@ class Player {
   bool blends() const { return blends_; }
 
   Place place(bool with_random) const;
-  void go_to(const Place& place);  // throws std::invalid_argument
+  void go_to(const Place& place);  // throws InvalidInput
 
   // Bytes of memory, about, of a player with these fields.
   static std::size_t footprint(const std::vector<Field>& fields);

@@ -4,8 +4,9 @@
 #include <array>
 #include <utility>
 
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/command.hpp"
 #include "protocol/line/session_recording.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -50,12 +51,13 @@ void check_bytes(std::string_view line) {
 
 }  // namespace
 
-Session::Session(const LineService& with, Meter* counting)
+Session::Session(const LineService& with, const CommandTable& table, Meter* counting)
     : service(with),
       input(longest_line(with, !with.admission)),
       admitted(!with.admission),
       fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})),
       memory(with.memory.get()),
+      table_(table),
       meter_(counting) {
   memory.set(footprint());
 }
@@ -171,20 +173,27 @@ void Session::guarded(Step step) {
     step();
   } catch (const Refusal& refusal) {
     refuse(refusal.code(), refusal.what());
-  } catch (const std::invalid_argument& error) {
+  } catch (const InvalidInput& error) {
     refuse(Code::kBadValue, error.what());
   } catch (const std::bad_alloc&) {
     refuse(Code::kLimit, "the system has no more memory for this request");
   } catch (const std::exception& error) {
-    refuse(Code::kInternal, error.what());
+    refuse_fault(error.what());
   }
+}
+
+// Not the client's doing, so that those who run the server are told.
+void Session::refuse_fault(const std::string& what) {
+  refuse(Code::kInternal, what);
+  const std::string name(command_ < table_.commands.size() ? table_.commands[command_].name : "a request");
+  if (service.report_fault) service.report_fault("internal error in " + name + ": " + what);
 }
 
 void Session::begin_request() {
   ++statistics.requests;
   reply_ = out.size();
   pacer.allow_any_frames();
-  command_ = commands().size();
+  command_ = table_.commands.size();
   refused_ = false;
 }
 
@@ -211,8 +220,8 @@ void Session::execute(std::string_view line) {
   check_bytes(line);
   read_words(line);
   if (words_.empty()) throw Refusal(Code::kBadLine, "the line is empty; help lists the commands");
-  const Command& command = find_command(words_[0]);
-  command_ = static_cast<std::size_t>(&command - commands().data());
+  const Command& command = table_.find(words_[0]);
+  command_ = table_.row(command);
   const Words arguments = Words(words_).subspan(1);
   check(command, *this, arguments.size());
   command.run(*this, arguments);

@@ -9,9 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/line/commands/machines.hpp"
 #include "protocol/line/line_reader.hpp"
-#include "protocol/line/line_session.hpp"
+#include "protocol/line/line_service.hpp"
+#include "protocol/line/machines.hpp"
+#include "protocol/line/meter.hpp"
 #include "protocol/line/player.hpp"
 #include "protocol/line/states.hpp"
 #include "protocol/running/memory_budget.hpp"
@@ -19,7 +20,7 @@
 
 namespace racebeam {
 
-struct Command;
+struct CommandTable;
 class SessionRecording;
 
 // What a machine may run beyond what was asked for: powering on and an ordinary reset take some 130 frames.
@@ -34,7 +35,8 @@ struct Statistics {
 
 class Session {
  public:
-  Session(const LineService& with, Meter* counting);
+  // All outlive the session. `counting` may be null.
+  Session(const LineService& with, const CommandTable& table, Meter* counting);
   ~Session();
 
   const LineService& service;
@@ -93,12 +95,14 @@ class Session {
   void execute(std::string_view line);
   void read_words(std::string_view line);
   void refuse(Code code, std::string_view sentence);
+  void refuse_fault(const std::string& what);
   std::size_t footprint() const;
   void finish_reply();
   void measure();
   template <typename Step>
   void guarded(Step step);  // an exception becomes an error reply
 
+  const CommandTable& table_;
   std::vector<std::string_view> words_;
   std::size_t reply_ = 0;         // where in `out` the current reply begins
   int unsent_ = 0;                // whole replies in `out`
@@ -110,7 +114,7 @@ class Session {
 
   // For those who watch the server; null: nobody does.
   Meter* meter_;
-  std::size_t command_ = 0;  // of the request: its row in commands()
+  std::size_t command_ = 0;  // of the request: its row in the table
   bool refused_ = false;
   std::int64_t metered_frames_ = 0;
 };

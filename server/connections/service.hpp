@@ -7,7 +7,7 @@
 
 #include "environment/environment.hpp"
 #include "protocol/classic/paced_classic.hpp"
-#include "protocol/line/line_session.hpp"
+#include "protocol/line_session.hpp"
 
 namespace racebeam {
 

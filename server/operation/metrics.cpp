@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "server/operation/log.hpp"
 
 namespace racebeam {
@@ -32,7 +32,7 @@ std::string name_of_row(std::size_t row) {
 
 }  // namespace
 
-Meter& Metrics::add_meter() { return meters_.emplace_back(); }
+Meter& Metrics::add_meter() { return meters_.emplace_back(commands().size()); }
 
 template <typename Part>
 std::int64_t Metrics::sum(Part part) const {

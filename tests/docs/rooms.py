@@ -41,7 +41,20 @@ def leaving_links(root):
             if os.path.isabs(os.readlink(link)) or not link.resolve().is_relative_to(root.resolve())]
 
 
+# A room, and one that uses it and that it must not use.
+ONE_WAY = {"protocol/line": "protocol/line/commands"}
+
+
+def arrows_back(root):
+    """The files that include something of a room that is above their own."""
+    return [path.relative_to(root).as_posix() for room, user in ONE_WAY.items()
+            for path in sorted((root / room).glob("*.[hc]pp")) if f'#include "{user}/' in path.read_text()]
+
+
 class Tree(unittest.TestCase):
+    def test_no_room_uses_one_above_it(self):
+        self.assertEqual(arrows_back(ROOT), [])
+
     def test_no_folder_has_too_many_subjects(self):
         self.assertEqual(crowded(ROOT), {})
 
@@ -69,6 +82,12 @@ class Checks(unittest.TestCase):
         self.fill("fuzz/corpora/image", MOST_SUBJECTS + 1)
         self.fill("build", MOST_SUBJECTS + 1)
         self.assertEqual(crowded(self.root), {"crowded": MOST_SUBJECTS + 1})
+
+    def test_an_arrow_back_is_named(self):
+        self.fill("protocol/line/commands", 1)
+        for name, used in (("good", "words"), ("bad", "commands/help")):
+            (self.root / f"protocol/line/{name}.cpp").write_text(f'#include "protocol/line/{used}.hpp"\n')
+        self.assertEqual(arrows_back(self.root), ["protocol/line/bad.cpp"])
 
     def test_a_link_that_leaves_is_named(self):
         self.fill("room", 1)

@@ -1,4 +1,4 @@
-// What a batch allocates while it runs: nothing; and what it takes. All of this program's allocations are counted, so it has no
+// What machines allocate while they run, and what they take. All of this program's allocations are counted, so it has no
 // other tests.
 #include <malloc.h>
 
@@ -9,7 +9,9 @@
 #include <random>
 
 #include "environment/vector/batch.hpp"
+#include "emulator/console.hpp"
 #include "games/catalogue.hpp"
+#include "tests/support/random_image.hpp"
 
 namespace {
 
@@ -80,6 +82,29 @@ TEST_CASE("A batch soon allocates nothing while it runs, episodes that end and b
       for (int round = 0; round < 40 && quiet < 5; ++round) quiet = allocated(play) == 0 ? quiet + 1 : 0;
       CHECK(quiet == 5);
     }
+  }
+}
+
+// The same over and over, until five times in a row `most` allocations are enough.
+bool settles(Console& console, long most) {
+  constexpr int kFrames = 50;
+  int quiet = 0;
+  for (int round = 0; round < 60 && quiet < 5; ++round) {
+    const long before = allocations;
+    for (int frame = 0; frame < kFrames; ++frame) console.step(frame % 2 == 0);
+    quiet = allocations - before <= most * kFrames ? quiet + 1 : 0;
+  }
+  return quiet == 5;
+}
+
+TEST_CASE("A console soon allocates nothing while it runs, but a copy of its cartridge's RAM each frame") {
+  for (const std::string_view scheme : test::random_schemes()) {
+    Properties properties;
+    properties.scheme = scheme;
+    SystemGenerator power_on(1);
+    Console console(test::random_image(scheme, 1)->bytes, properties, power_on);
+    INFO("scheme " << scheme << ", cartridge RAM " << console.cartridge_ram().size());
+    CHECK(settles(console, console.cartridge_ram().empty() ? 0 : 1));
   }
 }
 

@@ -6,7 +6,7 @@
 #include "environment/environment.hpp"
 #include "environment/input/controller_input.hpp"
 #include "tests/support/counter_image.hpp"
-#include "tests/support/roms.hpp"
+#include "tests/support/needed_rom.hpp"
 
 namespace racebeam {
 namespace {
@@ -44,7 +44,8 @@ int completed_frames(const Image& image, const Game& game, int soft_resets) {
 
 void check_reset(const Reset& reset) {
   INFO(reset.name);
-  RACEBEAM_NEEDS_ROM(image, reset.name, reset.md5);
+  const auto image = test::needed_rom(reset.name, reset.md5);
+  if (!image) return;
   CHECK(completed_frames(*image, *find_game(reset.name), reset.soft_resets) == reset.completed);
 }
 

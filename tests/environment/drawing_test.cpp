@@ -5,7 +5,7 @@
 #include "environment/saved/saved_state_format.hpp"
 #include "tests/support/counter_image.hpp"
 #include "tests/support/observation.hpp"
-#include "tests/support/roms.hpp"
+#include "tests/support/needed_rom.hpp"
 
 namespace racebeam {
 namespace {
@@ -53,12 +53,8 @@ TEST_CASE("Which frames are drawn can't be seen") {
 TEST_CASE("Which frames of a commercial game are drawn can't be seen") {
   for (const char* name : {"seaquest", "pong", "tetris", "montezuma_revenge", "elevator_action", "journey_escape", "robotank"}) {
     const auto game = find_game(name);
-    REQUIRE(game);
-    const auto image = test::find_rom_of(*game);
-    if (!image) {
-      WARN("SKIPPED: no image of " << name);
-      continue;
-    }
+    const auto image = test::needed_rom_of(name);
+    if (!image) continue;
     INFO(name);
     check(image, game, false, 200);
   }

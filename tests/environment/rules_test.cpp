@@ -10,7 +10,7 @@
 #include "environment/environment.hpp"
 #include "games/catalogue.hpp"
 #include "tests/environment/steered.hpp"
-#include "tests/support/roms.hpp"
+#include "tests/support/needed_rom.hpp"
 
 namespace racebeam {
 namespace {
@@ -45,13 +45,6 @@ Environment running(const std::shared_ptr<const Image>& image, const char* game,
   environment.reset_game();
   return environment;
 }
-
-#define RACEBEAM_NEEDS_GAME(image, name)                        \
-  const auto image = test::find_rom_of(*find_game(name));       \
-  if (!image) {                                                 \
-    WARN("SKIPPED: no image of " << (name));                    \
-    return;                                                     \
-  }
 
 }  // namespace
 
@@ -131,7 +124,8 @@ TEST_CASE("every mode of our own rules is set up, in any order, and its game run
                             {"warlords", 0xD9, [](int mode) { return mode - 1; }}};
   for (const OurGame& one : kGames) {
     INFO(one.name);
-    RACEBEAM_NEEDS_GAME(image, one.name);
+    const auto image = test::needed_rom_of(one.name);
+    if (!image) continue;
     Environment environment(image, find_game(one.name), test::plain());
     std::vector<int> modes = environment.game().offered_modes();
     std::shuffle(modes.begin(), modes.end(), std::mt19937{7});
@@ -175,7 +169,8 @@ Total play(Environment& environment, const std::vector<int>& actions, int hold, 
 const std::vector<int> kTank = {1, 2, 3, 4, 10, 11, 12}, kFlap = {0, 1, 1, 1, 3, 4, 11, 12};
 
 TEST_CASE("Combat ends when its time is up, with the points of both on the screen") {
-  RACEBEAM_NEEDS_GAME(image, "combat");
+  const auto image = test::needed_rom_of("combat");
+  if (!image) return;
   Environment environment = running(image, "combat", 14);
   const Total total = play(environment, kTank, 15, 9000);
   CHECK(total.over);
@@ -187,7 +182,8 @@ TEST_CASE("Combat ends when its time is up, with the points of both on the scree
 }
 
 TEST_CASE("Joust gives each player the own points and ends when both are out") {
-  RACEBEAM_NEEDS_GAME(image, "joust");
+  const auto image = test::needed_rom_of("joust");
+  if (!image) return;
   for (const int mode : {0, 1}) {
     Environment environment = running(image, "joust", mode);
     CHECK(environment.lives() == 5);
@@ -200,7 +196,8 @@ TEST_CASE("Joust gives each player the own points and ends when both are out") {
 }
 
 TEST_CASE("Warlords counts rounds won, and five of them are the match") {
-  RACEBEAM_NEEDS_GAME(image, "warlords");
+  const auto image = test::needed_rom_of("warlords");
+  if (!image) return;
   Environment environment = running(image, "warlords", 5);
   const Total total = play(environment, {0, 1, 3, 4, 11, 12}, 6, 120000);
   CHECK(total.over);
@@ -209,7 +206,8 @@ TEST_CASE("Warlords counts rounds won, and five of them are the match") {
 }
 
 TEST_CASE("who leaves the maze wins: the other loses") {
-  RACEBEAM_NEEDS_GAME(image, "maze_craze");
+  const auto image = test::needed_rom_of("maze_craze");
+  if (!image) return;
   for (const int winner : {0xCE, 0xCF}) {
     Environment environment = running(image, "maze_craze", 0);
     environment.set_ram(winner - 0x80, 0x9C);  // in the exit's column
@@ -243,7 +241,8 @@ TEST_CASE("corrected lives begin with what a loss of life is measured against") 
   Settings settings = with(Rules::kFixed);
   settings.truncate_on_life_loss = true;
   for (const char* name : {"adventure", "bank_heist", "donkey_kong", "entombed", "frogger", "kaboom", "qbert"}) {
-    RACEBEAM_NEEDS_GAME(image, name);
+    const auto image = test::needed_rom_of(name);
+    if (!image) continue;
     INFO(name);
     Environment environment(image, find_game(name), settings);
     CHECK_FALSE(environment.game_over());
@@ -254,7 +253,8 @@ TEST_CASE("corrected lives begin with what a loss of life is measured against") 
 
 TEST_CASE("in modes for two player B plays, and gets what A loses where that is the rule") {
   for (const char* name : {"pong", "boxing", "tennis", "ice_hockey", "surround"}) {
-    RACEBEAM_NEEDS_GAME(image, name);
+    const auto image = test::needed_rom_of(name);
+    if (!image) continue;
     const auto game = find_game(name);
     Environment alone = running(image, name, 0);
     CHECK_FALSE((b_plays(alone) || b_plays(alone, 20, 23)));

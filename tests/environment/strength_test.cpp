@@ -6,7 +6,7 @@
 #include "environment/environment.hpp"
 #include "games/catalogue.hpp"
 #include "tests/support/crc.hpp"
-#include "tests/support/roms.hpp"
+#include "tests/support/needed_rom.hpp"
 
 namespace racebeam {
 namespace {
@@ -36,11 +36,8 @@ float strength(int act) { return static_cast<float>(act * 37 % 401 - 200) / 128;
 TEST_CASE("strengths of paddles turn them as the reference does, of either sign and above 1") {
   for (const Run& run : kRuns) {
     const auto game = find_game(run.game);
-    const auto image = test::find_rom_of(*game);
-    if (!image) {
-      WARN("SKIPPED: no image of " << run.game);
-      continue;
-    }
+    const auto image = test::needed_rom_of(run.game);
+    if (!image) continue;
     INFO(run.game);
     Settings settings;
     settings.random_seed = 123;
@@ -60,11 +57,8 @@ TEST_CASE("strengths of paddles turn them as the reference does, of either sign 
 
 TEST_CASE("player B turns the second paddle, with B's own strength, and not at all if none is given") {
   const auto game = find_game("pong");
-  const auto image = test::find_rom_of(*game);
-  if (!image) {
-    WARN("SKIPPED: no image of pong");
-    return;
-  }
+  const auto image = test::needed_rom_of("pong");
+  if (!image) return;
   constexpr int kBatB = 0x84 - 0x80;  // where B's paddle was read
   Settings settings;
   settings.sticky = 0;

@@ -1,12 +1,15 @@
 // The tables of protocol/PROTOCOL.md are those of the program.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <string>
+#include <string_view>
 
 #include "protocol/encoding/encoding.hpp"
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
 #include "protocol/line/play_settings.hpp"
 #include "protocol/refusal.hpp"
@@ -16,8 +19,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-std::string document() {
-  std::ifstream file(RACEBEAM_SOURCE_DIR "/protocol/PROTOCOL.md");
+std::string document(const std::string& path = "/protocol/PROTOCOL.md") {
+  std::ifstream file(RACEBEAM_SOURCE_DIR + path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -88,6 +91,18 @@ TEST_CASE("The document has each setting, preset, field, encoding and error code
   }
   for (const PresetRow& preset : preset_rows())
     CHECK_THAT(table("| preset | sets | source |"), Contains(in_code(preset.words)));
+}
+
+TEST_CASE("Documents that count the encodings count all of them") {
+  constexpr std::array<std::string_view, 10> kNumbers = {"no",   "one", "two",   "three", "four",
+                                                         "five", "six", "seven", "eight", "nine"};
+  const std::regex claim("(no|one|two|three|four|five|six|seven|eight|nine)\\sencodings");
+  for (const char* const path : {"/README.md", "/CHANGELOG.md", "/protocol/PROTOCOL.md"}) {
+    const std::string text = document(path);
+    INFO(path);
+    for (std::sregex_iterator found(text.begin(), text.end(), claim), end; found != end; ++found)
+      CHECK(found->str(1) == kNumbers.at(encodings().size()));
+  }
 }
 
 TEST_CASE("A code's place in the table is its number") {

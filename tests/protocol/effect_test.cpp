@@ -8,7 +8,7 @@
 
 #include "protocol/encoding/base64.hpp"
 #include "protocol/encoding/encoding.hpp"
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
 #include "protocol/line/play_settings.hpp"
 #include "recording/recorder.hpp"

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "protocol/encoding/encoding.hpp"
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
 #include "protocol/line/play_settings.hpp"
 #include "tests/protocol/duel.hpp"

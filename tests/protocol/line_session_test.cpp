@@ -1,7 +1,7 @@
 // Lines, errors and limits of a session; load_test.cpp has what a game is loaded with.
 #include <catch2/catch.hpp>
 
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "recording/recorder.hpp"
 #include "tests/games/scratch.hpp"
 #include "tests/protocol/line_client.hpp"
@@ -38,6 +38,17 @@ TEST_CASE("Half a line is not answered until it is whole, whatever the pieces") 
 TEST_CASE("A line ends with LF; CR before it and blanks between words do no harm") {
   LineClient client;
   CHECK(client.say("help  act \r\n") == client.say(" help act\n"));
+}
+
+TEST_CASE("A fault of the server's is not blamed on the client: it is internal, reported, and the session goes on") {
+  LineService service = line_service();
+  service.admission = [](std::string_view) -> bool { throw std::invalid_argument("stoi"); };
+  std::vector<std::string> reports;
+  service.report_fault = [&reports](const std::string& sentence) { reports.push_back(sentence); };
+  LineClient client(service);
+  CHECK(client.ask("hello token=a") == "error internal stoi");
+  CHECK(reports == std::vector<std::string>{"internal error in hello: stoi"});
+  CHECK(code(client.ask("help")).empty());
 }
 
 TEST_CASE("Lines that are no requests are refused, and the session goes on") {

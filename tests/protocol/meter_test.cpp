@@ -2,14 +2,14 @@
 
 #include <catch2/catch.hpp>
 
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "tests/protocol/line_client.hpp"
 
 using namespace racebeam;
 using namespace std::chrono_literals;
 
 TEST_CASE("A latency is counted under the first bound that it does not exceed") {
-  Meter meter;
+  Meter meter(commands().size());
   meter.request(0, false, 0ns);
   meter.request(0, false, 10us);
   meter.request(0, true, 10'001ns);
@@ -24,7 +24,7 @@ TEST_CASE("A latency is counted under the first bound that it does not exceed") 
 
 TEST_CASE("A session counts its requests and frames into its meter") {
   const LineService service = test::line_service();
-  Meter meter;
+  Meter meter(commands().size());
   LineSession session(service, &meter);
   const std::string requests = "load beamfall sticky=0\nact NOOP*300\nact 99\nnonsense\n\n";
   std::ranges::copy(requests, session.space().begin());

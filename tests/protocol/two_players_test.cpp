@@ -4,7 +4,7 @@
 #include <random>
 
 #include "tests/protocol/duel.hpp"
-#include "tests/support/roms.hpp"
+#include "tests/support/needed_rom.hpp"
 
 using namespace racebeam;
 using Catch::Matchers::EndsWith;
@@ -75,11 +75,8 @@ TEST_CASE("In the catalogue's games for two player B is rewarded") {
       {"pong", "3"},     {"boxing", "1"},  {"tennis", "1"}, {"ice_hockey", "1"},
       {"surround", "1"}, {"combat", "14"}, {"joust", "1"}};
   for (const auto& [name, mode] : modes) {
-    const auto image = test::find_rom_of(*find_game(name));
-    if (!image) {
-      WARN("SKIPPED: no image of " << name << " in RACEBEAM_ROMS or .venv");
-      continue;
-    }
+    const auto image = test::needed_rom_of(name);
+    if (!image) continue;
     INFO(name);
     const Scratch folder;
     auto images = std::make_shared<Images>();

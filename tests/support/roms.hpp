@@ -14,18 +14,10 @@ namespace racebeam::test {
 // Empty if there is none.
 std::string rom_folder();
 
-// By the beginning of its MD5; null if it isn't in the folder. The test then says so, and passes.
+// By the beginning of its MD5; null if it isn't in the folder.
 std::shared_ptr<const Image> find_rom(std::string_view md5);
 
 // The same for a game of the catalogue.
 std::shared_ptr<const Image> find_rom_of(const Game& game);
 
 }  // namespace racebeam::test
-
-// In a test: `image` is declared, or the test case ends with a remark that names what was skipped.
-#define RACEBEAM_NEEDS_ROM(image, name, md5)                                                       \
-  const auto image = racebeam::test::find_rom(md5);                                                \
-  if (!image) {                                                                                    \
-    WARN("SKIPPED: no image of " << (name) << " (MD5 " << (md5) << ") in RACEBEAM_ROMS or .venv"); \
-    return;                                                                                        \
-  }

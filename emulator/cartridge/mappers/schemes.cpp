@@ -3,7 +3,6 @@
 #include <array>
 #include <initializer_list>
 #include <span>
-#include <stdexcept>
 #include <string>
 
 #include "emulator/cartridge/cartridge.hpp"
@@ -19,6 +18,7 @@
 #include "emulator/cartridge/mappers/tigervision.hpp"
 #include "emulator/cartridge/mappers/ua.hpp"
 #include "emulator/cartridge/mappers/unmapped.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -184,13 +184,13 @@ const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {
   const std::string_view name = asked_for.empty() ? scheme_name(rom) : asked_for;
   const std::string size = std::to_string(rom.size()) + " bytes";
   if (name.empty()) {
-    throw std::invalid_argument("no cartridge scheme fits an image of " + size +
+    throw InvalidInput("no cartridge scheme fits an image of " + size +
                                 "; 2048, 4096, 8192, 16384 and 32768 bytes are usual");
   }
   const auto scheme = std::ranges::find(kSchemes, name, &Scheme::name);
-  if (scheme == std::end(kSchemes)) throw std::invalid_argument("there is no cartridge scheme " + std::string(name));
+  if (scheme == std::end(kSchemes)) throw InvalidInput("there is no cartridge scheme " + std::string(name));
   if (rom.size() < scheme->image) {
-    throw std::invalid_argument("the cartridge scheme " + std::string(name) + " needs an image of at least " +
+    throw InvalidInput("the cartridge scheme " + std::string(name) + " needs an image of at least " +
                                 std::to_string(scheme->image) + " bytes; this one has " + size);
   }
   return *scheme;

@@ -5,10 +5,11 @@
 
 #include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/play_settings.hpp"
 #include "protocol/line/session.hpp"
 #include "protocol/line/session_recording.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -89,7 +90,7 @@ std::shared_ptr<const Image> sent_image(const LoadWords& words) {
   if (!bytes) throw Refusal(Code::kBadImage, "the image is not base64 (A-Z a-z 0-9 + / and = at the end)");
   try {
     return make_image(std::move(*bytes), std::string(kInline));
-  } catch (const std::invalid_argument& error) {
+  } catch (const InvalidInput& error) {
     throw Refusal(Code::kBadImage, error.what());
   }
 }
@@ -151,7 +152,7 @@ void run_load(Session& session, Words arguments) {
     session.allow_resets(1);
     session.memory.check(Player::footprint(session.fields) + (arguments[0] == kInline ? kOwnImage : 0), "a machine");
     player = std::make_unique<Player>(cartridge, settings, session.fields, session.pacer);
-  } catch (const std::invalid_argument& error) {
+  } catch (const InvalidInput& error) {
     const bool sent = arguments[0] == kInline && !settings.mode && !settings.difficulty;
     throw Refusal(sent ? Code::kBadImage : Code::kBadValue, error.what());
   }

@@ -1,7 +1,7 @@
 // open, step, restart, close
 #include <limits>
 
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/session.hpp"
 
 namespace racebeam {

@@ -1,7 +1,7 @@
 // observe, look, act, reset, peek, poke
 #include <algorithm>
 
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/session.hpp"
 
 namespace racebeam {

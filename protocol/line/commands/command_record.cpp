@@ -3,7 +3,7 @@
 #include <array>
 
 #include "games/similar.hpp"
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/session.hpp"
 #include "protocol/line/session_recording.hpp"
 #include "recording/recorder.hpp"

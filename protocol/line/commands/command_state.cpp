@@ -7,8 +7,9 @@
 #include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/line/commands/branch.hpp"
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/session.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -140,7 +141,7 @@ void run_import(Session& session, Words arguments) {
   try {
     place.machine = from_bytes(*bytes, session.player->machine());
     place.with_random = place.machine->random.has_value();
-  } catch (const std::invalid_argument& error) {
+  } catch (const InvalidInput& error) {
     throw Refusal(Code::kBadState, error.what());
   }
   keep(session, name, std::move(place));

@@ -6,7 +6,7 @@
 
 #include "games/similar.hpp"
 #include "protocol/encoding/encoding.hpp"
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
 #include "protocol/line/play_settings.hpp"
 

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "emulator/tia/line/pixels.hpp"
+#include "tests/support/skip.hpp"
 
 namespace racebeam::test {
 namespace {
@@ -40,7 +41,7 @@ unsigned color_of(const Line& line, const TiaRegisters& tia, int pixel) {
 TEST_CASE("All forms of drawing give the same pixels, and touch no others") {
   std::mt19937_64 random(1);
   const int best = static_cast<int>(best_simd());
-  if (best < static_cast<int>(Simd::kAvx512)) WARN("SKIPPED: forms that this processor can't run");
+  if (best < static_cast<int>(Simd::kAvx512)) test::leave_out("forms that this processor can't run");
   for (int round = 0; round < 20000; ++round) {
     Line line;
     TiaRegisters tia;

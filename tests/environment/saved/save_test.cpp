@@ -6,7 +6,7 @@
 #include "environment/saved_state.hpp"
 #include "tests/support/counter_image.hpp"
 #include "tests/support/observation.hpp"
-#include "tests/support/roms.hpp"
+#include "tests/support/needed_rom.hpp"
 
 namespace racebeam {
 namespace {
@@ -87,12 +87,8 @@ TEST_CASE("Every state of a run of a commercial game restores to itself") {
                                     "freeway",  "berzerk"};
   for (const char* name : kGames) {
     const auto game = find_game(name);
-    REQUIRE(game);
-    const auto image = test::find_rom_of(*game);
-    if (!image) {
-      WARN("SKIPPED: no image of " << name);
-      continue;
-    }
+    const auto image = test::needed_rom_of(name);
+    if (!image) continue;
     Settings settings = sticky_settings();
     check_identity_of_states(image, game, settings, 100, 1);
     settings.color_averaging = true;

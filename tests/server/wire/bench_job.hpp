@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/line/line_session.hpp"
+#include "protocol/line_session.hpp"
 
 namespace wire {
 

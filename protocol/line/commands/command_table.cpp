@@ -1,10 +1,6 @@
-#include "protocol/line/commands/command.hpp"
+#include "protocol/line/commands/command_table.hpp"
 
-#include <algorithm>
 #include <array>
-#include <string>
-
-#include "protocol/line/session.hpp"
 
 namespace racebeam {
 namespace {
@@ -71,45 +67,13 @@ constexpr std::array kCommands = {
 
 constexpr std::array kAliases = {Alias{"?", "help"}, Alias{"exit", "quit"}};
 
-std::string count_text(const Command& command) {
-  if (command.most == command.least) return std::to_string(command.least);
-  const std::string least = std::to_string(command.least);
-  if (command.most == kAnyNumber) return "at least " + least;
-  return least + " to " + std::to_string(command.most);
-}
+constexpr CommandTable kTable = {kCommands, kAliases};
 
 }  // namespace
 
-std::string usage(const Command& command) {
-  std::string text(command.name);
-  if (!command.arguments.empty()) (text += ' ') += command.arguments;
-  return text;
-}
-
+const CommandTable& command_table() { return kTable; }
 std::span<const Command> commands() { return kCommands; }
-
 std::span<const Alias> aliases() { return kAliases; }
-
-const Command& find_command(std::string_view name) {
-  const auto alias = std::ranges::find(kAliases, name, &Alias::name);
-  if (alias != kAliases.end()) return find_command(alias->command);
-  const auto found = std::ranges::find(kCommands, name, &Command::name);
-  if (found != kCommands.end()) return *found;
-  refuse_name(Code::kUnknownCommand, "command", name, names_of(kCommands));
-}
-
-void check(const Command& command, const Session& session, std::size_t arguments) {
-  const std::string name(command.name);
-  if (arguments < command.least || arguments > command.most) {
-    throw Refusal(Code::kBadArguments, name + " takes " + count_text(command) + " arguments, not " +
-                                           std::to_string(arguments) + ": " + usage(command));
-  }
-  if (command.needs >= Needs::kAdmission && !session.admitted)
-    throw Refusal(Code::kUnauthorized, "this server wants a token before " + name + "; hello token=TOKEN");
-  if (command.needs >= Needs::kGame && !session.player)
-    throw Refusal(Code::kNoGame, name + " needs a game; load one first");
-  if (command.needs == Needs::kMachines && session.machines.empty())
-    throw Refusal(Code::kNoMachines, name + " needs machines; open some first");
-}
+const Command& find_command(std::string_view name) { return kTable.find(name); }
 
 }  // namespace racebeam

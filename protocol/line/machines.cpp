@@ -1,4 +1,4 @@
-#include "protocol/line/commands/machines.hpp"
+#include "protocol/line/machines.hpp"
 
 #include <algorithm>
 #include <array>

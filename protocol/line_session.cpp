@@ -1,10 +1,11 @@
-#include "protocol/line/line_session.hpp"
+#include "protocol/line_session.hpp"
 
+#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/session.hpp"
 
 namespace racebeam {
 LineSession::LineSession(const LineService& service, Meter* meter)
-    : session_(std::make_unique<Session>(service, meter)) {}
+    : session_(std::make_unique<Session>(service, command_table(), meter)) {}
 LineSession::~LineSession() = default;
 
 void LineSession::set_columns(int columns) { session_->columns = columns; }

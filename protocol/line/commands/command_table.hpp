@@ -2,49 +2,19 @@
 // compared with protocol/PROTOCOL.md.
 #pragma once
 
-#include <cstddef>
 #include <span>
-#include <string>
 #include <string_view>
 
-#include "protocol/line/words.hpp"
+#include "protocol/line/command.hpp"
 
 namespace racebeam {
 
-class Session;
+const CommandTable& command_table();
 
-enum class Needs { kNothing, kAdmission, kGame, kMachines };  // each includes those before it
-
-struct Command {
-  std::string_view name;
-  std::string_view arguments;  // as `help` and protocol/PROTOCOL.md show them
-  std::string_view summary;
-  std::string_view hint;     // for `help`: where a person finds the words that it takes; may be empty
-  std::string_view example;  // the same: one that works; empty: it is clear without
-  std::size_t least, most;   // arguments
-  Needs needs;
-
-  // Appends "ok" and what follows to session.out, without LF. Throws Refusal. Runs as the body of session.pacer: what takes
-  // long is suspended between frames, or where it calls breathe().
-  void (*run)(Session& session, Words arguments);
-};
-
+// Its parts.
 std::span<const Command> commands();
-
-struct Alias {  // what people try
-  std::string_view name, command;
-};
 std::span<const Alias> aliases();
-
-// By its name or an alias. Throws Refusal, with the names that there are.
-const Command& find_command(std::string_view name);
-
-// Throws Refusal when the number of arguments is wrong, or when something else has to come first.
-void check(const Command& command, const Session& session, std::size_t arguments);
-
-std::string usage(const Command& command);  // its name and arguments
-
-constexpr std::size_t kAnyNumber = static_cast<std::size_t>(-1);
+const Command& find_command(std::string_view name);  // or an alias; throws Refusal
 
 // command_session.cpp
 void run_hello(Session&, Words);

@@ -1,0 +1,47 @@
+#include "protocol/line/command.hpp"
+
+#include <algorithm>
+
+#include "protocol/line/session.hpp"
+
+namespace racebeam {
+namespace {
+
+std::string count_text(const Command& command) {
+  if (command.most == command.least) return std::to_string(command.least);
+  const std::string least = std::to_string(command.least);
+  if (command.most == kAnyNumber) return "at least " + least;
+  return least + " to " + std::to_string(command.most);
+}
+
+}  // namespace
+
+std::string usage(const Command& command) {
+  std::string text(command.name);
+  if (!command.arguments.empty()) (text += ' ') += command.arguments;
+  return text;
+}
+
+const Command& CommandTable::find(std::string_view name) const {
+  const auto alias = std::ranges::find(aliases, name, &Alias::name);
+  if (alias != aliases.end()) return find(alias->command);
+  const auto found = std::ranges::find(commands, name, &Command::name);
+  if (found != commands.end()) return *found;
+  refuse_name(Code::kUnknownCommand, "command", name, names_of(commands));
+}
+
+void check(const Command& command, const Session& session, std::size_t arguments) {
+  const std::string name(command.name);
+  if (arguments < command.least || arguments > command.most) {
+    throw Refusal(Code::kBadArguments, name + " takes " + count_text(command) + " arguments, not " +
+                                           std::to_string(arguments) + ": " + usage(command));
+  }
+  if (command.needs >= Needs::kAdmission && !session.admitted)
+    throw Refusal(Code::kUnauthorized, "this server wants a token before " + name + "; hello token=TOKEN");
+  if (command.needs >= Needs::kGame && !session.player)
+    throw Refusal(Code::kNoGame, name + " needs a game; load one first");
+  if (command.needs == Needs::kMachines && session.machines.empty())
+    throw Refusal(Code::kNoMachines, name + " needs machines; open some first");
+}
+
+}  // namespace racebeam

@@ -1,0 +1,43 @@
+"""What all machines share and can change is what docs/architecture.md lists. Usage: shared.py LIBRARY..."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+LISTED = ROOT / "docs/architecture.md"
+
+# Made once, then read alone: the functions and objects that hold them.
+CONSTANTS = {"PixelMask::kBelow", "blend", "simd", "refusal"}
+
+MEMBER = re.compile(r"^(?P<file>\S+\.cpp)\.o: +file format")
+OBJECT = re.compile(r"^[0-9a-f]+ .{6}O \.(?:bss|data|tm_clone)\S*\s+[0-9a-f]+\s+(?:\.hidden )?(?P<name>.*)$")
+OWN = re.compile(r"^racebeam::(?:\(anonymous namespace\)::)?(?P<name>[\w:]+)")
+
+
+def writable(libraries):
+    """Pairs of a source file's name and an object of ours that lies in memory that can be written."""
+    file = None
+    listing = subprocess.run(["objdump", "--syms", "--demangle", *libraries], check=True, capture_output=True, text=True)
+    for line in listing.stdout.splitlines():
+        if found := MEMBER.match(line):
+            file = found["file"]
+        elif (found := OBJECT.match(line)) and (own := OWN.match(found["name"])) and ".data.rel.ro" not in line:
+            yield file, own["name"]
+
+
+class Shared(unittest.TestCase):
+    libraries = []
+
+    def test_what_is_shared_is_listed(self):
+        shared = {pathlib.Path(file).stem for file, name in writable(self.libraries) if name.split("(")[0] not in CONSTANTS}
+        section = LISTED.read_text().split("## What is shared")[1].split("\n## ")[0]
+        listed = {pathlib.Path(path).stem for path in re.findall(r"`(\w+/[\w/]+\.[hc]pp)`", section)}
+        self.assertEqual(shared, listed)
+
+
+if __name__ == "__main__":
+    Shared.libraries = sys.argv[1:]
+    unittest.main(argv=sys.argv[:1])
