@@ -55,7 +55,7 @@ Session::Session(const LineService& with, Meter* counting)
       input(longest_line(with, !with.admission)),
       admitted(!with.admission),
       fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})),
-      memory(with.memory.get()),
+      memory(with.memory),
       meter_(counting) {
   memory.set(footprint());
 }
@@ -251,7 +251,6 @@ std::size_t Session::footprint() const {
                       machines.footprint(fields) + actions.capacity() * sizeof(Action) +
                       words_.capacity() * sizeof(std::string_view);
   if (player) bytes += Player::footprint(fields);
-  if (recording) bytes += recording->recording().memory();
   if (cartridge.image && service.images->find(cartridge.image->md5) == nullptr) bytes += kOwnImage;
   return bytes;
 }
