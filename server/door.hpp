@@ -12,6 +12,7 @@
 #include <boost/asio/awaitable.hpp>
 
 #include "server/listener.hpp"
+#include "server/lobby.hpp"
 #include "server/service.hpp"
 #include "server/settings.hpp"
 #include "server/tls.hpp"
@@ -38,6 +39,7 @@ class Door {
   void check(const Listener& listener) const;  // that it is safe
   const Service& service_of(const Listener& listener) const;
   boost::asio::awaitable<void> welcome(Listener& listener);
+  std::optional<std::string> obstacle(const Service& service);  // to one more session
   void admit(Socket socket, Loop& loop, const Listener& listener, int number);
 
   const ServerSettings& settings_;
@@ -46,6 +48,7 @@ class Door {
   Metrics& metrics_;
   std::optional<Tokens> tokens_;
   WrongTokens wrong_tokens_;
+  const std::shared_ptr<Lobby> lobby_ = std::make_shared<Lobby>();
   std::optional<Tls> tls_;
   std::optional<Service> guarded_;  // the line protocol, for those who have a token
   std::list<Listener> listeners_;
