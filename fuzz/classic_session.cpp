@@ -1,4 +1,5 @@
 // A session of the classic protocol. The first byte is the options, the rest what a client sends.
+#include "fuzz/keep_code.hpp"
 #include "fuzz/target.hpp"
 #include "games/catalogue.hpp"
 #include "protocol/classic/classic.hpp"
@@ -17,7 +18,9 @@ enum Option : unsigned {
 
 Cartridge cartridge_of(const char* where) {
   const auto image = load_image(where);
-  return {image, recognise(*image).game};
+  const Cartridge cartridge{image, recognise(*image).game};
+  keep_code(cartridge);
+  return cartridge;
 }
 
 Environment make_machine(unsigned options) {

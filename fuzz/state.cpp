@@ -8,8 +8,10 @@
 
 #include "environment/saved/saved_state_format.hpp"
 #include "environment/saved_state.hpp"
+#include "fuzz/keep_code.hpp"
 #include "fuzz/target.hpp"
 #include "games/catalogue.hpp"
+#include "system/printable.hpp"
 #include "tests/support/random_image.hpp"
 
 namespace racebeam::fuzz {
@@ -36,6 +38,7 @@ std::vector<Cartridge> make_cartridges() {
   }
   for (const std::string_view scheme : test::random_schemes())
     all.push_back({test::random_image(scheme, 3), random_game(scheme)});
+  for (const Cartridge& cartridge : all) keep_code(cartridge);
   return all;
 }
 
@@ -106,7 +109,7 @@ void run(Bytes input) {
   try {
     saved = from_bytes(state, interpreted);
   } catch (const std::invalid_argument& refusal) {
-    require(is_printable(refusal.what()) && *refusal.what() != '\0', "a refusal is a sentence",
+    require(printable(refusal.what()) == refusal.what() && *refusal.what() != '\0', "a refusal is a sentence",
             refusal.what());
     return;
   }

@@ -47,9 +47,11 @@ Recorder::~Recorder() {
 }
 
 std::shared_ptr<Recording> Recorder::begin(std::vector<MediaKind> kinds, const std::string& name,
-                                           std::size_t most_bytes, const Environment& machine) {
+                                           std::size_t most_bytes, const Environment& machine,
+                                           const Charge& charge) {
   Order order{std::move(kinds), folder_, name, most_bytes, footage_of(machine)};
   auto claim = std::make_unique<Claim>(claims_, order.file_names());
+  if (charge) order.charge = charge(order.memory());
   const auto recording =
       std::make_shared<Recording>(std::move(order), std::move(claim), threads_->strand(), given_up_);
   recording->begin();

@@ -20,10 +20,11 @@ class Recorder {
 
   // Begins to record `machine` under `name`, a file for each kind. The caller waits while it is_behind();
   // when it has finished() by then, the disk refused. Letting go of it, before the Recorder goes, is as good
-  // as finish(). Never waits for the disk; throws std::runtime_error when a recording of that name is under
-  // way. From any thread.
+  // as finish(). Its memory is charged with `charge`, if there is one, until all is written. Never waits for
+  // the disk; throws std::runtime_error when a recording of that name is under way. From any thread.
   std::shared_ptr<Recording> begin(std::vector<MediaKind> kinds, const std::string& name,
-                                   std::size_t most_bytes, const Environment& machine);
+                                   std::size_t most_bytes, const Environment& machine,
+                                   const Charge& charge = {});
 
   bool idle() const;  // all recordings have finished; from any thread
 

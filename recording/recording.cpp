@@ -26,6 +26,10 @@ bool has_pictures(const std::vector<MediaKind>& kinds) {
   return std::ranges::any_of(kinds, [](MediaKind kind) { return kind != MediaKind::kWav; });
 }
 
+std::size_t queue_length(const std::vector<MediaKind>& kinds) {
+  return has_pictures(kinds) ? kMostPictures : kMostSounds;
+}
+
 }  // namespace
 
 std::string_view name_of(Recording::Cut cut) { return cut == Recording::Cut::kLimit ? "limit" : "disk"; }
@@ -36,6 +40,12 @@ std::vector<std::string> Order::file_names() const {
   return names;
 }
 
+std::size_t Order::memory() const {
+  const std::size_t pixels = has_pictures(kinds) ? footage.height * kScreenWidth : 0;
+  return queue_length(kinds) * (sizeof(RecordedFrame) + pixels) +
+         kinds.size() * (kEncoderBytesAPixel * pixels + kEncoderBytes);
+}
+
 Recording::Recording(Order order, std::unique_ptr<Claim> claim, Post post,
                      std::shared_ptr<const std::atomic<bool>> given_up)
     : order_(std::move(order)),
@@ -43,7 +53,7 @@ Recording::Recording(Order order, std::unique_ptr<Claim> claim, Post post,
       has_pictures_(has_pictures(order_.kinds)),
       post_(std::move(post)),
       given_up_(std::move(given_up)),
-      queue_(has_pictures_ ? kMostPictures : kMostSounds),
+      queue_(queue_length(order_.kinds)),
       budget_(order_.most_bytes),
       claim_(std::move(claim)) {}
 
@@ -70,15 +80,9 @@ std::optional<Recording::Cut> Recording::cut() const {
   return cut_;
 }
 
-std::size_t Recording::memory() const {
-  const std::size_t pixels = has_pictures_ ? order_.footage.height * kScreenWidth : 0;
-  return queue_.size() * (sizeof(Frame) + pixels) +
-         order_.kinds.size() * (kEncoderBytesAPixel * pixels + kEncoderBytes);
-}
-
 void Recording::add(const Environment& machine) {
   if (is_over()) return;
-  Frame& frame = queue_[added_++ % queue_.size()];
+  RecordedFrame& frame = queue_[added_++ % queue_.size()];
   frame.sound = machine.sound().registers;
   if (has_pictures_) {
     const auto screen = machine.screen();
@@ -117,12 +121,12 @@ void Recording::open() {
 }
 
 void Recording::write_next() {
-  const Frame& frame = queue_[written_++ % queue_.size()];
+  const RecordedFrame& frame = queue_[written_++ % queue_.size()];
   if (!media_.empty() && !*given_up_) write(frame);
   change([this] { --waiting_; });
 }
 
-void Recording::write(const Frame& frame) {
+void Recording::write(const RecordedFrame& frame) {
   try {
     std::array<std::uint8_t, kSamplesPerBlock> samples;
     sound_.registers = frame.sound;

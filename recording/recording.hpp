@@ -21,15 +21,26 @@
 
 namespace racebeam {
 
+struct RecordedFrame {
+  std::vector<std::uint8_t> pixels;  // none where only sound is recorded
+  std::array<std::uint8_t, 6> sound;
+};
+
 // What is recorded, and where.
 struct Order {
   std::vector<MediaKind> kinds;  // at least one, each once
   std::string folder, name;
   std::size_t most_bytes;  // of all files together
   Footage footage;
+  std::shared_ptr<const void> charge = nullptr;  // let go of when the recording's memory is
 
   std::vector<std::string> file_names() const;  // one for each kind
+  std::size_t memory() const;                   // bytes of the queue and the encoders, at most
 };
+
+// Charges so many bytes of memory to an account, for as long as what it returns is held; throws if there are
+// not so many.
+using Charge = std::function<std::shared_ptr<const void>(std::size_t bytes)>;
 
 class Recording : public std::enable_shared_from_this<Recording> {
  public:
@@ -64,19 +75,11 @@ class Recording : public std::enable_shared_from_this<Recording> {
   const Result& result() const { return result_; }     // once it has finished
   const std::string& names() const { return names_; }  // of its files: "a.gif", "a.y4m,a.wav"
 
-  // Bytes of the queue and the encoders, at most.
-  std::size_t memory() const;
-
  private:
-  struct Frame {
-    std::vector<std::uint8_t> pixels;  // none where only sound is recorded
-    std::array<std::uint8_t, 6> sound;
-  };
-
   // On the recorder's threads.
   void open();
   void write_next();
-  void write(const Frame& frame);
+  void write(const RecordedFrame& frame);
   void cut_off(Cut why);
   void close();
   void keep();
@@ -93,8 +96,8 @@ class Recording : public std::enable_shared_from_this<Recording> {
   const Post post_;
   const std::shared_ptr<const std::atomic<bool>> given_up_;
 
-  std::vector<Frame> queue_;  // a ring; a frame belongs to the recorder's thread while it waits
-  std::size_t added_ = 0;     // of the thread that plays
+  std::vector<RecordedFrame> queue_;  // a ring; a frame belongs to the recorder's thread while it waits
+  std::size_t added_ = 0;             // of the thread that plays
 
   // Of the recorder's threads.
   DiskBudget budget_;

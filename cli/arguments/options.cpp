@@ -1,6 +1,5 @@
 #include "cli/arguments/options.hpp"
 
-#include <charconv>
 #include <chrono>
 #include <iostream>
 #include <limits>
@@ -8,18 +7,11 @@
 
 #include "games/catalogue.hpp"
 #include "games/rom_image.hpp"
+#include "protocol/line/words.hpp"
 #include "system/printable.hpp"
 
 namespace racebeam {
 namespace {
-
-template <typename Number>
-std::optional<Number> parse_whole(const std::string& text) {
-  Number number{};
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc{} && rest == end ? std::optional(number) : std::nullopt;
-}
 
 constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
@@ -27,7 +19,7 @@ constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
 // CLI::Range lets "nan" through.
 CLI::Validator probability() {
   const auto check = [](const std::string& text) {
-    const auto value = parse_whole<double>(text);
+    const auto value = parse_number<double>(text);
     const bool accepted = value && *value >= 0 && *value <= 1;
     return accepted ? std::string{} : "'" + text + "' is not a probability from 0 to 1";
   };
@@ -60,7 +52,7 @@ const std::map<std::string, CpuKind> kCpuKinds = {
 // Checks the text, before CLI11 converts it: its own sentence would not say what is accepted.
 CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
   const auto check = [least, most](const std::string& text) {
-    const auto number = parse_whole<std::int64_t>(text);
+    const auto number = parse_number<std::int64_t>(text);
     const bool accepted = number && *number >= least && *number <= most;
     if (accepted) return std::string{};
     return "'" + text + "' is not a whole number from " + std::to_string(least) + " to " +

@@ -1,13 +1,11 @@
 #include "cli/commands/classic_settings.hpp"
 
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <limits>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 
+#include "protocol/line/words.hpp"
 #include "server/operation/log.hpp"
 #include "system/input_file.hpp"
 
@@ -24,15 +22,6 @@ std::string trimmed(const std::string& text) {
 
 bool is_key(const std::string& word) { return word.starts_with('-'); }
 
-// The number that all of `text` is.
-template <typename Number>
-std::optional<Number> parse_whole(const std::string& text) {
-  Number number{};
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc{} && rest == end ? std::optional(number) : std::nullopt;
-}
-
 [[noreturn]] void refuse(const std::string& key, const std::string& value, const std::string& accepted) {
   throw std::invalid_argument("-" + key + " is '" + value + "'; it takes " + accepted);
 }
@@ -41,7 +30,7 @@ std::optional<Number> parse_whole(const std::string& text) {
 template <typename Number>
 Number whole_number(const std::string& key, const std::string& value, const std::string& more) {
   using Limits = std::numeric_limits<Number>;
-  if (const auto number = parse_whole<Number>(value)) return *number;
+  if (const auto number = parse_number<Number>(value)) return *number;
   refuse(
       key, value,
       "a whole number from " + std::to_string(Limits::min()) + " to " + std::to_string(Limits::max()) + more);
@@ -106,8 +95,7 @@ std::uint32_t ClassicSettings::seed(const std::string& key) const {
 float ClassicSettings::real(const std::string& key, float otherwise) const {
   const std::string value = text(key);
   if (value.empty()) return otherwise;
-  const auto number = parse_whole<float>(value);
-  if (number && !std::isnan(*number)) return *number;
+  if (const auto number = parse_number<float>(value)) return *number;
   refuse(key, value, "a number, such as 0.25");
 }
 

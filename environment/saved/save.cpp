@@ -5,6 +5,7 @@
 #include "environment/impl.hpp"
 #include "environment/saved/saved_state_check.hpp"
 #include "system/invalid_input.hpp"
+#include "system/printable.hpp"
 
 namespace racebeam {
 namespace {
@@ -13,7 +14,10 @@ void put(std::span<char> field, const std::string& text) {
   std::copy_n(text.begin(), std::min(text.size(), field.size()), field.begin());
 }
 
-std::string text_of(std::span<const char> field) { return {field.begin(), std::ranges::find(field, '\0')}; }
+// A state may come from anywhere.
+std::string text_of(std::span<const char> field) {
+  return printable({field.begin(), std::ranges::find(field, '\0')});
+}
 
 }  // namespace
 

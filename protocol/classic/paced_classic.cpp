@@ -4,7 +4,7 @@
 
 namespace racebeam {
 
-PacedClassic::PacedClassic(const ClassicService& service) : service_(service), memory_(service.memory.get()) {
+PacedClassic::PacedClassic(const ClassicService& service) : service_(service), memory_(service.memory) {
   memory_.set(Player::footprint({}));
 }
 

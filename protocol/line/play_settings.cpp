@@ -175,10 +175,12 @@ constexpr std::array kPresets = {
               "Gymnasium's ALE/...-v5"},
 };
 
-const SettingRow& setting_row(std::string_view name) {
+const SettingRow& setting_row(std::string_view name, Words other_keys) {
   const auto found = std::ranges::find(kSettings, name, &SettingRow::name);
   if (found != kSettings.end()) return *found;
-  refuse_name(Code::kBadArguments, "setting", name, names_of(kSettings));
+  auto known = names_of(kSettings);
+  known.insert(known.end(), other_keys.begin(), other_keys.end());
+  refuse_name(Code::kBadArguments, "setting", name, known);
 }
 
 }  // namespace
@@ -189,13 +191,13 @@ PlaySettings::PlaySettings() { machine.max_episode_frames = 108000; }
 std::span<const SettingRow> setting_rows() { return kSettings; }
 std::span<const PresetRow> preset_rows() { return kPresets; }
 
-void read_settings(Words words, PlaySettings& settings) {
+void read_settings(Words words, PlaySettings& settings, Words other_keys) {
   std::bitset<kSettings.size()> given;
   for (const bool presets : {true, false}) {
     for (const std::string_view word : words) {
       const auto [key, value] = key_value(word);
       if ((key == "preset") != presets) continue;
-      const SettingRow& row = setting_row(key);
+      const SettingRow& row = setting_row(key, other_keys);
       const auto place = static_cast<std::size_t>(&row - kSettings.data());
       if (given[place]) refuse_twice(key);
       given.set(place);

@@ -41,8 +41,9 @@ struct PresetRow {
 };
 std::span<const PresetRow> preset_rows();
 
-// The words key=value of a request; a preset comes first, wherever it stands. Throws Refusal.
-void read_settings(Words words, PlaySettings& settings);
+// The words key=value of a request; a preset comes first, wherever it stands. Throws Refusal, which lists
+// `other_keys` with the settings: those that the request may have beside them.
+void read_settings(Words words, PlaySettings& settings, Words other_keys = {});
 
 // " key=value" for every setting, as it is in effect.
 void append_settings(std::string& out, const PlaySettings& settings, const Environment& machine);

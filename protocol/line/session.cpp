@@ -56,7 +56,7 @@ Session::Session(const LineService& with, const CommandTable& table, Meter* coun
       input(longest_line(with, !with.admission)),
       admitted(!with.admission),
       fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})),
-      memory(with.memory.get()),
+      memory(with.memory),
       table_(table),
       meter_(counting) {
   memory.set(footprint());
@@ -260,7 +260,6 @@ std::size_t Session::footprint() const {
                       machines.footprint(fields) + actions.capacity() * sizeof(Action) +
                       words_.capacity() * sizeof(std::string_view);
   if (player) bytes += Player::footprint(fields);
-  if (recording) bytes += recording->recording().memory();
   if (cartridge.image && service.images->find(cartridge.image->md5) == nullptr) bytes += kOwnImage;
   return bytes;
 }

@@ -13,13 +13,6 @@ bool is_name_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
 }
 
-// What was meant, perhaps, then what is accepted: a sentence that begins with a small letter.
-std::string advice(std::string_view given, Words known, std::string accepted) {
-  const std::string meant = did_you_mean(given, known);
-  if (!meant.empty()) accepted[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(accepted[0])));
-  return meant + ' ' + accepted;
-}
-
 template <typename Number>
 void append_any(std::string& out, Number number) {
   std::array<char, 32> digits;
@@ -61,6 +54,12 @@ std::string_view value_of(std::string_view word, std::string_view key, std::stri
     return word.substr(key.size() + 1);
   throw Refusal(Code::kBadArguments, quote(word) + " makes no sense here; " + std::string(command) +
                                          " takes " + std::string(key) + "=");
+}
+
+std::string advice(std::string_view given, Words known, std::string accepted) {
+  const std::string meant = did_you_mean(given, known);
+  if (!meant.empty()) accepted[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(accepted[0])));
+  return meant + ' ' + accepted;
 }
 
 void refuse_name(Code code, std::string_view kind, std::string_view name, Words known) {

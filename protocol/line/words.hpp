@@ -53,6 +53,10 @@ std::vector<std::string_view> names_of(const Rows& rows) {  // of the rows of a 
   return names;
 }
 
+// What was meant, perhaps, then what is accepted, which begins with a small letter: " did you mean A? There
+// are A B C", or " there are A B C" where nothing is near.
+std::string advice(std::string_view given, Words known, std::string accepted);
+
 // "there is no KIND 'NAME'; did you mean A? There are A B C"
 [[noreturn]] void refuse_name(Code code, std::string_view kind, std::string_view name, Words known);
 

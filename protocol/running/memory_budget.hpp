@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 
 namespace racebeam {
 
@@ -30,22 +32,23 @@ class MemoryBudget {
   std::atomic<std::uint64_t> taken_ = 0;
 };
 
-// What one session has taken of a budget; given back at its end.
+// What one owner has taken of a budget; given back at its end.
 class MemoryShare {
  public:
-  explicit MemoryShare(MemoryBudget* budget) : budget_(budget) {}  // null: there is no limit
+  explicit MemoryShare(std::shared_ptr<MemoryBudget> budget)  // null: there is no limit
+      : budget_(std::move(budget)) {}
   ~MemoryShare() { set(0); }
   MemoryShare(const MemoryShare&) = delete;
   MemoryShare& operator=(const MemoryShare&) = delete;
 
-  void set(std::size_t bytes);   // what the session holds
+  void set(std::size_t bytes);   // what the owner holds
   bool grow(std::size_t bytes);  // false, and nothing is taken, when there is not so much left
   void check(std::size_t bytes, const std::string& what);  // as grow(). Throws Refusal
 
   std::size_t bytes() const { return bytes_; }
 
  private:
-  MemoryBudget* budget_;
+  const std::shared_ptr<MemoryBudget> budget_;
   std::size_t bytes_ = 0;
 };
 

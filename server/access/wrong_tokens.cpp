@@ -24,11 +24,19 @@ std::string WrongTokens::source_of(const ip::address& address) {
   return ip::address_v6(bytes).to_string() + "/64";
 }
 
-WrongTokens::Delay WrongTokens::delay(const std::string& source) const {
+WrongTokens::Delay WrongTokens::pause(int wrong) const {
+  return std::min<Delay>(longest_, kFirstDelay * (1 << std::min(wrong - 1, kMostDoublings)));
+}
+
+WrongTokens::Delay WrongTokens::wait(const std::string& source) {
   const std::lock_guard lock(mutex_);
   const auto found = rows_.find(source);
-  if (found == rows_.end() || Clock::now() - found->second.latest > kMemory) return 0ms;
-  return std::min<Delay>(longest_, kFirstDelay * (1 << std::min(found->second.wrong - 1, kMostDoublings)));
+  const auto now = Clock::now();
+  if (found == rows_.end() || now - found->second.latest > kMemory) return 0ms;
+  Row& row = found->second;
+  if (now < row.next) return std::chrono::ceil<Delay>(row.next - now);
+  row.next = now + pause(row.wrong);
+  return 0ms;
 }
 
 int WrongTokens::count(const std::string& source) {
@@ -38,6 +46,7 @@ int WrongTokens::count(const std::string& source) {
   const auto now = Clock::now();
   row.wrong = now - row.latest > kMemory ? 1 : row.wrong + 1;
   row.latest = now;
+  row.next = now + pause(row.wrong);
   return row.wrong;
 }
 

@@ -1,7 +1,7 @@
-// Slows down clients that guess tokens. After a wrong token, the next ones from the same address wait before
-// they are looked at: 100 ms, then twice as long with each wrong token in a row. Right tokens wait alike,
-// since an answer that comes sooner would tell which are wrong. Other addresses never wait, and waiting keeps
-// no thread.
+// Slows down clients that guess tokens. After a wrong token, tokens from the same address are looked at one
+// at a time, whatever connections they come over, with a pause before each: 100 ms, then twice as long with
+// each wrong token in a row. Right tokens wait alike, since an answer that comes sooner would tell which are
+// wrong. Other addresses never wait, and waiting keeps no thread.
 #pragma once
 
 #include <chrono>
@@ -27,19 +27,23 @@ class WrongTokens {
   // itself.
   static std::string source_of(const boost::asio::ip::address& address);
 
-  Delay delay(const std::string& source) const;  // of the next token from there
-  int count(const std::string& source);          // one was wrong; how many in a row
-  void forgive(const std::string& source);       // one was right
+  // How long a token from there has to wait before it may ask again. 0: it may be looked at now, and the next
+  // one has to wait for the pause after it.
+  Delay wait(const std::string& source);
+  int count(const std::string& source);     // one was wrong; how many in a row
+  void forgive(const std::string& source);  // one was right
 
  private:
   struct Row {
     int wrong = 0;
-    Clock::time_point latest;
+    Clock::time_point latest;  // that one was wrong
+    Clock::time_point next;    // that one may be looked at
   };
+  Delay pause(int wrong) const;
   void make_room();
 
   const Delay longest_;
-  mutable std::mutex mutex_;
+  std::mutex mutex_;
   std::unordered_map<std::string, Row> rows_;  // by source; those of long ago are forgotten
 };
 
@@ -49,7 +53,7 @@ class Guesser {
   Guesser(WrongTokens& all, std::string source) : all_(&all), source_(std::move(source)) {}
 
   const std::string& source() const { return source_; }
-  WrongTokens::Delay delay() const { return all_->delay(source_); }
+  WrongTokens::Delay wait() { return all_->wait(source_); }
 
   // So many of its tokens have been wrong by now. Returns how many are new, and how many there were in a row.
   std::pair<int, int> heard(int wrong);

@@ -10,6 +10,7 @@
 #include <boost/asio.hpp>
 
 #include "protocol/refusal.hpp"
+#include "server/connections/lobby.hpp"
 #include "server/access/wrong_tokens.hpp"
 #include "server/scheduling/loops.hpp"
 
@@ -55,8 +56,10 @@ class Client {
   Socket socket;
   Loop& loop;
   const std::string name;
-  std::optional<Guesser> guesser;  // as long as a token is needed
-  bool admitted = false;           // has shown what is needed to play
+  std::optional<Guesser> guesser;     // as long as a token is needed
+  std::optional<Lobby::Place> place;  // the same
+  bool admitted = false;              // has shown what is needed to play
+  bool held_back = false;             // its token waits, for wrong ones from the same address
   bool working = false;  // it waits for us: a slice of its requests is done, the next has yet to come
   Usage usage;           // of the loop
 

@@ -91,12 +91,17 @@ void acknowledge(Socket& socket) {
   socket.set_option(net::detail::socket_option::boolean<IPPROTO_TCP, TCP_QUICKACK>(true), is_unix);
 }
 
-// Before a token may be looked at.
+// Before a token may be looked at. In between it is seen that the session is to end, or that a right token
+// from the same address has ended the waiting.
 net::awaitable<void> hold_back(Client& client) {
-  const auto delay = client.guesser->delay();
-  if (delay == 0ms) co_return;
-  net::steady_timer timer(client.socket.get_executor(), delay);
-  co_await timer.async_wait(use_awaitable);
+  constexpr WrongTokens::Delay kBetweenLooks = 100ms;
+  net::steady_timer timer(client.socket.get_executor());
+  for (auto wait = client.guesser->wait(); wait > 0ms && !client.ending(); wait = client.guesser->wait()) {
+    client.held_back = true;
+    timer.expires_after(std::min(wait, kBetweenLooks));
+    co_await timer.async_wait(use_awaitable);
+  }
+  if (!client.ending()) client.held_back = false;
 }
 
 void judge(Client& client, const LineSession& session, Metrics& metrics) {
@@ -110,6 +115,7 @@ void judge(Client& client, const LineSession& session, Metrics& metrics) {
   if (!session.admitted()) return;
   client.guesser->admitted();
   client.guesser.reset();
+  client.place.reset();
 }
 
 // Waits for the session's turn on its loop.

@@ -171,25 +171,35 @@ net::awaitable<void> ConnectionAcceptor::welcome(Listener& listener) {
   }
 }
 
+// Where there are enough sessions, one without a token makes room: it is over as soon as its loop has time.
+std::optional<std::string> ConnectionAcceptor::obstacle(const Service& service) {
+  if (!has_memory_for_one_more(service)) return "the server's sessions hold all the memory that they may";
+  if (metrics_.sessions_open < settings_.max_sessions) return std::nullopt;
+  const std::string full =
+      "there are " + std::to_string(settings_.max_sessions) + " sessions, as many as this server takes";
+  if (!lobby_->make_room(full + "; those without a token go first")) return full;
+  ++metrics_.ended_busy;
+  return std::nullopt;
+}
+
 void ConnectionAcceptor::admit(Socket socket, Loop& loop, const Listener& listener, int number) {
   std::string name = listener.name() + " client " + std::to_string(number);
   auto client = std::make_shared<Client>(std::move(socket), loop, std::move(name));
-  const bool has_memory = has_memory_for_one_more(service_of(listener));
-  if (metrics_.sessions_open >= settings_.max_sessions || !has_memory) {
+  const Service& service = service_of(listener);
+  if (const auto why = obstacle(service)) {
     ++metrics_.refused_busy;
-    const std::string why = has_memory ? "there are " + std::to_string(settings_.max_sessions) +
-                                             " sessions, as many as this server takes"
-                                       : "the server's sessions hold all the memory that they may";
-    log_warning(client->name + ": refused, " + why);
-    client->end(Code::kBusy, why + "; try again later");
+    log_warning(client->name + ": refused, " + *why);
+    client->end(Code::kBusy, *why + "; try again later");
     const bool understands = !listener.endpoint().classic && !listener.endpoint().tls;
     net::co_spawn(loop.context, turn_away(std::move(client), understands), net::detached);
     return;
   }
   ++metrics_.sessions_open;
   ++(listener.endpoint().classic ? metrics_.sessions_classic : metrics_.sessions_line);
-  const Service& service = service_of(listener);
-  if (guarded_ && &service == &*guarded_) client->guesser.emplace(wrong_tokens_, source_of(client->socket));
+  if (guarded_ && &service == &*guarded_) {
+    client->guesser.emplace(wrong_tokens_, source_of(client->socket));
+    lobby_->enter(client);
+  }
   auto tls = listener.endpoint().tls ? tls_->context() : nullptr;
   net::co_spawn(loop.context, serve_connection(std::move(client), service, std::move(tls), metrics_),
                 net::detached);

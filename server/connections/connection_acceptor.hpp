@@ -11,6 +11,7 @@
 
 #include <boost/asio/awaitable.hpp>
 
+#include "server/connections/lobby.hpp"
 #include "server/access/tls.hpp"
 #include "server/access/tokens.hpp"
 #include "server/access/wrong_tokens.hpp"
@@ -39,6 +40,7 @@ class ConnectionAcceptor {
   void check(const Listener& listener) const;  // that it is safe
   const Service& service_of(const Listener& listener) const;
   boost::asio::awaitable<void> welcome(Listener& listener);
+  std::optional<std::string> obstacle(const Service& service);  // to one more session
   void admit(Socket socket, Loop& loop, const Listener& listener, int number);
 
   const ServerSettings& settings_;
@@ -47,6 +49,7 @@ class ConnectionAcceptor {
   Metrics& metrics_;
   std::optional<Tokens> tokens_;
   WrongTokens wrong_tokens_;
+  const std::shared_ptr<Lobby> lobby_ = std::make_shared<Lobby>();
   std::optional<Tls> tls_;
   std::optional<Service> guarded_;  // the line protocol, for those who have a token
   std::list<Listener> listeners_;

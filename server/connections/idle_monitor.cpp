@@ -15,6 +15,13 @@ using namespace std::chrono_literals;
 constexpr auto kBetweenLooks = 250ms;
 constexpr auto kPause = 2s;  // of a client, after which its session is at rest
 
+std::string why_no_token(const Client& client, int handshake_seconds) {
+  const std::string time = std::to_string(handshake_seconds) + " seconds";
+  if (!client.held_back) return "no token came within " + time;
+  return "wrong tokens from " + client.guesser->source() + " held this one back for " + time +
+         "; try again later";
+}
+
 }  // namespace
 
 void IdleMonitor::start() {
@@ -49,8 +56,7 @@ void IdleMonitor::look_at(Client& client) {
     client.end(Code::kIdle, {});  // for good
   } else if (!client.admitted && now - client.came() > handshake) {
     ++metrics_.ended_handshake;
-    client.end(Code::kUnauthorized,
-               "no token came within " + std::to_string(settings_.handshake_seconds) + " seconds");
+    client.end(Code::kUnauthorized, why_no_token(client, settings_.handshake_seconds));
   } else if (client.working) {
     return;
   } else if (idle > 0s && now - client.active() > idle) {

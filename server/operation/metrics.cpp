@@ -79,6 +79,7 @@ std::string Metrics::text() const {
   append_value(out, "sessions_ended_total{reason=\"idle\"}", ended_idle.load());
   append_value(out, "sessions_ended_total{reason=\"handshake\"}", ended_handshake.load());
   append_value(out, "sessions_ended_total{reason=\"stopping\"}", ended_stopping.load());
+  append_value(out, "sessions_ended_total{reason=\"busy\"}", ended_busy.load());
   append_head(out, "wrong_tokens_total", "counter", "Tokens from clients that were wrong.");
   append_value(out, "wrong_tokens_total", wrong_tokens.load());
   append_head(out, "frames_total", "counter", "Frames that machines have run for requests.");

@@ -19,7 +19,7 @@ class Metrics {
   // Any thread counts.
   std::atomic<std::int64_t> sessions_open = 0, sessions_classic = 0, sessions_line = 0;
   std::atomic<std::int64_t> refused_busy = 0, refused_tls = 0, wrong_tokens = 0;
-  std::atomic<std::int64_t> ended_idle = 0, ended_handshake = 0, ended_stopping = 0;
+  std::atomic<std::int64_t> ended_idle = 0, ended_handshake = 0, ended_stopping = 0, ended_busy = 0;
 
  private:
   template <typename Part>

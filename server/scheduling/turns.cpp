@@ -22,6 +22,7 @@ void Turns::wake_next() {
   const auto now = Clock::now();
   const auto next =
       std::ranges::min_element(waiting_, {}, [now](const Waiting& one) { return one.usage->lately(now); });
+  next_ = next->usage;
   next->timer->cancel();
   *next = waiting_.back();
   waiting_.pop_back();

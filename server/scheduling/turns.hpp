@@ -17,9 +17,10 @@ class Turns {
  public:
   using Clock = Usage::Clock;
 
-  // Whether a session may work at once. A session that has the loop to itself may, and so may one that asks
+  // Whether a session may work at once: when it is its turn, when it has the loop to itself, and when it asks
   // briefly.
   bool may_work(const Usage& usage) const {
+    if (next_ == &usage) return true;
     if (last_ == &usage && waiting_.empty()) return true;
     return usage.lately(Clock::now()) < kBrief;
   }
@@ -27,6 +28,7 @@ class Turns {
   void worked(Usage& usage, Clock::duration time) {
     usage.add(time, Clock::now());
     last_ = &usage;
+    next_ = nullptr;
   }
 
   // Returns when it is the session's turn. In between, the loop handles what else is ready.
@@ -45,6 +47,7 @@ class Turns {
 
   std::vector<Waiting> waiting_;
   const Usage* last_ = nullptr;  // that has worked
+  const Usage* next_ = nullptr;  // whose turn it is; null: there is none
 };
 
 }  // namespace racebeam

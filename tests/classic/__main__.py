@@ -15,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from images import SKIPPED, folder, image, images
 from kept import write as write_kept
-from run import drawn, parse_run
+from run import Run, drawn
 from session import BINARY, difference, play
 
 IDENTICAL, UNKNOWN = "identical", "unknown to the reference"
@@ -40,7 +40,7 @@ def chosen_runs(options):
     """Raises ValueError with a sentence."""
     if not os.access(options.reference, os.X_OK):
         raise ValueError(f"the reference '{options.reference}' is not a program that can be run")
-    runs = [parse_run(name) for name in options.run] if options.run else drawn_runs(options)
+    runs = [Run.parse(name) for name in options.run] if options.run else drawn_runs(options)
     for run in runs:
         image(run.game)
     return runs

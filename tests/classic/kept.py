@@ -3,7 +3,7 @@
 import hashlib
 import pathlib
 
-from run import parse_run
+from run import Run
 
 FILE = pathlib.Path(__file__).with_name("kept.txt")
 
@@ -21,4 +21,4 @@ def write(path, answers):
 def read(path=FILE):
     """Pairs of a run and the digest of the answer."""
     words = (line.split(" ", 1) for line in path.read_text().splitlines())
-    return [(parse_run(name), wanted) for name, wanted in words]
+    return [(Run.parse(name), wanted) for name, wanted in words]

@@ -4,9 +4,13 @@ A run's name says all that makes it what it is: `pong:seed=7,skip=4,lines=500` i
 does not name is at its default.
 """
 
-import dataclasses
+import pathlib
 import random
+import sys
 from dataclasses import dataclass
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from named_run import NamedRun  # noqa: E402
 
 SKIPS, STICKIES = (1, 1, 2, 4, 5), (0.0, 0.25, 0.25, 0.5)
 HOLD = 0.75  # the probability that the players hold their actions for another line
@@ -18,7 +22,9 @@ FLAGS = "1,1,0,1"  # screen, RAM, nothing, episode
 
 
 @dataclass(frozen=True)
-class Run:
+class Run(NamedRun):
+    ALWAYS = ("seed", "lines")
+
     game: str
     skip: int = 1
     sticky: float = 0.25
@@ -31,12 +37,6 @@ class Run:
     resets: int = 0  # of 1,000 lines
     seed: int = 1
     lines: int = 500
-
-    @property
-    def name(self):
-        told = [field for field in dataclasses.fields(self)[1:]
-                if getattr(self, field.name) != field.default or field.name in ("seed", "lines")]
-        return f"{self.game}:" + ",".join(f"{field.name}={getattr(self, field.name)}" for field in told)
 
     def options(self):
         """The server's command line, without the image."""
@@ -80,19 +80,3 @@ def drawn(game, seed, lines):
                frames=generator.choice((0, 0, 0, generator.randrange(300, 2000))), both=generator.randrange(2),
                specials=generator.choice((0, 20, 100)), resets=generator.choice((0, 2, 10)),
                seed=generator.randrange(1, 1 << 31), lines=lines)
-
-
-def parse_run(text):
-    """The run of that name. Raises ValueError with a sentence."""
-    game, _, settings = text.partition(":")
-    kinds = {field.name: type(field.default) for field in dataclasses.fields(Run)[1:]}
-    values = {}
-    for word in filter(None, settings.split(",")):
-        key, _, value = word.partition("=")
-        if key not in kinds:
-            raise ValueError(f"'{key}' of the run '{text}' is not one of {', '.join(kinds)}")
-        try:
-            values[key] = kinds[key](value)
-        except ValueError:
-            raise ValueError(f"'{value}' is not a value for {key} of the run '{text}'") from None
-    return Run(game, **values)

@@ -32,7 +32,7 @@ from progress import Progress
 from reference import VERSION as REFERENCE_VERSION
 from report import markdown
 from results import Results
-from run import parse_run
+from run import Run
 
 PATIENCE = 300  # seconds for one run
 
@@ -96,7 +96,7 @@ def check_numbers(options):
 
 def chosen_runs(options, seeds):
     if options.run:
-        runs = [parse_run(name) for name in options.run]
+        runs = [Run.parse(name) for name in options.run]
         check_games([run.game for run in runs])
         return runs, []
     other_frames = options.other_frames or min(2000, options.frames)

@@ -8,7 +8,7 @@ from compare import IDENTICAL
 from images import HOST, WITHOUT_RULE
 from not_comparable import NOT_COMPARABLE
 from ours import FORMS
-from run import COLORS_EVERY, WRITE, parse_run
+from run import COLORS_EVERY, WRITE, Run
 
 HEAD = """# Conformance
 
@@ -54,7 +54,7 @@ def is_default(run):
 
 
 def row(game, results):
-    runs = [parse_run(result["run"]) for result in results]
+    runs = [Run.parse(result["run"]) for result in results]
     default = [result["frames"] for run, result in zip(runs, results) if is_default(run)]
     other = [result["frames"] for run, result in zip(runs, results) if not is_default(run)]
     bad = sum(result["verdict"] != IDENTICAL for result in results)
@@ -64,11 +64,11 @@ def row(game, results):
 
 
 def totals(results):
-    runs = [parse_run(result["run"]) for result in results]
+    runs = [Run.parse(result["run"]) for result in results]
     count = lambda key: sum(bool(getattr(run, key)) for run in runs)
     bad = [result for result in results if result["verdict"] != IDENTICAL]
     games = {run.game for run in runs}
-    good_games = games - {parse_run(result["run"]).game for result in bad}
+    good_games = games - {Run.parse(result["run"]).game for result in bad}
     frames = sum(result["frames"] for result in results)
     return wrapped(f"{len(good_games)} of {len(games)} games are identical in all their runs; "
                    f"{len(results) - len(bad):,} of {len(results):,} runs, {frames:,} frames. Among them "
@@ -95,7 +95,7 @@ def mismatches(results):
 def markdown(results, identity, command, gaps):
     by_game = collections.defaultdict(list)
     for result in results:
-        by_game[parse_run(result["run"]).game].append(result)
+        by_game[Run.parse(result["run"]).game].append(result)
     head = HEAD.format(every=COLORS_EVERY, write=WRITE, command=command, date=datetime.date.today().isoformat(),
                        version=identity["version"], reference=identity["reference"],
                        seeds=", ".join(map(str, identity["seeds"])),

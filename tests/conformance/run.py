@@ -4,9 +4,13 @@ A run's name says all that makes it what it is: `pong:skip=4,sticky=0.25,averagi
 on every machine. What isn't named is at its default.
 """
 
-import dataclasses
+import pathlib
 import random
+import sys
 from dataclasses import dataclass
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from named_run import NamedRun  # noqa: E402
 
 HOLD = 0.75  # the probability that an action is held for another act
 WRITE = 0.01  # the probability of a RAM write before an act, in runs with writes
@@ -14,12 +18,14 @@ COLORS_EVERY = 16  # acts; without averaging, the palette indices of a screen sa
 
 
 @dataclass(frozen=True)
-class Run:
+class Run(NamedRun):
+    ALWAYS = ("seed", "frames")
+
     game: str
     mode: int | None = None
     difficulty: int | None = None
     skip: int = 1
-    sticky: float = 0
+    sticky: float = 0.0
     averaging: int = 0
     writes: int = 0  # bytes of RAM are written at random moments
     limit: int = 0  # frames of an episode
@@ -27,12 +33,6 @@ class Run:
     strengths: int = 0  # paddles turn by random strengths
     seed: int = 1
     frames: int = 2000
-
-    @property
-    def name(self):
-        told = [field for field in dataclasses.fields(self)[1:]
-                if getattr(self, field.name) != field.default or field.name in ("seed", "frames")]
-        return f"{self.game}:" + ",".join(f"{field.name}={getattr(self, field.name)}" for field in told)
 
     @property
     def setting(self):
@@ -61,22 +61,6 @@ class Run:
             if generator.random() >= HOLD:
                 action = generator.randrange(18)
             yield "A", action, generator.randrange(-64, 129) / 64 if self.strengths else 1
-
-
-def parse_run(text):
-    """The run of that name. Raises ValueError with a sentence."""
-    game, _, settings = text.partition(":")
-    kinds = {field.name: float if field.name == "sticky" else int for field in dataclasses.fields(Run)[1:]}
-    values = {}
-    for word in filter(None, settings.split(",")):
-        key, _, value = word.partition("=")
-        if key not in kinds:
-            raise ValueError(f"'{key}' of the run '{text}' is not one of {', '.join(kinds)}")
-        try:
-            values[key] = kinds[key](value)
-        except ValueError:
-            raise ValueError(f"'{value}' is not a value for {key} of the run '{text}'") from None
-    return Run(game, **values)
 
 
 def action_word(action, strength):

@@ -25,7 +25,7 @@ import not_comparable
 import ours
 import plan
 import pool
-from run import Run, parse_run
+from run import Run
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 GAME = "pong"
@@ -208,7 +208,7 @@ class Plans(unittest.TestCase):
     def test_a_run_is_found_again_by_its_name(self):
         runs, _ = plan.plan(images.games(), "all", [1, 2], 20000, 2000)
         for run in runs:
-            self.assertEqual(parse_run(run.name), run)
+            self.assertEqual(Run.parse(run.name), run)
         self.assertEqual(len({run.name for run in runs}), len(runs))
 
     def test_what_is_played_depends_on_the_name_alone(self):

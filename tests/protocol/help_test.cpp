@@ -15,12 +15,11 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;
 using test::code;
+using test::kLoad;
 using test::LineClient;
 using test::value;
 
 namespace {
-
-const std::string kLoad = "load beamfall seed=7 sticky=0";
 
 std::string plain(std::string_view text) {
   std::string plain(text);
@@ -129,6 +128,10 @@ TEST_CASE("What is nearly right is asked about, whatever it is") {
       {"load beamfal", "; did you mean beamfall?"},
       {"load beamfall as=pogn", "; did you mean pong?"},
       {"load beamfall stiky=0", "; did you mean sticky? There are preset"},
+      {"load inline imgae=AAAA", "; did you mean image? There are preset"},
+      {"load beamfall is=pong", "; did you mean as? There are preset"},
+      {"set mod=1", "'mod' can't be set while a game runs; did you mean mode? There are mode and difficulty"},
+      {"set dificulty=1", "; did you mean difficulty? There are"},
       {"load beamfall preset=dqn", "; did you mean dqn2015? It takes paper2013"},
       {"load beamfall rules=fix", "; did you mean fixed? It takes ale-0.12 or fixed"},
       {"load beamfall action_set=minimum", "; did you mean minimal? It takes full, legal or minimal"},

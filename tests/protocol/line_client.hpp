@@ -10,6 +10,8 @@
 
 namespace racebeam::test {
 
+inline const std::string kLoad = "load beamfall seed=7 sticky=0";  // the same play whenever it is said
+
 inline LineService line_service(const LineLimits& limits = {}) {
   LineService service;
   service.version = "test";

@@ -11,15 +11,10 @@ using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 using test::code;
+using test::kLoad;
 using test::line_service;
 using test::LineClient;
 using test::value;
-
-namespace {
-
-const std::string kLoad = "load beamfall seed=7 sticky=0";
-
-}  // namespace
 
 TEST_CASE("A request is answered by one line, and requests sent ahead in their order") {
   LineClient client;

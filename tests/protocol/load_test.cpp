@@ -8,14 +8,9 @@ using namespace racebeam;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 using test::code;
+using test::kLoad;
 using test::LineClient;
 using test::value;
-
-namespace {
-
-const std::string kLoad = "load beamfall seed=7 sticky=0";
-
-}  // namespace
 
 TEST_CASE("A load that is refused leaves the game before it running") {
   LineClient client;

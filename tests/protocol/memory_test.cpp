@@ -34,16 +34,16 @@ TEST_CASE("A budget gives what it has, and no more") {
 }
 
 TEST_CASE("A share is given back when its owner ends") {
-  MemoryBudget budget(100);
+  const auto budget = std::make_shared<MemoryBudget>(100);
   {
-    MemoryShare share(&budget);
+    MemoryShare share(budget);
     share.set(30);
     CHECK(share.grow(20));
     CHECK_FALSE(share.grow(51));
     CHECK_THROWS_AS(share.check(51, "it"), Refusal);
-    CHECK(budget.taken() == 50);
+    CHECK(budget->taken() == 50);
   }
-  CHECK(budget.taken() == 0);
+  CHECK(budget->taken() == 0);
 }
 
 TEST_CASE("What would go beyond the memory of all is refused, and the session goes on") {

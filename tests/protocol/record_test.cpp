@@ -1,5 +1,6 @@
 // record
 #include <catch2/catch.hpp>
+#include <thread>
 
 #include "recording/recorder.hpp"
 #include "tests/games/scratch.hpp"
@@ -14,6 +15,7 @@ using test::value;
 namespace {
 
 const std::string kLoad = "load beamfall seed=7 sticky=0.25 frame_skip=2";
+constexpr std::uint64_t kMemory = 64 << 20;
 
 struct Studio {
   explicit Studio(std::size_t most_bytes = 1 << 30) : client(service(most_bytes)) { client.ask(kLoad); }
@@ -22,6 +24,7 @@ struct Studio {
     LineService made = test::line_service();
     made.limits.recording = most_bytes;
     made.recorder = std::make_shared<Recorder>(folder.path(""));
+    made.memory = std::make_shared<MemoryBudget>(kMemory);
     return made;
   }
 
@@ -106,6 +109,35 @@ TEST_CASE("What ends the machine ends its recording, which is kept") {
   CHECK(kept("record wav a machine=0", "close"));
   CHECK(!kept("record wav a", "close"));
   CHECK(!kept("record wav a machine=1", "open 2 autoreset=wrong"));
+}
+
+TEST_CASE("A recording that there is no memory for is refused, and leaves nothing") {
+  Studio studio;
+  MemoryBudget& memory = *studio.client.service.memory;
+  const std::uint64_t others = kMemory - memory.taken() - (1 << 20);
+  memory.take_anyway(others);
+  CHECK_THAT(studio.ask("record png,gif,y4m,wav a"), Contains("error limit a recording would take about "));
+  CHECK(test::files_in(studio.folder.path("")) == 0);
+  CHECK(code(studio.ask("act FIRE")) == "");
+  memory.give_back(others);
+  CHECK(studio.ask("record gif a") == "ok recording=a.gif");
+}
+
+TEST_CASE("What a recording holds is given back when it is written, after its session too") {
+  Studio studio;
+  const MemoryBudget& memory = *studio.client.service.memory;
+  const std::uint64_t before = memory.taken();
+  {
+    test::LineClient other(studio.client.service);
+    other.ask(kLoad);
+    other.ask("record y4m,wav a");
+    other.ask("act FIRE*4");
+    CHECK(memory.taken() > before + (2 << 20));
+  }
+  studio.client.service.recorder->end(std::chrono::seconds(10));
+  for (int look = 0; look < 10'000 && memory.taken() != before; ++look)  // its last job has yet to go
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  CHECK(memory.taken() == before);
 }
 
 TEST_CASE("What is no recording is refused, with what is accepted") {

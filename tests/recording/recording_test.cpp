@@ -20,6 +20,8 @@ struct Film {
                 std::move(name),
                 most_bytes,
                 {static_cast<std::size_t>(machine.height()), palette(machine.format()), 60}};
+    order.charge = charge;
+    memory = order.memory();
     auto claim = std::make_unique<Claim>(claims, order.file_names());
     recording = std::make_shared<Recording>(
         std::move(order), std::move(claim), [this](auto job) { jobs.push_back(std::move(job)); }, given_up);
@@ -47,6 +49,8 @@ struct Film {
   std::shared_ptr<Claims> claims = std::make_shared<Claims>();
   std::shared_ptr<std::atomic<bool>> given_up = std::make_shared<std::atomic<bool>>(false);
   Environment machine = test::beamfall();
+  std::shared_ptr<const int> charge = std::make_shared<const int>();
+  std::size_t memory = 0;
   std::shared_ptr<Recording> recording;
 };
 
@@ -66,8 +70,8 @@ TEST_CASE("Frames that the disk has not taken are few") {
   film.work();
   const int waiting = film.add_until_behind();
   CHECK(waiting == 16);
-  CHECK(film.recording->memory() > std::size_t{16} * 160 * 210);
-  CHECK(film.recording->memory() < std::size_t{4} << 20);
+  CHECK(film.memory > std::size_t{16} * 160 * 210);
+  CHECK(film.memory < std::size_t{4} << 20);
   film.work(1);
   CHECK(film.add_until_behind() == 1);
   film.recording->finish();
@@ -82,7 +86,7 @@ TEST_CASE("Sound alone needs no room for pictures") {
   Film film({MediaKind::kWav});
   film.work();
   CHECK(film.add_until_behind() == 1024);
-  CHECK(film.recording->memory() < std::size_t{1} << 20);
+  CHECK(film.memory < std::size_t{1} << 20);
 }
 
 TEST_CASE("A frame is recorded as it was when it was added") {
@@ -140,6 +144,20 @@ TEST_CASE("A recording that can't begin says why, and leaves nothing") {
   CHECK_THAT(film.recording->result().failure, Contains("limit of 100 bytes"));
   CHECK(test::files_in(film.folder.path("")) == 0);
   CHECK(film.claims->empty());
+}
+
+TEST_CASE("A recording is charged for until all of it is written") {
+  Film film({MediaKind::kGif});
+  const std::weak_ptr<const int> charge = film.charge;
+  film.charge.reset();
+  film.work();
+  film.add_until_behind();
+  film.recording->finish();
+  film.recording.reset();
+  film.work(16);
+  CHECK(!charge.expired());
+  film.work();
+  CHECK(charge.expired());
 }
 
 TEST_CASE("What is given up leaves nothing") {

@@ -70,7 +70,8 @@ class Tokens(Folder):
 
     def test_guessing_gets_slower_and_delays_nobody_else(self):
         right, wrong = b"hello token=" + TOKEN.encode() + b"\n", b"hello token=" + OTHER.encode() + b"\n"
-        with self.serve("--http", "127.0.0.1:0", "--threads", "1") as server:
+        handshake, longest = 4, 2
+        with self.serve("--http", "127.0.0.1:0", "--threads", "1", "--handshake", str(handshake)) as server:
             metrics = server.wait_for(r"health and metrics on (http://\S+)").group(1) + "/metrics"
 
             def connect(address):
@@ -78,36 +79,68 @@ class Tokens(Folder):
                 self.addCleanup(connection.close)
                 return Wire(connection.fileno(), connection.fileno(), connection)
 
-            def timed(address, request):
+            def say(address, request):
                 wire = connect(address)
-                start = time.monotonic()
                 wire.send(request)
-                return wire.line().split()[0], time.monotonic() - start
+                return wire.line()
+
+            def wrong_tokens():
+                with urllib.request.urlopen(metrics, timeout=PATIENCE) as page:
+                    return int(page.read().decode().split("racebeam_wrong_tokens_total ")[-1].split()[0])
 
             delays = [0, 0.1, 0.2, 0.4, 0.8]
-            for delay in delays:
-                reply, took = timed("127.0.0.2", wrong)
-                self.assertEqual(reply, b"error")
-                self.assertGreaterEqual(took, delay)
-            held = [connect("127.0.0.2") for _ in range(20)]
+            start = time.monotonic()
+            for number in range(len(delays)):
+                self.assertTrue(say("127.0.0.2", wrong).startswith(b"error unauthorized that token is not"))
+                self.assertGreaterEqual(time.monotonic() - start, sum(delays[:number + 1]))
+            server.wait_for("client 5: a wrong token from 127.0.0.2, number 5 in a row")
+
+            held, start = [connect("127.0.0.2") for _ in range(20)], time.monotonic()
             for wire in held:
                 wire.send(wrong)
-            admitted, latest = connect("127.0.0.3"), time.monotonic()
+            admitted = connect("127.0.0.3")
             self.assertTrue(ask(admitted, right[:-1]).startswith(b"ok "))  # from elsewhere, on the same thread
             self.assertTrue(ask(admitted, b"load beamfall").startswith(b"ok "))
-            self.assertLess(time.monotonic() - latest, 1.6)  # of those that wait
             self.assertFalse(select.select(held, [], [], 0)[0])
-            with urllib.request.urlopen(metrics, timeout=PATIENCE) as page:
-                self.assertIn(f"racebeam_wrong_tokens_total {len(delays)}\n", page.read().decode())
-            server.wait_for("client 5: a wrong token from 127.0.0.2, number 5 in a row")
-            for wire in held:
-                self.assertTrue(wire.line().startswith(b"error unauthorized "))
-            reply, took = timed("127.0.0.2", right)  # is not locked out, either
-            self.assertEqual(reply, b"ok")
-            self.assertGreaterEqual(took, 5 / 2)
-            self.assertLess(timed("127.0.0.2", right)[1], 5 / 2)
-            with urllib.request.urlopen(metrics, timeout=PATIENCE) as page:
-                self.assertIn(f"racebeam_wrong_tokens_total {len(delays) + len(held)}\n", page.read().decode())
+            self.assertLess(time.monotonic() - start, 1.6)  # until the first of those that wait
+            self.assertEqual(wrong_tokens(), len(delays))
+
+            replies = [wire.line() for wire in held]
+            looked_at = [reply for reply in replies if reply.startswith(b"error unauthorized that token is not")]
+            self.assertIn(len(looked_at), range(1, handshake // longest + 2), replies)
+            self.assertEqual(wrong_tokens(), len(delays) + len(looked_at))
+            self.assertEqual({reply for reply in replies if reply not in looked_at},
+                             {b"error unauthorized wrong tokens from 127.0.0.2 held this one back for 4 seconds; "
+                              b"try again later\n"})
+
+            start = time.monotonic()
+            self.assertTrue(say("127.0.0.2", wrong).startswith(b"error unauthorized that token is not"))
+            self.assertTrue(say("127.0.0.2", right).startswith(b"ok "))  # is not locked out, but waits alike
+            self.assertGreaterEqual(time.monotonic() - start, longest)
+            start = time.monotonic()
+            self.assertTrue(say("127.0.0.2", right).startswith(b"ok "))
+            self.assertLess(time.monotonic() - start, longest)
+
+    def test_who_has_no_token_makes_room_for_others(self):
+        full = b"error busy there are 3 sessions, as many as this server takes; "
+        with self.serve("--max-sessions", "3") as server:
+            first, silent, other = (connect_tcp(server.port()) for _ in range(3))
+            for wire in (first, silent, other):
+                self.assertIn(b" admitted=0 ", ask(wire, b"hello"))
+            self.assertIn(b" admitted=1 ", ask(first, b"hello token=" + TOKEN.encode()))
+            server.wait_for("listening on unix:s")
+            local = connect_unix(server.path("s"))  # needs none
+            self.assertTrue(ask(local, b"load beamfall").startswith(b"ok "))
+            self.assertEqual(silent.rest(), full + b"those without a token go first\n")
+            late = connect_tcp(server.port())
+            self.assertIn(b" admitted=1 ", ask(late, b"hello token=" + TOKEN.encode()))
+            self.assertEqual(other.rest(), full + b"those without a token go first\n")
+            refused = connect_tcp(server.port())
+            self.assertEqual(refused.rest(), full + b"try again later\n")
+            for wire in (first, local, late):
+                self.assertTrue(ask(wire, b"stats").startswith(b"ok "))
+            for wire in (first, silent, other, local, late, refused):
+                wire.close()
 
     def test_who_gives_no_token_in_time_is_closed(self):
         with self.serve("--handshake", "1") as server:

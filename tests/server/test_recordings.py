@@ -2,6 +2,7 @@
 
 import os
 import resource
+import select
 import statistics
 import subprocess
 import tempfile
@@ -178,6 +179,26 @@ class HangingDisk(unittest.TestCase):
             self.check_others_play(server)
             self.check_it_ends(server)
             wire.close()
+
+    def test_what_is_not_written_yet_counts_when_its_client_has_left(self):
+        with self.serve("--max-memory", "64M") as server:
+            server.wait_for("listening")
+            stays = connect_unix(server.path("s"))
+            ask(stays, b"load beamfall")
+            for number in range(60):
+                wire = connect_unix(server.path("s"))
+                reply = ask(wire, b"load beamfall")
+                wire.send(b"record y4m,wav film%d\n" % number)
+                if reply.startswith(b"ok ") and select.select([wire], [], [], 0.2)[0]:  # not once both threads hang
+                    reply = wire.line()
+                if reply.startswith(b"error "):
+                    break
+                wire.close()
+            self.assertIn(number, range(4, 59))
+            self.assertRegex(ask(stays, b"record y4m,wav mine"), b"^error limit a recording would take about ")
+            for left in (stays, wire):
+                left.close()
+            self.check_it_ends(server)
 
     def test_a_session_stays(self):
         with self.serve() as server:

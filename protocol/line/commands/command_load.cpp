@@ -61,6 +61,9 @@ void describe_game(Session& session, std::string_view name) {
   append_numbered(out, "legal", game->legal_actions);
 }
 
+constexpr std::array<std::string_view, 2> kKeysOfImages = {"image", "as"};
+constexpr std::array<std::string_view, 2> kKeysOfSet = {"mode", "difficulty"};
+
 // The words of `load` behind the name of the game.
 struct LoadWords {
   std::optional<std::string_view> image, as;
@@ -144,7 +147,7 @@ void run_load(Session& session, Words arguments) {
   const LoadWords words = sorted(arguments.subspan(1));
   PlaySettings settings;
   settings.machine.cpu = session.service.cpu;
-  read_settings(words.settings, settings);
+  read_settings(words.settings, settings, kKeysOfImages);
   if (settings.machine.random_seed == 0) settings.machine.random_seed = std::random_device{}() | 1U;
   Cartridge cartridge = find_cartridge(session, arguments[0], words);
   std::unique_ptr<Player> player;
@@ -171,10 +174,10 @@ void run_set(Session& session, Words arguments) {
   PlaySettings changed;
   for (const std::string_view word : arguments) {
     const std::string_view key = key_value(word).key;
-    if (key == "mode" || key == "difficulty") continue;
-    throw Refusal(
-        Code::kBadArguments,
-        quote(key) + " can't be set while a game runs; there are mode and difficulty; load takes the others");
+    if (std::ranges::find(kKeysOfSet, key) != kKeysOfSet.end()) continue;
+    throw Refusal(Code::kBadArguments,
+                  quote(key) + " can't be set while a game runs;" +
+                      advice(key, kKeysOfSet, "there are mode and difficulty; load takes the others"));
   }
   read_settings(arguments, changed);
   Environment& machine = session.player->machine();

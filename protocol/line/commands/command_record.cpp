@@ -58,10 +58,20 @@ Player& player_of(Session& session, Words arguments) {
   return session.machines.player(static_cast<std::size_t>(number_within(number, "machine", 0, last)));
 }
 
+// To the server. What is written slowly may outlive the session by far.
+std::shared_ptr<const void> charge(const LineService& service, std::size_t bytes) {
+  const auto share = std::make_shared<MemoryShare>(service.memory);
+  share->check(bytes, "a recording");
+  return share;
+}
+
 std::shared_ptr<Recording> begin(const LineService& service, const std::vector<MediaKind>& kinds,
                                  std::string_view name, const Environment& machine) {
   try {
-    return service.recorder->begin(kinds, std::string(name), service.limits.recording, machine);
+    return service.recorder->begin(kinds, std::string(name), service.limits.recording, machine,
+                                   [&service](std::size_t bytes) { return charge(service, bytes); });
+  } catch (const Refusal&) {
+    throw;
   } catch (const std::runtime_error& error) {
     throw Refusal(Code::kRecording, error.what());
   }

@@ -1,6 +1,7 @@
 // A state as bytes: exact, and nothing else is taken for one.
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <zlib.h>
 
 #include "environment/saved_state.hpp"
 #include "environment/saved/saved_state_format.hpp"
@@ -120,6 +121,16 @@ TEST_CASE("A state of another format is refused by its number") {
   std::memcpy(&bytes[8], &version, sizeof version);
   CHECK_THROWS_WITH(from_bytes(bytes, counter()),
                     Catch::Contains("format 77") && Catch::Contains("reads format " + std::to_string(kSnapshotVersion)));
+}
+
+TEST_CASE("What a state says that it is of is shown as printable text") {
+  Bytes bytes = some_state();
+  const std::size_t name = 24 + sizeof(Identity::md5);
+  bytes[name] = '\x1B';
+  bytes[name + 1] = '\n';
+  const auto sum = static_cast<std::uint32_t>(crc32(0, bytes.data() + 24, static_cast<uInt>(bytes.size() - 24)));
+  std::memcpy(bytes.data() + 20, &sum, sizeof sum);
+  CHECK_THROWS_WITH(from_bytes(bytes, counter()), Catch::Contains("the game \\x1b\\x0aeered; the one that runs is steered"));
 }
 
 TEST_CASE("A state of another game or image is refused") {

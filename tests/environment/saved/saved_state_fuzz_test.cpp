@@ -1,6 +1,6 @@
 // States from a stranger: bytes with a right checksum and wrong values are refused with a sentence, or do no
 // harm: what can be restored runs, and runs the same interpreted and translated. The test means most under
-// the sanitizers (preset `sanitize`). RACEBEAM_FUZZ gives the number of alterations of each image,
+// the sanitizers (preset `address`). RACEBEAM_FUZZ gives the number of alterations of each image,
 // RACEBEAM_FUZZ_SEED another beginning; a failure prints the seed of its alteration.
 #include <zlib.h>
 
