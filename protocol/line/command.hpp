@@ -17,7 +17,7 @@ enum class Needs { kNothing, kAdmission, kGame, kMachines };  // each includes t
 
 struct Command {
   std::string_view name;
-  std::string_view arguments;  // as `help` and PROTOCOL.md show them
+  std::string_view arguments;  // as `help` and protocol/PROTOCOL.md show them
   std::string_view summary;
   std::string_view hint;     // for `help`: where a person finds the words that it takes; may be empty
   std::string_view example;  // the same: one that works; empty: it is clear without

@@ -20,7 +20,7 @@ class Recorder;
 struct LineLimits {
   std::size_t line = 1 << 20;               // bytes of a request; an image of the largest size fits as base64
   std::size_t output = 1 << 18;             // bytes that wait for the reader; above, no request is begun
-  std::size_t reply = 1 << 26;              // bytes of a reply that one may ask for, as PROTOCOL.md counts
+  std::size_t reply = 1 << 26;              // bytes of a reply that one may ask for, as protocol/PROTOCOL.md counts
   int machines = 256;                       // of `open`
   int states = 256;                         // saved at a time
   std::int64_t request_frames = 2'000'000;  // that one request may ask for
