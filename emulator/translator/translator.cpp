@@ -213,7 +213,7 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
   board.translated.first_line = board.state.tia.origin / 3;
   while (!board.stop && !board.state.cpu.jammed) {
     const std::int32_t left = instructions - (board.state.cycle - first_cycle) / kFewestCycles;
-    if (board.state.cycle >= limit) {
+    if (board.state.cycle >= limit || left <= 0) {
       interpret(board, left);
       return board.stop || board.state.cpu.jammed || first_cycle >= limit;
     }
