@@ -99,25 +99,28 @@ void BlockEmitter::jump_to(std::uint16_t target) {
     as_.jmp(found->second, Xbyak::CodeGenerator::T_NEAR);
     return;
   }
-  const void* entry = holds(as_.window.code, target) ? as_.window.entries[as_.offset_of(target)] : nullptr;
-  if (entry != nullptr) {
-    as_.jmp(entry, Xbyak::CodeGenerator::T_NEAR);
-    return;
-  }
-  if (holds(as_.window.code, target)) jump_if_made(target);
+  if (holds(as_.window.code, target)) jump_to_other_batch(target);
   as_.mov(as_.eax, target);
   as_.jmp(as_.way_out, Xbyak::CodeGenerator::T_NEAR);
 }
 
-// The block at `target` may be made later.
-void BlockEmitter::jump_if_made(std::uint16_t target) {
-  Xbyak::Label not_yet;
-  as_.mov(as_.rsi, reinterpret_cast<std::uintptr_t>(&as_.window.entries[as_.offset_of(target)]));
-  as_.mov(as_.rsi, as_.ptr[as_.rsi]);
-  as_.test(as_.rsi, as_.rsi);
-  as_.jz(not_yet);
-  as_.jmp(as_.rsi);
-  as_.L(not_yet);
+// Goes on after it if the block at `target` has not been made, or the limit is reached: the jump may close a loop that
+// neither batch knows of, and no block in it might look at the limit.
+void BlockEmitter::jump_to_other_batch(std::uint16_t target) {
+  Xbyak::Label stays;
+  as_.cmp(as_.ebp, as_.dword_of(as_.layout.limit));
+  as_.jge(stays);
+  const void* const* const entry = &as_.window.entries[as_.offset_of(target)];
+  if (*entry != nullptr) {
+    as_.jmp(*entry, Xbyak::CodeGenerator::T_NEAR);
+  } else {
+    as_.mov(as_.rsi, reinterpret_cast<std::uintptr_t>(entry));
+    as_.mov(as_.rsi, as_.ptr[as_.rsi]);
+    as_.test(as_.rsi, as_.rsi);
+    as_.jz(stays);
+    as_.jmp(as_.rsi);
+  }
+  as_.L(stays);
 }
 
 void BlockEmitter::emit_branch(const Instruction& instruction) {

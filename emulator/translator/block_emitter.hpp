@@ -58,7 +58,7 @@ class BlockEmitter {
   void find_block(Xbyak::Label& none);
   void jump_to_block(const Instruction& instruction);
   void jump_to(std::uint16_t target);
-  void jump_if_made(std::uint16_t target);
+  void jump_to_other_batch(std::uint16_t target);
   void check_limit();
   void leave_before(const Instruction& instruction);  // the interpreter does it; called in cold code
   void settle(const Place& place);                    // cycle and flags as everybody knows them
