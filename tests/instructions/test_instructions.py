@@ -91,7 +91,7 @@ class Checking(unittest.TestCase):
 
     def scaled(self, factor):
         def change(baseline):
-            baseline["auto"]["beamfall"] = round(baseline["auto"]["beamfall"] * factor)
+            baseline["translator"]["beamfall"] = round(baseline["translator"]["beamfall"] * factor)
         return self.check_against(change)
 
     def test_a_second_count_is_the_same(self):
@@ -114,7 +114,7 @@ class Checking(unittest.TestCase):
         self.assertRegex(done.stdout, r"beamfall .* -6\.0%  cheaper")
 
     def test_a_game_that_the_baseline_lacks_is_a_failure(self):
-        done = self.check_against(lambda baseline: baseline["auto"].pop("updraft"))
+        done = self.check_against(lambda baseline: baseline["translator"].pop("updraft"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("NOT IN THE BASELINE", done.stdout)
 
