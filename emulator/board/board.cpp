@@ -5,7 +5,6 @@
 
 #include "emulator/base/opcodes.hpp"
 #include "emulator/board/riot.hpp"
-#include "emulator/tia/line_cache/line_dependencies.hpp"
 #include "emulator/tia/registers/motion.hpp"
 #include "emulator/tia/registers/registers.hpp"
 
@@ -68,7 +67,7 @@ void Board::set_format_limits() {
 }
 
 std::uint64_t Board::plain_registers() const {
-  return slot.scheme.watches_tia ? 0 : kDrawingRegisters & ~kSpecialRegisters;
+  return slot.scheme.watches_tia ? 0 : kPictureRegisters & ~kSpecialRegisters;
 }
 
 void Board::open_frame() {
@@ -258,11 +257,10 @@ std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::in
   switch (reg) {
     case VSYNC: write_vsync(value, cycle); break;
     case VBLANK: write_dump((value & 0x80) != 0, cycle); break;
-    case AUDC0: case AUDC1: case AUDF0: case AUDF1: case AUDV0: case AUDV1: sound.write(reg, value); break;
-    default: break;
+    default: if (is_sound(reg)) sound.write(reg, value);
   }
   if (reg == WSYNC) return write_wsync(cycle, after_read);
-  if (!(kDrawingRegisters >> reg & 1)) {
+  if (!(kPictureRegisters >> reg & 1)) {
     touch_tia(cycle);
     return cycle;
   }

@@ -2,6 +2,8 @@
 // A Painter is told, before and after (render_policies.hpp).
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "emulator/base/inlining.hpp"
@@ -109,6 +111,7 @@ void RegisterEffects<Painter>::play(const std::uint32_t* first, const std::uint3
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t cycle) {
   const std::int32_t clock = 3 * cycle;
+  const auto after = [clock](TiaRegister reg) { return clock + kRegisters[reg].delay; };
   const std::uint8_t value = write.value();
   auto& [p0, p1] = tia_.player;
   auto& [m0, m1] = tia_.missile;
@@ -116,21 +119,21 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t
   const auto flag = [value](int bit) { return static_cast<std::uint8_t>(value >> bit & 1); };
   const auto motion = [value] { return static_cast<std::uint8_t>(value >> 4); };
   switch (write.reg()) {
-    case VBLANK: assign(tia_.vblank, flag(1), clock + 1, kAllObjects), painter_.enabled(); break;
-    case NUSIZ0: write_nusiz(0, value, clock + 8); break;
-    case NUSIZ1: write_nusiz(1, value, clock + 8); break;
+    case VBLANK: assign(tia_.vblank, flag(1), after(VBLANK), kAllObjects), painter_.enabled(); break;
+    case NUSIZ0: write_nusiz(0, value, after(NUSIZ0)); break;
+    case NUSIZ1: write_nusiz(1, value, after(NUSIZ1)); break;
     case COLUP0: case COLUP1: case COLUPF: case COLUBK: write_color(write.reg() - COLUP0, value, clock); break;
     case CTRLPF: write_ctrlpf(value, clock); break;
-    case REFP0:  assign(p0.refp, flag(3), clock + 1, object(kP0, 0)); break;
-    case REFP1:  assign(p1.refp, flag(3), clock + 1, object(kP0, 1)); break;
+    case REFP0:  assign(p0.refp, flag(3), after(REFP0), object(kP0, 0)); break;
+    case REFP1:  assign(p1.refp, flag(3), after(REFP1), object(kP0, 1)); break;
     case PF0: case PF1: case PF2: write_playfield(write.reg() - PF0, value, cycle); break;
     case RESP0:  strobe_player(0, clock); break;
     case RESP1:  strobe_player(1, clock); break;
     case RESM0:  strobe_missile(0, clock); break;
     case RESM1:  strobe_missile(1, clock); break;
     case RESBL:  strobe_ball(clock); break;
-    case GRP0:   write_graphics(0, value, clock + 1); break;
-    case GRP1:   write_graphics(1, value, clock + 1); break;
+    case GRP0:   write_graphics(0, value, after(GRP0)); break;
+    case GRP1:   write_graphics(1, value, after(GRP1)); break;
     case ENAM0:  assign(m0.enabled, flag(1), clock, object(kM0, 0)), control(object(kM0, 0)); break;
     case ENAM1:  assign(m1.enabled, flag(1), clock, object(kM0, 1)), control(object(kM0, 1)); break;
     case ENABL:  write_ball(flag(1), ball.old_enabled, ball.vdel, clock); break;
@@ -185,9 +188,9 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, 
 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, std::uint8_t value, std::int32_t cycle) {
-  static constexpr std::uint8_t kDelay[4] = {4, 5, 2, 3};  // until the next block of four pixels
-  static_assert(kLineCycles % 4 == 0);
-  const std::int32_t clock = 3 * cycle + kDelay[(cycle - first_cycle_) % 4];
+  static constexpr std::array<std::uint8_t, 4> kDelay = {4, 5, 2, 3};  // until the next block of four pixels
+  static_assert(kLineCycles % 4 == 0 && std::ranges::max(kDelay) == kRegisters[PF0].delay);
+  const std::int32_t clock = 3 * cycle + kDelay[static_cast<std::size_t>(cycle - first_cycle_) % 4];
   std::uint8_t& reg = tia_.pf[which];
   if (painter_.looks() && reg == value) {
     painter_.reach(clock);
@@ -296,7 +299,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std
     const int into = distance - copies.offset[i];
     if (into >= 0 && into <= 3) skip = false;
     // The old copy is being drawn: it is finished first.
-    if (into >= 4 && into <= 3 + width) painter_.draw_to(clock + 11, object(kP0, which));
+    if (into >= 4 && into <= 3 + width) painter_.draw_to(clock + kRegisters[RESP0].delay, object(kP0, which));
   }
   if (skip) painter_.come_to(clock);
   player.position = position;
@@ -306,7 +309,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std
 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_missile(unsigned which, std::int32_t clock) {
-  painter_.draw_to(clock + 8, object(kM0, which));
+  painter_.draw_to(clock + kRegisters[RESM0].delay, object(kM0, which));
   const std::uint32_t since = static_cast<std::uint32_t>(clock) - tia_.hmove_clock;
   const int h = 3 * line_cycle(clock / 3);
   std::uint8_t position = strobe_position(clock, 2, 4);

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "emulator/tia/registers/registers.hpp"
+
 namespace racebeam {
 
 constexpr int kSamplesPerBlock = 512;
@@ -22,7 +24,7 @@ struct Sound {
   };
   std::array<Channel, 2> channel{};
 
-  void write(unsigned reg, std::uint8_t value) { registers[reg - 0x15] = value; }  // reg: $15-$1A
+  void write(unsigned reg, std::uint8_t value) { registers[reg - AUDC0] = value; }
   void generate(std::span<std::uint8_t, kSamplesPerBlock> samples);
 };
 

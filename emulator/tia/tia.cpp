@@ -49,8 +49,6 @@ bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::
 // Instructions, as counted in some games.
 constexpr std::uint32_t kWorkOfWrite = 60, kWorkOfRecall = 110, kWorkOfLikeness = 300, kWorkOfMiss = 200;
 
-constexpr std::int32_t kLongestDelay = 11;  // colour clocks that a write may draw ahead
-
 }  // namespace
 
 void Tia::begin_frame() {
@@ -78,7 +76,7 @@ bool Tia::play_log(std::int32_t cycle, Collisions asked) {
   const bool empty = log_->size() == 0;
   if (empty && cycle < log_->base) return true;
   const std::int32_t last = empty ? 0 : TiaWrite(log_->next[-1]).cycle();
-  *log_->next = TiaWrite(std::max(cycle - log_->base, last), WriteLog::kNobody, 0).packed();
+  *log_->next = TiaWrite(std::max(cycle - log_->base, last), kNone, 0).packed();
   if (!beam_.draws_pixels()) return follow_log();
   for (;;) {
     skip(end_of_unseen());

@@ -1,7 +1,6 @@
 // Writes: to RAM, to the TIA's log, and to what only the machine knows.
 #include <cstddef>
 
-#include "emulator/tia/line_cache/line_dependencies.hpp"
 #include "emulator/tia/registers/registers.hpp"
 #include "emulator/tia/registers/write_log.hpp"
 #include "emulator/translator/addresses.hpp"
@@ -46,8 +45,8 @@ void BlockEmitter::write_fixed(const Instruction& instruction, Reg32 value) {
   const bool is_free = is_tia(address) && !as_.window.cartridge_watches();
   if (is_free && reg == WSYNC) return write_wsync(instruction);
   if (is_free && reg == HMCLR) return write_hmclr(instruction, value);
-  if (is_free && reg >= AUDC0 && reg <= AUDV1) return write_sound(instruction, reg, value);
-  if (is_free && reg > CXCLR) return touch_tia(elapsed_ + instruction.cycles);
+  if (is_free && is_sound(reg)) return write_sound(instruction, reg, value);
+  if (is_free && reg >= kTiaRegisters) return touch_tia(elapsed_ + instruction.cycles);
   as_.mov(as_.eax, address);
   call_write(instruction, value, here());
 }
@@ -76,17 +75,17 @@ void BlockEmitter::write_hmclr(const Instruction& instruction, Reg32 value) {
 
 // WriteLog::append_change, in line.
 void BlockEmitter::write_register(const Instruction& instruction, unsigned reg, Reg32 value) {
-  if ((kDrawingRegisters >> reg & 1) == 0) return;
+  if ((kPictureRegisters >> reg & 1) == 0) return;
   const auto written = [](unsigned of) { return static_cast<int>(offsetof(WriteLog, written) + 2 * of); };
   const Xbyak::Reg16 word_value(value.getIdx());
   Xbyak::Label repeated;
-  if (WriteLog::kNeverRepeats[reg] == 0) {
-    const unsigned other = WriteLog::kDisturbed[reg];
-    if (other != WriteLog::kNobody) as_.movzx(as_.edx, as_.word[as_.r15 + written(reg)]);
+  if (WriteLog::kOnRepeat[reg] == 0) {
+    const unsigned other = kRegisters[reg].renews;
+    if (other != kNone) as_.movzx(as_.edx, as_.word[as_.r15 + written(reg)]);
     as_.cmp(as_.word[as_.r15 + written(reg)], word_value);
     as_.je(repeated);
     as_.mov(as_.word[as_.r15 + written(reg)], word_value);
-    if (other != WriteLog::kNobody) {
+    if (other != kNone) {
       Xbyak::Label same_value;
       as_.and_(as_.edx, WriteLog::kUnknown | 0xFF);
       as_.cmp(as_.edx, value);

@@ -5,6 +5,8 @@
 #include <bitset>
 #include <optional>
 
+#include "emulator/tia/registers/registers.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -48,7 +50,7 @@ class Study {
       ram_known_.set(address & 0x7F);
     } else if (is_tia(address)) {
       const unsigned reg = address & 0x3F;
-      if (reg >= 0x15 && reg <= 0x1A) sound_known_.set(reg - 0x15);
+      if (is_sound(reg)) sound_known_.set(reg - AUDC0);
     } else if ((address & 0x14) == 0x14) {
       timer_known_ = true;
     }

@@ -1,6 +1,9 @@
 #include "emulator/tia/line_cache/line_dependencies.hpp"
 
+#include <algorithm>
+
 #include "emulator/tia/line/objects.hpp"
+#include "emulator/tia/registers/register_bytes.hpp"
 #include "emulator/tia/registers/registers.hpp"
 #include "emulator/tia/registers/write_log.hpp"
 
@@ -9,64 +12,51 @@ namespace {
 
 constexpr std::uint8_t bit(unsigned object) { return static_cast<std::uint8_t>(1U << object); }
 
-constexpr bool draws(unsigned reg) {
-  return reg <= CXCLR && !(reg >= AUDC0 && reg <= AUDV1) && reg != VSYNC && reg != WSYNC && reg != RSYNC;
+// The bytes that decide whether an object is enabled, and for kPlaceOfP0 and kPlaceOfP1 those that place its copies.
+constexpr TiaRegisters control_bytes(unsigned which) {
+  switch (which) {
+    case bit(kP0): return RACEBEAM_TIA_BYTES((p0.grp, p0.old_grp, p0.vdel));
+    case bit(kP1): return RACEBEAM_TIA_BYTES((p1.grp, p1.old_grp, p1.vdel));
+    case bit(kM0): return RACEBEAM_TIA_BYTES((m0.enabled, m0.locked));
+    case bit(kM1): return RACEBEAM_TIA_BYTES((m1.enabled, m1.locked));
+    case bit(kBall): return RACEBEAM_TIA_BYTES((ball.enabled, ball.old_enabled, ball.vdel));
+    case bit(kPlayfield): return RACEBEAM_TIA_BYTES((pf[0], pf[1], pf[2]));
+    case kPlaceOfP0: return RACEBEAM_TIA_BYTES((p0.nusiz, p0.position, p0.motion));
+    case kPlaceOfP1: return RACEBEAM_TIA_BYTES((p1.nusiz, p1.position, p1.motion));
+    default: return {};
+  }
 }
 
-// The most colour clocks between a write and its effect (docs/spec/tia.md, 4 and 8).
-constexpr int longest_delay(unsigned reg) {
-  if (reg == RESP0 || reg == RESP1) return 11;
-  if (reg == NUSIZ0 || reg == NUSIZ1 || reg == RESM0 || reg == RESM1) return 8;
-  return reg >= PF0 && reg <= PF2 ? 5 : 1;
-}
+// The largest cycle of a line at which a write still takes effect on it, whatever its delay.
+constexpr int last_cycle(unsigned reg) { return (228 - std::max(kRegisters[reg].delay, 1)) / 3; }
 
-// Cycle 76 is clock 228: the line is drawn, but its end is not acted on yet, which may undo what these write. So a write
-// there is as good as one in the next line, but for RESPx and what may start the Cosmic Ark mode. PFx waits for five
-// clocks in cycle 75, for two in 74.
+// Cycle 76 is clock 228: the line is drawn, but its end is not acted on yet, which may undo what a write sets. So a write
+// there counts as one of the next line, where the register allows it.
 constexpr std::int8_t first_late(unsigned reg) {
-  switch (reg) {
-    case RESP0: case RESP1: case HMM0: case WriteLog::kNobody: return 127;
-    case NUSIZ0: case NUSIZ1: case RESM0: case RESM1: return 74;
-    case PF0: case PF1: case PF2: return 75;
-    default: return 76;
-  }
+  const bool never = reg == kNone || kRegisters[reg].late == WhenLate::kOwn;
+  return static_cast<std::int8_t>(never ? 127 : last_cycle(reg) + 1);
 }
 
-// VBLANK is part of every key, and what CTRLPF does to the colours of a playfield is noticed when it is drawn.
+// A write acts on the control of the objects whose control bytes it sets. RESPx and RESMPx read where a player's copies
+// are. VBLANK is part of every key, and what CTRLPF does to the colours of a playfield is noticed when it is drawn.
 constexpr std::uint8_t control_of(unsigned reg) {
-  switch (reg) {
-    case GRP0: return bit(kP0) | bit(kP1);
-    case GRP1: return bit(kP0) | bit(kP1) | bit(kBall);  // both move something to where VDELxx shows it
-    case VDELP0: return bit(kP0);
-    case VDELP1: return bit(kP1);
-    case RESP0: return kPlaceOfP0;
-    case RESP1: return kPlaceOfP1;
-    case ENAM0: return bit(kM0);
-    case ENAM1: return bit(kM1);
-    case RESMP0: return bit(kM0) | kPlaceOfP0;  // leaves the missile where its player is
-    case RESMP1: return bit(kM1) | kPlaceOfP1;
-    case ENABL: case VDELBL: return bit(kBall);
-    case PF0: case PF1: case PF2: return bit(kPlayfield);
-    default: return 0;
-  }
+  const RegisterBytes& bytes = kRegisterBytes[reg];
+  unsigned control = 0;
+  for (unsigned object = 0; object < kObjects; ++object)
+    if (share_a_byte(bytes.sets, control_bytes(bit(object)))) control |= bit(object);
+  if (share_a_byte(bytes.reads, RACEBEAM_TIA_BYTES((p0.nusiz)))) control |= kPlaceOfP0;
+  if (share_a_byte(bytes.reads, RACEBEAM_TIA_BYTES((p1.nusiz)))) control |= kPlaceOfP1;
+  return static_cast<std::uint8_t>(control);
 }
 
 constexpr std::array<LineEffect, 64> make_effects() {
   std::array<LineEffect, 64> table{};
   for (unsigned reg = 0; reg < 64; ++reg) {
     const std::uint16_t seen = reg == HMOVE ? kMoves : reg == CXCLR ? kClears : 0;
-    const int last_cycle = (228 - longest_delay(reg)) / 3;
-    const bool never = reg == WriteLog::kNobody;
-    table[reg] = {never ? 0 : TiaWrite(kEarliestWrite + last_cycle, 0x3F, 0xFF).packed(), first_late(reg), control_of(reg), seen};
+    const std::uint32_t last = reg == kNone ? 0 : TiaWrite(kEarliestWrite + last_cycle(reg), 0x3F, 0xFF).packed();
+    table[reg] = {last, first_late(reg), control_of(reg), seen};
   }
   return table;
-}
-
-constexpr std::uint64_t make_drawing_registers() {
-  std::uint64_t registers = 0;
-  for (unsigned reg = 0; reg < 64; ++reg)
-    if (draws(reg)) registers |= std::uint64_t{1} << reg;
-  return registers;
 }
 
 // The motions count where HMOVE moves what is shown. The cosmic counter is for the end of a line.
@@ -92,17 +82,9 @@ constexpr TiaRegisters make_seen(unsigned seen) {
 }
 
 constexpr TiaRegisters make_control(unsigned control) {
-  const auto acted_on = [control](unsigned bits) { return static_cast<std::uint8_t>(control & bits ? 0xFF : 0); };
-  const std::uint8_t ball = acted_on(bit(kBall)), playfield = acted_on(bit(kPlayfield));
-  TiaRegisters mask;
-  for (unsigned i = 0; i < 2; ++i) {
-    const std::uint8_t player = acted_on(bit(kP0 + i)), missile = acted_on(bit(kM0 + i));
-    const std::uint8_t place = acted_on(kPlaceOfP0 << i);
-    mask.player[i] = {player, player, 0, player, place, place, place, 0};
-    mask.missile[i] = {missile, missile, 0, 0};
-  }
-  mask.ball = {ball, ball, ball, 0, 0};
-  mask.pf = {playfield, playfield, playfield};
+  TiaRegisters mask{};
+  for (unsigned which = 1; which <= kPlaceOfP1; which <<= 1)
+    if (control & which) mask = mask | control_bytes(which);
   return mask;
 }
 
@@ -115,7 +97,6 @@ constexpr std::array<TiaRegisters, kSize> make_bytes(TiaRegisters make(unsigned)
 
 }  // namespace
 
-constinit const std::uint64_t kDrawingRegisters = make_drawing_registers();
 constinit const std::array<LineEffect, 64> kLineEffects = make_effects();
 constinit const std::array<TiaRegisters, 512> kSeenBytes = make_bytes<512>(make_seen);
 constinit const std::array<TiaRegisters, 256> kControlBytes = make_bytes<256>(make_control);

@@ -19,9 +19,6 @@
 
 namespace racebeam {
 
-// The registers (one bit each) whose writes may change the picture at all.
-extern const std::uint64_t kDrawingRegisters;
-
 // What a line looked at. seen: bits 0-5 an Object each, that was shown, and
 constexpr std::uint16_t kScoreSeen = 1U << 6;    // the playfield in the players' colours
 constexpr std::uint16_t kLit = 1U << 7;          // anything but VBLANK's black

@@ -2,6 +2,7 @@
 
 #include "emulator/tia/line/objects.hpp"
 #include "emulator/tia/registers/motion.hpp"
+#include "emulator/tia/registers/register_bytes.hpp"
 #include "emulator/tia/registers/registers.hpp"
 #include "emulator/tia/registers/write_log.hpp"
 
@@ -15,69 +16,9 @@ constexpr std::uint32_t kWaitOfRespx = TiaWrite(4, 0, 0).packed() - 1;
 
 // Bytes that a line may change without a write, and what that depends on: the end of a line latches REFLECT and lets
 // players be shown again; missile 0 in its Cosmic Ark mode moves.
-constexpr TiaRegisters make_always() {
-  TiaRegisters mask{};
-  mask.ctrlpf = mask.reflect = mask.enabled = mask.cosmic = kAll;
-  mask.player[0].skip = mask.player[1].skip = kAll;
-  return mask;
-}
-
-// Which bytes a write sets to a value that is always the same for the same writes before it and bytes that count.
-constexpr TiaRegisters make_written(unsigned reg) {
-  TiaRegisters mask{};
-  auto& [p0, p1] = mask.player;
-  auto& [m0, m1] = mask.missile;
-  BallState& ball = mask.ball;
-  const auto cosmic_shape = [&mask] { mask.cosmic_shape = static_cast<CosmicShape>(kAll); };
-  switch (reg) {
-    case VBLANK: mask.vblank = kAll; break;
-    case NUSIZ0: p0.nusiz = kAll; cosmic_shape(); break;
-    case NUSIZ1: p1.nusiz = kAll; break;
-    case COLUP0: case COLUP1: case COLUPF: case COLUBK: mask.color[reg - COLUP0] = kAll; break;
-    case CTRLPF: mask.ctrlpf = kAll; break;
-    case REFP0: p0.refp = kAll; break;
-    case REFP1: p1.refp = kAll; break;
-    case PF0: case PF1: case PF2: mask.pf[reg - PF0] = kAll; break;
-    case RESP0: p0.position = kAll; break;
-    case RESP1: p1.position = kAll; break;
-    case RESM0: m0.position = kAll; cosmic_shape(); break;
-    case RESM1: m1.position = kAll; break;
-    case RESBL: ball.position = kAll; break;
-    case GRP0: p0.grp = p1.old_grp = kAll; break;
-    case GRP1: p1.grp = p0.old_grp = ball.old_enabled = kAll; break;
-    case ENAM0: m0.enabled = kAll; break;
-    case ENAM1: m1.enabled = kAll; break;
-    case ENABL: ball.enabled = kAll; break;
-    case HMP0: p0.motion = kAll; break;
-    case HMP1: p1.motion = kAll; break;
-    case HMM0: m0.motion = kAll; break;
-    case HMM1: m1.motion = kAll; break;
-    case HMBL: ball.motion = kAll; break;
-    case VDELP0: p0.vdel = kAll; break;
-    case VDELP1: p1.vdel = kAll; break;
-    case VDELBL: ball.vdel = kAll; break;
-    case RESMP0: m0.locked = kAll; cosmic_shape(); break;
-    case RESMP1: m1.locked = kAll; break;
-    case HMOVE: cosmic_shape(); break;
-    case HMCLR: p0.motion = p1.motion = m0.motion = m1.motion = ball.motion = kAll; break;
-    default: break;
-  }
-  return mask;
-}
-
-constexpr auto kWrittenBytes = [] {
-  std::array<TiaRegisters, 64> table{};
-  for (unsigned reg = 0; reg < 64; ++reg) table[reg] = make_written(reg);
-  return table;
-}();
-
-constexpr TiaRegisters kAlways = make_always();
-constexpr TiaRegisters kUsedUp = [] {  // by a line, if it finds it
-  TiaRegisters mask{};
-  mask.comb_armed = kAll;
-  return mask;
-}();
-constexpr TiaRegisters kMotions = make_written(HMCLR);
+constexpr TiaRegisters kAlways = RACEBEAM_TIA_BYTES((ctrlpf, reflect, enabled, cosmic, p0.skip, p1.skip));
+constexpr TiaRegisters kUsedUp = RACEBEAM_TIA_BYTES((comb_armed));  // by a line, if it finds it
+constexpr TiaRegisters kMotions = kRegisterBytes[HMCLR].sets;
 
 void clear_but(TiaRegisters& registers, const RegisterVectors& mask) {
   RegisterVectors bytes(registers);
@@ -154,7 +95,8 @@ void LineRecord::sum_up(bool pal) {
   for (unsigned i = 0; i < count; ++i) {
     const LineWrite write(event[i]);
     const unsigned reg = write.reg();
-    sets |= RegisterVectors(kWrittenBytes[reg]);
+    sets |= RegisterVectors(kRegisterBytes[reg].sets);
+    if (reg != HMOVE) more = more | kRegisterBytes[reg].may_set;  // these may stay as they were
     switch (reg) {
       // May start the Cosmic Ark mode, by an HMOVE on the line before.
       case HMM0: foreseen &= write.value() >> 4 != 6; [[fallthrough]];
@@ -164,9 +106,6 @@ void LineRecord::sum_up(bool pal) {
         hmove_cycle = static_cast<std::int8_t>(write.cycle());
         add_positions(more, moved_objects(hmove_cycle, motion));
         break;
-      // The missile stays where it was, or goes to its player.
-      case RESMP0: more.cosmic_shape = static_cast<CosmicShape>(kAll); [[fallthrough]];
-      case RESMP1: more.missile[reg - RESMP0].position = kAll; break;
       // In PAL, colours have the frame's colour loss in bit 0, all of them.
       case COLUP0: case COLUP1: case COLUPF: case COLUBK: more.color[3] |= pal ? kAll : 0; break;
       default: break;

@@ -1,14 +1,55 @@
-// The TIA's registers by the names of the hardware manual: those that are written, by address bits 5-0.
+// The registers of the TIA that are written: their addresses, and what each row of registers.inc says but for
+// the bytes (register_bytes.hpp).
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace racebeam {
 
 enum TiaRegister : std::uint8_t {
-  VSYNC, VBLANK, WSYNC, RSYNC, NUSIZ0, NUSIZ1, COLUP0, COLUP1, COLUPF, COLUBK, CTRLPF, REFP0, REFP1, PF0, PF1, PF2,
-  RESP0, RESP1, RESM0, RESM1, RESBL, AUDC0, AUDC1, AUDF0, AUDF1, AUDV0, AUDV1, GRP0, GRP1, ENAM0, ENAM1, ENABL,
-  HMP0, HMP1, HMM0, HMM1, HMBL, VDELP0, VDELP1, VDELBL, RESMP0, RESMP1, HMOVE, HMCLR, CXCLR
+#define REGISTER(name, ...) name,
+#include "emulator/tia/registers/registers.inc"
+#undef REGISTER
+  kTiaRegisters,  // so many; addresses from here to kNone have no register
+  kNone = 0x3F,
 };
+
+enum class RegisterUse : std::uint8_t { kUnused, kSync, kSound, kPicture };
+enum class OnRepeat : bool { kHolds, kActs };
+enum class WhenLate : bool { kNext, kOwn };
+
+struct RegisterTraits {
+  RegisterUse use = RegisterUse::kUnused;
+  std::int32_t delay = 0;  // colour clocks, at most
+  OnRepeat repeat = OnRepeat::kActs;
+  WhenLate late = WhenLate::kNext;
+  TiaRegister renews = kNone;
+};
+
+inline constexpr auto kRegisters = [] {  // by address bits 5-0
+  std::array<RegisterTraits, 64> table{};
+#define REGISTER(name, use, delay, repeat, late, renews, sets, may_set, reads) \
+  table[name] = {RegisterUse::k##use, delay, OnRepeat::k##repeat, WhenLate::k##late, renews};
+#include "emulator/tia/registers/registers.inc"
+#undef REGISTER
+  return table;
+}();
+
+constexpr bool is_sound(unsigned reg) { return kRegisters[reg].use == RegisterUse::kSound; }
+
+// A bit for each register whose writes may change the picture.
+inline constexpr std::uint64_t kPictureRegisters = [] {
+  std::uint64_t registers = 0;
+  for (unsigned reg = 0; reg < kRegisters.size(); ++reg)
+    if (kRegisters[reg].use == RegisterUse::kPicture) registers |= std::uint64_t{1} << reg;
+  return registers;
+}();
+
+// Colour clocks that a write may draw ahead of its own.
+inline constexpr std::int32_t kLongestDelay =
+    std::max_element(kRegisters.begin(), kRegisters.end(),
+                     [](const auto& a, const auto& b) { return a.delay < b.delay; }) -> delay;
 
 }  // namespace racebeam

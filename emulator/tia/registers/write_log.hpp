@@ -41,22 +41,11 @@ struct WriteLog {
   static constexpr std::uint16_t kUnknown = 0x100;
   static constexpr std::uint16_t kUnsettled = 0x200;  // the value is known, but writing it again does something
 
-  // kUnknown for the registers whose writes do something each time.
-  static constexpr std::array<std::uint16_t, 64> kNeverRepeats = [] {
+  // kUnknown for the registers whose repeated writes act.
+  static constexpr std::array<std::uint16_t, 64> kOnRepeat = [] {
     std::array<std::uint16_t, 64> table{};
-    for (const TiaRegister reg : {NUSIZ0, NUSIZ1, CTRLPF, RESP0, RESP1, RESM0, RESM1, RESBL, HMOVE, HMCLR, CXCLR})
-      table[reg] = kUnknown;
-    return table;
-  }();
-
-  // A new value in these makes a write of the other one do something again: it moves the value on
-  // (docs/spec/tia.md, 7).
-  static constexpr std::uint8_t kNobody = 0x3F;
-  static constexpr std::array<std::uint8_t, 64> kDisturbed = [] {
-    std::array<std::uint8_t, 64> table{};
-    table.fill(kNobody);
-    table[GRP0] = table[ENABL] = GRP1;
-    table[GRP1] = GRP0;
+    for (unsigned reg = 0; reg < table.size(); ++reg)
+      if (kRegisters[reg].repeat == OnRepeat::kActs) table[reg] = kUnknown;
     return table;
   }();
 
@@ -87,7 +76,7 @@ struct WriteLog {
   void append(std::int32_t cycle, unsigned reg, std::uint8_t value) {
     *next++ = TiaWrite(cycle - base, reg, value).packed();
     written[reg] = kUnknown;
-    written[kDisturbed[reg]] |= kUnsettled;
+    written[kRegisters[reg].renews] |= kUnsettled;
     if (reg == HMCLR) written[HMP0] = written[HMP1] = written[HMM0] = written[HMM1] = written[HMBL] = kUnknown;
   }
 
@@ -95,8 +84,8 @@ struct WriteLog {
   void append_change(std::int32_t cycle, unsigned reg, std::uint8_t value) {
     const unsigned before = written[reg], after = value;
     if (before == after) return;
-    written[reg] = static_cast<std::uint16_t>(after | kNeverRepeats[reg]);
-    if ((before & ~unsigned{kUnsettled}) != after) written[kDisturbed[reg]] |= kUnsettled;
+    written[reg] = static_cast<std::uint16_t>(after | kOnRepeat[reg]);
+    if ((before & ~unsigned{kUnsettled}) != after) written[kRegisters[reg].renews] |= kUnsettled;
     *next++ = TiaWrite(cycle - base, reg, value).packed();
   }
 };
