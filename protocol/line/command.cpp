@@ -23,10 +23,10 @@ std::string usage(const Command& command) {
 }
 
 const Command& CommandTable::find(std::string_view name) const {
-  const auto alias = std::ranges::find(aliases, name, &Alias::name);
-  if (alias != aliases.end()) return find(alias->command);
   const auto found = std::ranges::find(commands, name, &Command::name);
   if (found != commands.end()) return *found;
+  const auto alias = std::ranges::find(aliases, name, &Alias::name);
+  if (alias != aliases.end()) return find(alias->command);
   refuse_name(Code::kUnknownCommand, "command", name, names_of(commands));
 }
 

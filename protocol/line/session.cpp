@@ -260,7 +260,7 @@ std::size_t Session::footprint() const {
                       machines.footprint(fields) + actions.capacity() * sizeof(Action) +
                       words_.capacity() * sizeof(std::string_view);
   if (player) bytes += Player::footprint(fields);
-  if (cartridge.image && service.images->find(cartridge.image->md5) == nullptr) bytes += kOwnImage;
+  if (has_own_image) bytes += kOwnImage;
   return bytes;
 }
 

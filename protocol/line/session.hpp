@@ -51,6 +51,7 @@ class Session {
 
   // The game that was loaded; `player` is null without one.
   Cartridge cartridge;
+  bool has_own_image = false;  // the client sent it; other sessions do not share it
   PlaySettings settings;
   std::vector<Field> fields;  // chosen by `observe`; stay when another game is loaded
   std::unique_ptr<Player> player;

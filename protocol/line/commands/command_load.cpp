@@ -164,6 +164,7 @@ void run_load(Session& session, Words arguments) {
   session.states.clear();
   session.player = std::move(player);
   session.cartridge = std::move(cartridge);
+  session.has_own_image = arguments[0] == kInline;
   session.settings = settings;
   append_loaded(session);
 }
