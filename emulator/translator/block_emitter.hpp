@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "emulator/translator/assembler.hpp"
+#include "emulator/translator/block_discovery.hpp"
 #include "emulator/translator/liveness.hpp"
-#include "emulator/translator/program.hpp"
 
 namespace racebeam::translator {
 

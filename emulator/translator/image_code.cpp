@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "emulator/board/board.hpp"
+#include "emulator/translator/block_discovery.hpp"
 #include "emulator/translator/block_emitter.hpp"
-#include "emulator/translator/program.hpp"
 
 namespace racebeam::translator {
 namespace {

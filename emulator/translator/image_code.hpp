@@ -13,7 +13,7 @@
 #include "emulator/state/state.hpp"
 #include "emulator/translator/assembler.hpp"
 #include "emulator/translator/code_memory.hpp"
-#include "emulator/translator/worth.hpp"
+#include "emulator/translator/profitability.hpp"
 
 namespace racebeam {
 struct WriteLog;

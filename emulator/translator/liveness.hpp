@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "emulator/translator/program.hpp"
+#include "emulator/translator/block_discovery.hpp"
 #include "emulator/translator/window.hpp"
 
 namespace racebeam::translator {

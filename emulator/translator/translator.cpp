@@ -8,9 +8,9 @@
 
 #include "emulator/board/board.hpp"
 #include "emulator/cpu/cpu.hpp"
+#include "emulator/translator/block_discovery.hpp"
 #include "emulator/translator/image_code.hpp"
-#include "emulator/translator/program.hpp"
-#include "emulator/translator/purse.hpp"
+#include "emulator/translator/translation_budget.hpp"
 
 namespace racebeam {
 namespace {

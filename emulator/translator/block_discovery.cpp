@@ -1,4 +1,4 @@
-#include "emulator/translator/program.hpp"
+#include "emulator/translator/block_discovery.hpp"
 
 #include <algorithm>
 #include <map>
