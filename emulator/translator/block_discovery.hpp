@@ -1,4 +1,4 @@
-// What can be reached soon from an entry without leaving a run of plain ROM, cut into blocks.
+// Finds the code that can be reached from an entry within one window of ROM, and cuts it into blocks.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,24 @@
 
 namespace racebeam::translator {
 
-// Code that is entered at its first instruction only. Branches leave it when they are taken; after the last
-// instruction, unless that jumps, it goes on at `next`.
+// A basic block: it is entered at its first instruction only. A taken branch leaves it. After the last
+// instruction, unless that jumps, execution continues at `next`.
 struct Block {
   std::uint16_t pc = 0;
   std::uint16_t next = 0;
   std::vector<Instruction> instructions;
-  bool loops = false;  // something jumps backwards to it
+  bool is_loop_head = false;  // the target of a backward jump
 };
 
-constexpr int kMostBlockCycles = 300;  // of a block, WSYNC apart
+constexpr int kMostBlockCycles = 300;  // of a block, without the waiting of WSYNC
 
-// An instruction of the window: the whole of it can be read there.
-inline bool holds(const CodeWindow& window, std::uint16_t pc) {
+// Whether all bytes of an instruction at `pc` can be read in the window.
+inline bool contains(const CodeWindow& window, std::uint16_t pc) {
   return static_cast<std::uint16_t>(pc - window.first) < window.span;
 }
 
-// The blocks in the order of their addresses. known: by offset in the window, where blocks exist already.
+// Returns the blocks in the order of their addresses. known: by offset in the window, where blocks exist
+// already.
 std::vector<Block> discover(const CodeWindow& window, std::uint16_t entry, const std::vector<bool>& known);
 
 }  // namespace racebeam::translator

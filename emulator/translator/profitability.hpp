@@ -1,4 +1,5 @@
-// Whether entering translated code at a place has paid: a way in and out costs as much as interpreting a few instructions.
+// Whether entering a block of translated code saves time. To enter and leave costs as much as interpreting a
+// few instructions.
 #pragma once
 
 #include <atomic>
@@ -6,32 +7,32 @@
 
 namespace racebeam::translator {
 
-// Of a block. All machines that run the image note what they found; nothing but speed depends on it.
-class Worth {
+// Statistics of one block, shared by all machines that run the image. They affect speed only.
+class Profitability {
  public:
-  // Cycles of a stay that is as fast as interpreting them.
-  static constexpr std::int32_t kFewestCycles = 48;
+  // An entry that runs this many cycles takes as long as interpreting them.
+  static constexpr std::int32_t kBreakEvenCycles = 48;
 
-  bool is_poor() const { return vain_.load(std::memory_order_relaxed) >= kMostVain; }
+  bool is_unprofitable() const { return losses_.load(std::memory_order_relaxed) >= kMostLosses; }
 
-  // How long a stay was, in cycles in which instructions were run.
-  void note(std::int32_t cycles) {
-    const std::uint8_t vain = vain_.load(std::memory_order_relaxed);
-    if (cycles < kFewestCycles) {
-      if (vain < kMostVain) vain_.store(static_cast<std::uint8_t>(vain + 1), std::memory_order_relaxed);
-    } else if (vain != 0) {
-      vain_.store(0, std::memory_order_relaxed);
+  // cycles: how many cycles one entry ran, without those in which no instruction was executed.
+  void record(std::int32_t cycles) {
+    const std::uint8_t losses = losses_.load(std::memory_order_relaxed);
+    if (cycles < kBreakEvenCycles) {
+      if (losses < kMostLosses) losses_.store(static_cast<std::uint8_t>(losses + 1), std::memory_order_relaxed);
+    } else if (losses != 0) {
+      losses_.store(0, std::memory_order_relaxed);
     }
   }
 
-  // Instructions up to where the block ends, the one that it leaves to the interpreter included.
+  // How many instructions the block has, plus the one that it leaves to the interpreter.
   std::int32_t length() const { return length_.load(std::memory_order_relaxed); }
   void set_length(std::size_t length) { length_.store(static_cast<std::uint8_t>(length), std::memory_order_relaxed); }
 
  private:
-  static constexpr std::uint8_t kMostVain = 4;  // stays in a row
+  static constexpr std::uint8_t kMostLosses = 4;  // unprofitable entries in a row
 
-  std::atomic<std::uint8_t> vain_ = 0;
+  std::atomic<std::uint8_t> losses_ = 0;
   std::atomic<std::uint8_t> length_ = 1;
 };
 

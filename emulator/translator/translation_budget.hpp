@@ -1,5 +1,6 @@
-// What a machine may spend on making code. Translation pays later or not at all, so a part of the time that the machine has
-// run is all that may be spent on it: then no program takes much longer than interpreted (docs/translator.md).
+// How much time a machine may spend on translation. Translation saves time later or never. The budget is
+// therefore a fixed part of the time that the machine has run: no program takes much longer than interpreted
+// (docs/translator.md).
 #pragma once
 
 #include <x86intrin.h>
@@ -9,51 +10,53 @@
 
 namespace racebeam::translator {
 
-// The processor's time stamp counter: some two to four ticks a nanosecond. The system's clocks take as long as short frames.
+// Reads the processor's time stamp counter: some two to four ticks a nanosecond. A read of the system's clock
+// would take as long as a short frame.
 inline std::int64_t ticks() { return static_cast<std::int64_t>(__rdtsc()); }
 
-class Purse {
+class TranslationBudget {
  public:
-  // endless: all that is met is translated at once, whatever it costs.
-  explicit Purse(bool endless) : left_(endless ? kMost : 0), endless_(endless) {}
+  // unlimited: the budget covers every batch, whatever it costs.
+  explicit TranslationBudget(bool unlimited) : balance_(unlimited ? kCapacity : 0), unlimited_(unlimited) {}
 
-  // Around each step of the machine. The clock is looked at only as long as there is room for more.
+  // Called around each step of the machine. While the budget is full, the counter is not read.
   void begin_step() { began_ = is_full() ? 0 : ticks(), spent_ = 0; }
   void end_step() {
-    if (began_ != 0) left_ = std::min(left_ + std::min(ticks() - began_ - spent_, kLongestStep) * kPart / 100, kMost);
+    if (began_ != 0) balance_ = std::min(balance_ + std::min(ticks() - began_ - spent_, kLongestStep) * kPercent / 100, kCapacity);
   }
 
-  // What is done while it lives is paid for.
-  class Payment {
+  // Charges the time from its construction to its destruction.
+  class Charge {
    public:
-    explicit Payment(Purse& from) : purse_(from) {}
-    Payment(const Payment&) = delete;
-    Payment& operator=(const Payment&) = delete;
-    ~Payment() { purse_.pay(ticks() - began_); }
+    explicit Charge(TranslationBudget& from) : budget_(from) {}
+    Charge(const Charge&) = delete;
+    Charge& operator=(const Charge&) = delete;
+    ~Charge() { budget_.charge(ticks() - began_); }
 
    private:
-    Purse& purse_;
+    TranslationBudget& budget_;
     const std::int64_t began_ = ticks();
   };
 
-  bool affords_batch() const { return left_ >= kLikelyPrice; }
-  bool is_endless() const { return endless_; }
+  bool covers_batch() const { return balance_ >= kBatchCost; }
+  bool is_unlimited() const { return unlimited_; }
 
  private:
-  void pay(std::int64_t price) {
-    spent_ += price;
-    if (!endless_) left_ -= price;
+  void charge(std::int64_t cost) {
+    spent_ += cost;
+    if (!unlimited_) balance_ -= cost;
   }
 
-  static constexpr std::int64_t kPart = 25;  // percent of the time that is run
-  static constexpr std::int64_t kLongestStep = 1'000'000;  // what is longer, another thread has run in
-  static constexpr std::int64_t kMost = 10'000'000;
-  static constexpr std::int64_t kLikelyPrice = 60'000;  // of a batch: a dearer one is paid off later
+  static constexpr std::int64_t kPercent = 25;  // of the time that the machine runs
+  // Longer steps are cut: another thread used the processor.
+  static constexpr std::int64_t kLongestStep = 1'000'000;
+  static constexpr std::int64_t kCapacity = 10'000'000;
+  static constexpr std::int64_t kBatchCost = 60'000;  // usual; a batch that costs more leaves a debt
 
-  bool is_full() const { return left_ == kMost; }
+  bool is_full() const { return balance_ == kCapacity; }
 
-  std::int64_t left_, began_ = 0, spent_ = 0;  // ticks
-  bool endless_;
+  std::int64_t balance_, began_ = 0, spent_ = 0;  // ticks
+  bool unlimited_;
 };
 
 }  // namespace racebeam::translator
