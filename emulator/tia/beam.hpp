@@ -9,7 +9,7 @@
 #include "emulator/tia/frame_buffer.hpp"
 #include "emulator/tia/line/line.hpp"
 #include "emulator/tia/line/pixels.hpp"
-#include "emulator/tia/line_cache/line_memory.hpp"
+#include "emulator/tia/line_cache/line_cache.hpp"
 
 namespace racebeam {
 

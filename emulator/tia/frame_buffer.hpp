@@ -1,4 +1,4 @@
-// One of the two picture buffers, and which line each of its rows shows (line_memory.hpp).
+// One of the two picture buffers, and which line each of its rows shows (line_cache.hpp).
 #pragma once
 
 #include <algorithm>

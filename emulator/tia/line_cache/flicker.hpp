@@ -1,5 +1,5 @@
 // Do objects flicker: are they shown in every other frame, so that twice as many can be had? Then rows show what they showed
-// two frames before, and lines are remembered in two sets, which take turns (line_memory.hpp).
+// two frames before, and lines are remembered in two sets, which take turns (line_cache.hpp).
 //
 // Now and then a few frames are drawn with one set alone. If rows that must be drawn in two of these frames must be drawn
 // again, the same, two frames later, the second set is given a try, and kept until fewer are drawn without it.

@@ -3,7 +3,7 @@
 #include <functional>
 #include <set>
 
-#include "emulator/tia/line_cache/line_memory.hpp"
+#include "emulator/tia/line_cache/line_cache.hpp"
 #include "emulator/tia/frame_buffer.hpp"
 
 namespace racebeam::test {

@@ -1,4 +1,4 @@
-#include "emulator/tia/line_cache/line_memory.hpp"
+#include "emulator/tia/line_cache/line_cache.hpp"
 
 #include <atomic>
 
