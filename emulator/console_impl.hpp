@@ -32,7 +32,7 @@ struct Console::Impl {
     FrameStart step;         // the step that would tell, if any are
   } latches;
 
-  DeferredRenderPolicy unseen;
+  DeferredRenderPolicy render_policy;
 
   const std::unique_ptr<Translator> translator;  // null: the interpreter runs all
 
@@ -50,14 +50,14 @@ struct Console::Impl {
   void check_ram_size(std::span<const std::uint8_t> cartridge_ram) const;
 
   // frame_runner.cpp
-  void step(bool looked_at, bool follow);
-  bool step_over(FrameStart& start, bool draw, bool judged);
-  bool run_step(FrameBuffer& picture, const FrameStart& start, Pixels pixels);
-  FrameStart here() const { return {board.state, board.cartridge_ram, board.sound}; }
+  void step(bool observed, bool follow);
+  bool step_over(FrameStart& start, bool draw, bool deferred);
+  bool run_step(FrameBuffer& picture, const FrameStart& start, RenderMode mode);
+  FrameStart frame_start() const { return {board.state, board.cartridge_ram, board.sound}; }
   bool reads_unknown_latches(FrameStart& start, bool drew);
   void note_latches(FrameStart& start, Collisions looked_for);
   void settle_latches();
-  void go_back(const FrameStart& start);
+  void rewind(const FrameStart& start);
   void draw_now(std::shared_ptr<FrameBuffer>& picture);
   std::shared_ptr<FrameBuffer> own_copy(const FrameBuffer& picture);
   FrameBuffer& canvas();

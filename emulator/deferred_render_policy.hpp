@@ -11,7 +11,7 @@ namespace racebeam {
 class DeferredRenderPolicy {
  public:
   // For the next one.
-  bool draws() {
+  bool next_is_drawn() {
     number_ = (number_ + 1) % kPeriod;
     if (number_ == 0) work_.fill(std::numeric_limits<std::uint32_t>::max());
     draws_ = number_ < kProbe || (number_ >= 2 * kProbe && work_[1] < work_[0]);
@@ -19,7 +19,7 @@ class DeferredRenderPolicy {
   }
 
   // What it took: Tia::work(). A frame that can't be run the way it was meant to be tells nothing.
-  void took(std::uint32_t work) {
+  void record(std::uint32_t work) {
     if (number_ < 2 * kProbe) work_[draws_] = work;  // the last of each: by then there are rows to be met again
   }
 

@@ -91,15 +91,15 @@ void Board::turn_back_clocks(std::int32_t cycles) {
   state.cycle -= cycles;
 }
 
-void Board::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& scratch, Pixels pixels,
+void Board::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& scratch, RenderMode mode,
                        Collisions sought) {
   log = &scratch;
   log->begin(state.cycle);
   last_access_ = kNever;
-  exact_ = pixels == Pixels::kExact;
+  exact_mode_ = mode == RenderMode::kExact;
   fetched_latches_ = false;
-  plain_registers_ = exact_ ? 0 : plain_registers();
-  tia.begin_step(picture, other, scratch, pixels, sought);
+  plain_registers_ = exact_mode_ ? 0 : plain_registers();
+  tia.begin_step(picture, other, scratch, mode, sought);
 }
 
 // Writes that repeat what a register holds leave no trace in the log, but they end a span of drawing, up to 5 clocks
@@ -107,18 +107,18 @@ void Board::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog&
 // the frame is at least 9 clocks later.
 void Board::end_step() {
   const bool closed = !state.frame.open && last_access_ == state.cycle;
-  if (closed && !exact_) {
-    is_exact_ = tia.end_picture(last_access_);
+  if (closed && !exact_mode_) {
+    picture_is_exact_ = tia.end_picture(last_access_);
   } else {
     tia.catch_up(last_access_);
-    is_exact_ = exact_ || !tia.stopped_inside(state.cycle);
+    picture_is_exact_ = exact_mode_ || !tia.stopped_inside(state.cycle);
   }
 }
 
 // An opcode that is fetched from a collision register sees what a write in the same cycle drew ahead.
 bool Board::needs_exact_step() const {
   const bool untouched = last_access_ == kNever && log->size() == 0;
-  return !exact_ && (fetched_latches_ || (!untouched && !is_exact_));
+  return !exact_mode_ && (fetched_latches_ || (!untouched && !picture_is_exact_));
 }
 
 // What the map shows depends on the banks alone, so that a window that was found once is found again by them; there is
@@ -218,7 +218,7 @@ void Board::write_riot(std::uint16_t address, std::uint8_t value, std::int32_t c
 // An access that draws up to its clock and changes nothing.
 void Board::touch_tia(std::int32_t cycle) {
   last_access_ = cycle;
-  if (exact_) tia.catch_up(cycle);
+  if (exact_mode_) tia.catch_up(cycle);
 }
 
 void Board::make_room(std::int32_t cycle) {
@@ -269,7 +269,7 @@ std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::in
   last_access_ = cycle;
   make_room(cycle);
   log->append(cycle, reg, value);
-  if (exact_) tia.play_log(cycle);
+  if (exact_mode_) tia.play_log(cycle);
   return cycle;
 }
 

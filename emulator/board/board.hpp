@@ -77,9 +77,9 @@ class Board {
   void turn_back_clocks(std::int32_t cycles);
   // A step: begin_step(), then what the CPU does, then end_step(), which leaves the picture drawn as far as the
   // reference has drawn it. If needs_exact_step(), what the reference draws ahead of the beam can be seen: then the
-  // same is to be done again, from the state before the step, with Pixels::kExact.
+  // same is to be done again, from the state before the step, with RenderMode::kExact.
   void begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& scratch,
-                  Pixels pixels = Pixels::kDrawn, Collisions sought = kAllPairs);
+                  RenderMode mode = RenderMode::kDrawn, Collisions sought = kAllPairs);
   void end_step();
   bool needs_exact_step() const;
   void set_format_limits();  // after `video` or the frame's origin have changed
@@ -123,8 +123,8 @@ class Board {
   std::int32_t overlong_cycle_ = 0;  // from this cycle on, which starts a line, a TIA write closes the frame
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
   std::int32_t last_access_ = 0;     // cycle of the last TIA access but plain writes: how far the picture is drawn
-  bool exact_ = false;               // each access is played on its own
-  bool is_exact_ = true;             // the picture of the step that has ended is as if it had been
+  bool exact_mode_ = false;               // each access is played on its own
+  bool picture_is_exact_ = true;             // the picture of the step that has ended is as if it had been
   bool fetched_latches_ = false;     // an opcode was read from a collision register
 };
 

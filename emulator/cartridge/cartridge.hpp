@@ -1,4 +1,4 @@
-// What a cartridge scheme is: one record. A cartridge shows plain memory to the CPU through the memory map and acts
+// What a cartridge scheme is: one record. A cartridge shows plain memory to the CPU through the memory map and ops
 // only where its pages are hidden: hot spots and write ports (docs/spec/cartridges.md).
 #pragma once
 
@@ -33,7 +33,7 @@ enum class Delivery : bool { kTaken, kToTia };
 
 using PortReader = std::uint8_t (*)(Slot&, std::uint16_t address, std::int32_t cycle);
 
-struct Acts {
+struct MapperOps {
   void (*reset)(Slot&);  // initial banks
   void (*map)(Slot&);    // shows what the banks select
   PortReader read;       // of a hidden page, or seen at the TIA
@@ -49,7 +49,7 @@ struct Acts {
   PortReader (*port_reader)(std::uint16_t address) = nullptr;
 };
 
-struct Scheme : Acts {
+struct Scheme : MapperOps {
   std::string_view name;
   unsigned image;          // bytes of an image, at least
   unsigned hotspot;        // Atari's family: offset in 4K of the first hot spot, number of banks, initial bank
@@ -63,7 +63,7 @@ struct Scheme : Acts {
 // cartridges that have little stays small.
 constexpr std::size_t kRamInState = std::tuple_size_v<decltype(CartridgeState::ram)>;
 
-// From window `first` on, a scheme has none: for Acts::admits.
+// From window `first` on, a scheme has none: for MapperOps::admits.
 inline bool banks_unused(const CartridgeState& state, std::size_t first) {
   return std::all_of(state.bank.begin() + static_cast<std::ptrdiff_t>(first), state.bank.end(),
                      [](std::uint8_t bank) { return bank == 0; });

@@ -49,10 +49,10 @@ void Beam::begin_frame() {
   tia_.pixel = 0;
 }
 
-void Beam::aim(FrameBuffer& picture, const FrameBuffer* other, Pixels pixels, Collisions sought) {
+void Beam::aim(FrameBuffer& picture, const FrameBuffer* other, RenderMode mode, Collisions sought) {
   picture_ = &picture;
   other_ = other;
-  pixels_ = pixels;
+  mode_ = mode;
   if (draws_pixels()) {
     picture.make_room(rows_needed());
     lines_.aim(static_cast<std::size_t>(video_.height));

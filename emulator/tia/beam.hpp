@@ -17,7 +17,7 @@ constexpr int kLineClocks = 228;
 constexpr int kBlankClocks = 68;  // of each line, before its first pixel
 
 // What a step does for the picture.
-enum class Pixels : std::uint8_t {
+enum class RenderMode : std::uint8_t {
   kNone,   // its pixels are not wanted: they stay as they were
   kDrawn,
   // Step by step as the reference draws, pixels beyond a span's end included (docs/spec/tia.md, "Provisional
@@ -40,7 +40,7 @@ class Beam {
   void begin_frame();  // cursor to the window's start
 
   // Where pixels go, and where there may be rows to copy; without them, which pairs are looked for if they meet.
-  void aim(FrameBuffer& picture, const FrameBuffer* other, Pixels pixels, Collisions sought);
+  void aim(FrameBuffer& picture, const FrameBuffer* other, RenderMode mode, Collisions sought);
 
   // Everything derived from the registers is made anew: after a reset or a restored state.
   void forget();
@@ -104,7 +104,7 @@ class Beam {
     if (((tia_.reflect ^ reflect) | p0.skip | p1.skip | tia_.cosmic) != 0) act_on_line_end();
   }
 
-  // What has been drawn since: LineView::seen, and the pairs that met, after the last CXCLR.
+  // What has been drawn since: LineDependencies::seen, and the pairs that met, after the last CXCLR.
   void look_afresh() { seen_ = meetings_ = 0; }
   std::uint16_t seen() const { return seen_; }
   Collisions meetings() const { return meetings_; }
@@ -117,8 +117,8 @@ class Beam {
 
   std::uint32_t spans() const { return spans_; }  // that were looked at since the step began
 
-  bool exact_spans() const { return pixels_ == Pixels::kExact; }
-  bool draws_pixels() const { return pixels_ != Pixels::kNone; }
+  bool exact_spans() const { return mode_ == RenderMode::kExact; }
+  bool draws_pixels() const { return mode_ != RenderMode::kNone; }
 
   std::int32_t start() const { return start_; }  // the window, in colour clocks
   std::int32_t end() const { return end_; }
@@ -167,7 +167,7 @@ class Beam {
   const DrawPixels draw_pixels_;
   FrameBuffer* picture_ = nullptr;
   const FrameBuffer* other_ = nullptr;
-  LineMemory lines_;
+  LineCache lines_;
   std::int32_t start_ = 0, end_ = 0;
   alignas(64) Line line_;
   std::uint8_t stale_ = 0xFF;   // masks to make anew
@@ -179,7 +179,7 @@ class Beam {
   bool cleared_ = false;
   std::uint32_t spans_ = 0;
   std::int32_t forgotten_ = 0;  // the rows before this pixel are known to have changed
-  Pixels pixels_ = Pixels::kDrawn;
+  RenderMode mode_ = RenderMode::kDrawn;
 };
 
 }  // namespace racebeam

@@ -60,9 +60,9 @@ void Tia::begin_frame() {
   for (std::uint8_t& color : tia_.color) color = static_cast<std::uint8_t>((color & 0xFE) | loss);
 }
 
-void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, Pixels pixels,
+void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, RenderMode mode,
                      Collisions sought) {
-  beam_.aim(picture, other, pixels, sought);
+  beam_.aim(picture, other, mode, sought);
   asked_ = 0;
   work_ = 0;
   watches_ = beam_.may_meet() || tia_.cosmic;
@@ -235,7 +235,7 @@ void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
   tia_.comb_armed = record.end.comb_armed;
   beam_.end_line();
   work_ += kWorkOfLikeness;
-  if (record.mask == nullptr) record.sum_up(video_.pal);
+  if (record.mask == nullptr) record.summarize(video_.pal);
 }
 
 // Draws the cursor's line up to the last write, or to its end if the next one lies beyond: then it returns true.

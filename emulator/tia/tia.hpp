@@ -17,10 +17,10 @@ class Tia {
 
   void begin_frame();  // the cursor, and the colour loss of PAL (docs/spec/tia.md, 12)
 
-  // Pixels go to `picture`, writes come in `log`. Pixels::kExact: the picture shows what the reference has drawn ahead
+  // Pixels go to `picture`, writes come in `log`. RenderMode::kExact: the picture shows what the reference has drawn ahead
   // of the beam at every access; then each write must be played, and each read touched, before the next.
-  // Pixels::kNone: of collisions, only the pairs `sought` are found.
-  void begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, Pixels pixels,
+  // RenderMode::kNone: of collisions, only the pairs `sought` are found.
+  void begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, RenderMode mode,
                   Collisions sought);
   void play_log(std::int32_t cycle) { play_log(cycle, kWholePicture); }  // all that was written up to `cycle`
   void empty_log(std::int32_t cycle);    // the same, and makes room; its cycles count from `cycle` from now on

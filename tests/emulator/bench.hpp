@@ -123,7 +123,7 @@ struct Bench {
     if (board.needs_exact_step()) {
       state = at_begin_;
       board.map_memory();
-      board.begin_step(picture(), &pictures()[current_ ^ 1], whole_->log, Pixels::kExact);
+      board.begin_step(picture(), &pictures()[current_ ^ 1], whole_->log, RenderMode::kExact);
       for (const auto& action : step_) action(*this);
       board.end_step();
     }

@@ -33,28 +33,28 @@ Delivery write_f4sc(Slot& slot, std::uint16_t address, std::uint8_t value) { ret
 // clang-format off
 constexpr Delivery (*kIgnore)(Slot&, std::uint16_t, std::uint8_t) = atari::ignore_write;
 
-//                          reset                   map                  read            write                  admits
-constexpr Acts kPlain    = {atari::reset,           atari::map_plain,    no_hidden_page, kIgnore,               atari::admits};
-constexpr Acts kAtari    = {atari::reset,           atari::map,          atari::read,    atari::write,          atari::admits};
-constexpr Acts kF4sc     = {atari::reset,           atari::map,          atari::read,    write_f4sc,            atari::admits};
-constexpr Acts kE0       = {parker::reset,          parker::map,         parker::read,   parker::write,         parker::admits};
-constexpr Acts kE7       = {mnetwork::reset,        mnetwork::map,       mnetwork::read, mnetwork::write,       mnetwork::admits};
-constexpr Acts kFe       = {activision::reset,      activision::map,     no_hidden_page, kIgnore,               no_banks};
-constexpr Acts kDpc      = {dpc::reset,             dpc::map,            dpc::read,      dpc::write,            dpc::admits, dpc::power_on, dpc::port_reader};
-constexpr Acts k3f       = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write,    tigervision::admits};
-constexpr Acts k3e       = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e, tigervision::admits_3e};
-constexpr Acts kUa       = {atari::reset,           ua::map,             ua::read,       ua::write,             atari::admits};
-constexpr Acts kCv       = {commavid::reset_empty,  commavid::map,       no_hidden_page, commavid::write,       no_banks};
-constexpr Acts kCvFilled = {commavid::reset_filled, commavid::map,       no_hidden_page, commavid::write,       no_banks};
-constexpr Acts kAr       = {starpath::reset,        starpath::map,       starpath::read, starpath::write,       starpath::admits};
-constexpr Acts kMb       = {atari::reset,           atari::map,          dynacom::read,  dynacom::write,        atari::admits};
-constexpr Acts kMc       = {megacart::reset,        megacart::map,       megacart::read, megacart::write,       megacart::admits};
-constexpr Acts kUnmapped = {unmapped::reset,        unmapped::map,       no_hidden_page, kIgnore,               no_banks};
+//                               reset                   map                  read            write                  admits
+constexpr MapperOps kPlain    = {atari::reset,           atari::map_plain,    no_hidden_page, kIgnore,               atari::admits};
+constexpr MapperOps kAtari    = {atari::reset,           atari::map,          atari::read,    atari::write,          atari::admits};
+constexpr MapperOps kF4sc     = {atari::reset,           atari::map,          atari::read,    write_f4sc,            atari::admits};
+constexpr MapperOps kE0       = {parker::reset,          parker::map,         parker::read,   parker::write,         parker::admits};
+constexpr MapperOps kE7       = {mnetwork::reset,        mnetwork::map,       mnetwork::read, mnetwork::write,       mnetwork::admits};
+constexpr MapperOps kFe       = {activision::reset,      activision::map,     no_hidden_page, kIgnore,               no_banks};
+constexpr MapperOps kDpc      = {dpc::reset,             dpc::map,            dpc::read,      dpc::write,            dpc::admits, dpc::power_on, dpc::port_reader};
+constexpr MapperOps k3f       = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write,    tigervision::admits};
+constexpr MapperOps k3e       = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e, tigervision::admits_3e};
+constexpr MapperOps kUa       = {atari::reset,           ua::map,             ua::read,       ua::write,             atari::admits};
+constexpr MapperOps kCv       = {commavid::reset_empty,  commavid::map,       no_hidden_page, commavid::write,       no_banks};
+constexpr MapperOps kCvFilled = {commavid::reset_filled, commavid::map,       no_hidden_page, commavid::write,       no_banks};
+constexpr MapperOps kAr       = {starpath::reset,        starpath::map,       starpath::read, starpath::write,       starpath::admits};
+constexpr MapperOps kMb       = {atari::reset,           atari::map,          dynacom::read,  dynacom::write,        atari::admits};
+constexpr MapperOps kMc       = {megacart::reset,        megacart::map,       megacart::read, megacart::write,       megacart::admits};
+constexpr MapperOps kUnmapped = {unmapped::reset,        unmapped::map,       no_hidden_page, kIgnore,               no_banks};
 
 constexpr unsigned kChip = sizeof(dpc::Chip);
 
 constexpr Scheme kSchemes[] = {
-    // acts      name          image  hotspot banks init  ram  random  TIA
+    // ops      name          image  hotspot banks init  ram  random  TIA
     {kPlain,    "2K",           2048, 0,        1, 0,     0, false, false},
     {kPlain,    "4K",           4096, 0,        1, 0,     0, false, false},
     {kAtari,    "F8",           8192, 0xFF8,    2, 1,     0, false, false},

@@ -25,13 +25,13 @@ void Flicker::count(LineRecord& drawn) {
     ++drawn_with_two_;
     return;
   }
-  std::uint8_t& before = drawn.looks[odd_ ? 1 : 0];
-  const std::uint8_t look = drawn.look();
+  std::uint8_t& before = drawn.hashes[odd_ ? 1 : 0];
+  const std::uint8_t hash = drawn.hash();
   if (frame_ >= kAgain) {
     ++drawn_with_one_;
-    if (look == before) ++alike_;
+    if (hash == before) ++alike_;
   }
-  before = look;
+  before = hash;
 }
 
 }  // namespace racebeam

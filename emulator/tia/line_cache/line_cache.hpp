@@ -1,7 +1,7 @@
-// The lines drawn last, a record for each row of the window. The two picture buffers share them, since most rows show what
-// they showed in the frame before; each picture says of its rows by number which line they show, so that one that the other
-// has can be copied. Where objects flicker there are two sets of records, for even and for odd frames. Derived: not of the
-// machine's state.
+// The lines drawn last, a record for each row of the window. The two picture buffers share them, since most
+// rows show what they showed in the frame before; each picture says of its rows by number which line they
+// show, so that one that the other has can be copied. Where objects flicker there are two sets of records,
+// for even and for odd frames. Derived: not of the machine's state.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace racebeam {
 
-class LineMemory {
+class LineCache {
  public:
   void begin_frame() { is_new_ = true; }
   void aim(std::size_t rows);  // before a frame is drawn, or some more of one
@@ -27,9 +27,11 @@ class LineMemory {
 
   // The line of the record has been drawn. Returns its number.
   LineNumber add(LineRecord& record) {
-    if ((next_number_ & (kNumbers - 1)) == 0) [[unlikely]] next_number_ = new_numbers();
+    if ((next_number_ & (kNumbers - 1)) == 0) [[unlikely]]
+      next_number_ = new_numbers();
     record.number = next_number_++;
-    if (flicker_.counts()) [[unlikely]] flicker_.count(record);
+    if (flicker_.counts()) [[unlikely]]
+      flicker_.count(record);
     return record.number;
   }
 

@@ -30,7 +30,7 @@ constexpr std::uint16_t kClears = 1U << 9;       // there is a CXCLR: meetings b
 // control: bits 0-5 an Object each, whose control a write acts on, and
 constexpr std::uint8_t kPlaceOfP0 = 1U << 6, kPlaceOfP1 = 1U << 7;  // their old places count
 
-struct LineView {
+struct LineDependencies {
   std::uint16_t seen;
   std::uint8_t control;
 };
@@ -42,12 +42,12 @@ constexpr int kEarliestWrite = 4;
 struct LineEffect {
   std::uint32_t last;            // the largest word (LineWrite::counted_up()) with which it takes effect on this line
   std::int8_t first_late_cycle;  // from here on it acts on the next line alone, as if it were written there
-  std::uint8_t control;          // see LineView; RESPx: if a write follows at once
+  std::uint8_t control;          // see LineDependencies; RESPx: if a write follows at once
   std::uint16_t seen;            // kMoves, kClears or 0
 };
 extern const std::array<LineEffect, 64> kLineEffects;
 
-extern const std::array<TiaRegisters, 512> kSeenBytes;     // $FF for each byte that counts, by LineView::seen but kClears
-extern const std::array<TiaRegisters, 256> kControlBytes;  // and by LineView::control
+extern const std::array<TiaRegisters, 512> kSeenBytes;     // $FF for each byte that counts, by LineDependencies::seen but kClears
+extern const std::array<TiaRegisters, 256> kControlBytes;  // and by LineDependencies::control
 
 }  // namespace racebeam

@@ -133,7 +133,7 @@ const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t o
   return entry;
 }
 
-std::uint8_t LineRecord::look() const {
+std::uint8_t LineRecord::hash() const {
   constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
   RegisterVectors bytes(start);
   bytes &= seen_bytes();
@@ -146,7 +146,7 @@ std::uint8_t LineRecord::look() const {
 
 // Which bytes count, and which are known at the end. What a register's value at the end depends on is the writes, and
 // the bytes that count anyway as far as they have to do with what is shown (line_dependencies.hpp), and these:
-void LineRecord::sum_up(bool pal) {
+void LineRecord::summarize(bool pal) {
   TiaRegisters more = kAlways;
   RegisterVectors sets(kUsedUp);
   std::array<std::uint8_t, 5> motion = motions_of(start);

@@ -52,12 +52,12 @@ struct alignas(64) LineRecord {
   TiaRegisters end;     // when the line is over
   const LineMask* mask = nullptr;  // once it is summed up: then `start` and `end` are 0 but for the bytes that count, and are set
   Collisions meetings;  // pairs that met on the line, after the last CXCLR
-  LineView view;        // why bytes count
+  LineDependencies view;        // why bytes count
   LineNumber number = kNoLine;
   std::uint8_t fruitless = 0;  // so many lines that were drawn here were not met again
   std::uint8_t count;        // of events
   std::int8_t hmove_cycle;   // of the last HMOVE, if the line kMoves
-  std::array<std::uint8_t, 2> looks{};  // look() of lines drawn here, in even and in odd frames (flicker.hpp)
+  std::array<std::uint8_t, 2> hashes{};  // hash() of lines drawn here, in even and in odd frames (flicker.hpp)
   alignas(16) std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
 
   // Another line is drawn here: is it to be remembered? Where nothing was of use for some frames, only now and then.
@@ -74,10 +74,10 @@ struct alignas(64) LineRecord {
   const std::uint32_t* add(const std::uint32_t* entry, std::uint32_t origin);
 
   // A hash of what the line's pixels come from; before it is summed up.
-  std::uint8_t look() const;
+  std::uint8_t hash() const;
 
   // So that next time the writes need not be played. That pays if there is a next time.
-  void sum_up(bool pal);
+  void summarize(bool pal);
 
   // Do they differ from the start in nothing that decides about the line? Once it is summed up.
   RACEBEAM_INLINE bool starts_with(const RegisterVectors& registers) const {
