@@ -1,4 +1,4 @@
-// The inside of a Console. Its parts are in console.cpp and frame_runner.cpp.
+// The implementation of Console, in console.cpp and frame_runner.cpp.
 #pragma once
 
 #include <algorithm>
@@ -23,18 +23,18 @@ struct Console::Impl {
   Board board;
   Format format;
   FrameBuffers pictures;
-  FrameBuffers spare;  // buffers of the console's own that a snapshot's have displaced, or null
-  // Collisions are looked for where the picture is drawn, and else only those that the game has read so far. What the
-  // others would be can be found out: nobody sees a state in which they are not known.
+  FrameBuffers spare;  // buffers of the console's own that a restored state's have replaced, or null
+  // Collisions are computed for all pairs of objects where the picture is drawn, and elsewhere only for the
+  // pairs that the game has read so far. The other latches are computed before the state is read.
   struct {
     Collisions sought = 0;
-    Collisions unknown = 0;  // of the state's latches
-    FrameStart step;         // the step that would tell, if any are
+    Collisions unknown = 0;  // latches of the state that have not been computed
+    FrameStart step;  // the step that computes them, if there are any
   } latches;
 
   DeferredRenderPolicy render_policy;
 
-  const std::unique_ptr<Translator> translator;  // null: the interpreter runs all
+  const std::unique_ptr<Translator> translator;  // null: the interpreter executes everything
 
   State& state() { return board.state; }
   std::size_t rows() const { return static_cast<std::size_t>(height()); }

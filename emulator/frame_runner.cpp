@@ -1,5 +1,5 @@
-// Running a frame, with its pixels or without (docs/spec/tia.md, 2). A frame whose pixels nobody has asked
-// for leaves its start in the picture, and is run again when somebody asks.
+// Runs a frame, with or without its pixels (docs/spec/tia.md, 2). A frame whose pixels are not observed
+// leaves its start in the picture. It is run again if the picture is read later.
 #include "emulator/console_impl.hpp"
 #include "emulator/cpu/cpu.hpp"
 #include "emulator/tia/registers/motion.hpp"
@@ -13,7 +13,7 @@ constexpr std::int32_t kEndlessTurn = kEndlessCycle / 2 / (2 * kLineCycles) * (2
 }  // namespace
 
 void Console::Impl::step(bool observed, bool follow) {
-  const bool deferred = !observed && !follow;  // how the next ones are to be run
+  const bool deferred = !observed && !follow;  // the policy chooses, and learns
   const bool draw = observed || (deferred && render_policy.next_is_drawn());
   FrameState& frame = state().frame;
   const bool opens = !frame.open;
@@ -47,8 +47,8 @@ void Console::Impl::step(bool observed, bool follow) {
   if (pace != nullptr) pace->frame();
 }
 
-// Runs a frame without a look at what its picture shows so far. It must fill the whole window: false if it does not, or
-// does not close, and the machine stands at its start again.
+// Runs a frame on a buffer whose pixels will all be overwritten. Returns false, with the machine back at its
+// start, if the frame does not fill the whole window or does not close.
 bool Console::Impl::step_over(FrameStart& start, bool draw, bool deferred) {
   std::shared_ptr<FrameBuffer>& current = pictures.current;
   if (!spare.current) std::swap(spare.current, spare.previous);
@@ -69,8 +69,9 @@ bool Console::Impl::step_over(FrameStart& start, bool draw, bool deferred) {
   return true;
 }
 
-// From `start` on. What the reference draws ahead of the beam is seen in few steps: such a one is run once more, access
-// by access; but false, and all is left as it is, if its pixels are not wanted.
+// Runs a step from `start`. In a few steps, pixels can be seen that the reference draws ahead of the beam.
+// Such a step is run once more, access by access. If its pixels are not wanted, returns false instead; the
+// caller must rewind.
 bool Console::Impl::run_step(FrameBuffer& picture, const FrameStart& start, RenderMode mode) {
   thread_local WriteLog log;
   const FrameBuffer* const other =
@@ -102,7 +103,7 @@ void Console::Impl::rewind(const FrameStart& start) {
   board.map_memory();
 }
 
-// Gives a picture its pixels. The machine is the same afterwards.
+// Draws a picture whose pixels were deferred. The machine does not change.
 void Console::Impl::draw_now(std::shared_ptr<FrameBuffer>& picture) {
   if (!picture->is_undrawn && picture->rows() >= rows()) return;
   if (!is_own(picture)) picture = own_copy(*picture);
@@ -115,7 +116,7 @@ void Console::Impl::draw_now(std::shared_ptr<FrameBuffer>& picture) {
   rewind(now);
 }
 
-// Has the step read latches that nobody has looked for? Then it is to be run again, from `start`.
+// Whether the step read latches that were not computed. It must then be run again, from `start`.
 bool Console::Impl::reads_unknown_latches(FrameStart& start, bool drew) {
   const Collisions unsought = board.tia.asked() & ~latches.sought;
   if (unsought == 0) return false;
@@ -127,7 +128,7 @@ bool Console::Impl::reads_unknown_latches(FrameStart& start, bool drew) {
   return true;
 }
 
-// After a step from `start` on in which these pairs were looked for.
+// Called after a step from `start`. looked_for: the pairs whose collisions were computed in it.
 void Console::Impl::note_latches(FrameStart& start, Collisions looked_for) {
   const bool persists = latches.unknown != 0 && !board.tia.cleared();
   if (persists) {
@@ -137,13 +138,13 @@ void Console::Impl::note_latches(FrameStart& start, Collisions looked_for) {
     start = frame_start();
     rewind(now);
     state().tia.collisions |= start.state.tia.collisions;
-    latches.sought = kAllPairs;  // a game that keeps them from frame to frame
+    latches.sought = kAllPairs;  // for a game that keeps collisions over frames
   }
   latches.unknown = kAllPairs & ~looked_for & ~state().tia.collisions;
   if (latches.unknown != 0) latches.step = start;
 }
 
-// Runs the last step again, with a look at all pairs.
+// Runs the last step again, and computes all pairs.
 void Console::Impl::settle_latches() {
   if (latches.unknown == 0) return;
   const FrameStart now = frame_start();
@@ -166,7 +167,7 @@ std::shared_ptr<FrameBuffer> Console::Impl::own_copy(const FrameBuffer& picture)
   return std::make_shared<FrameBuffer>(picture);
 }
 
-// The picture that is drawn on: the console's own, not one that a snapshot holds too.
+// The buffer to draw on: the console's own, not one that a saved state holds too.
 FrameBuffer& Console::Impl::canvas() {
   if (!is_own(pictures.current)) pictures.current = own_copy(*pictures.current);
   return *pictures.current;

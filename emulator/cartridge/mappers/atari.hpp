@@ -1,7 +1,7 @@
-// Atari's own schemes. 2K and 4K: the image as it is. F8, F6, F4: two, four or eight banks of 4K, selected by touching
-// the addresses up to $1FF9 or $1FFB. With SC ("super chip"): 128 bytes of RAM, written at $1000-$107F and read at
-// $1080-$10FF; the write port reads as ROM. CBS's FA is the same with three banks and 256 bytes, $1000-$10FF and
-// $1100-$11FF.
+// Atari's own schemes. 2K and 4K: the image, without banks. F8, F6, F4: two, four or eight banks of 4K. An
+// access to one of the addresses up to $1FF9 or $1FFB selects a bank. With SC ("super chip"): 128 bytes of
+// RAM, written at $1000-$107F and read at $1080-$10FF; the write port reads as ROM. CBS's FA is similar, with
+// three banks and 256 bytes of RAM at $1000-$10FF and $1100-$11FF.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"

@@ -1,5 +1,5 @@
-// CommaVid's CV. 2K of ROM at $1800, 1K of RAM read at $1000-$13FF and written at $1400-$17FF; the write port reads as
-// ROM. An image of 4K brings the RAM's first contents (of MagiCard, a saved program) in front of the ROM.
+// CommaVid's CV. 2K of ROM at $1800, 1K of RAM read at $1000-$13FF and written at $1400-$17FF; the write port
+// reads as ROM. An image of 4K has the RAM's first contents before the ROM (in MagiCard, a saved program).
 #pragma once
 
 #include <algorithm>

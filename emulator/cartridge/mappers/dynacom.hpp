@@ -1,4 +1,4 @@
-// Dynacom's MB (Megaboy). Sixteen banks of 4K, one after the other: every touch of $1FF0 goes on to the next.
+// Dynacom's MB (Megaboy). Sixteen banks of 4K; each access to $1FF0 selects the next one.
 #pragma once
 
 #include "emulator/cartridge/mappers/atari.hpp"

@@ -1,8 +1,8 @@
-// MC, Chris Wilkson's Megacart. Four windows of 1K, each with a block number, which is written to $003C-$003F. $80 and
-// up is a block of 1K of the 128K of ROM; below are blocks of 512 bytes of the 32K of RAM, written in the lower half of
-// the window and read in the upper. Touching the reset vector puts the last block of ROM into the fourth window until
-// another window is touched. Reads of $0000-$003F give 0, writes to them stay in the cartridge
-// (docs/spec/cartridges.md, 10).
+// MC, Chris Wilkson's Megacart. Four windows of 1K, each with a block number, which is written to
+// $003C-$003F. Numbers from $80 on are blocks of 1K of the 128K of ROM. Lower ones are blocks of 512 bytes of
+// the 32K of RAM, written in the lower half of the window and read in the upper. An access to the reset
+// vector locks the last block of ROM into the fourth window, until another window is accessed. Reads of
+// $0000-$003F give 0; writes to them do not reach the TIA (docs/spec/cartridges.md, 10).
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr unsigned kWindows = 4, kWindow = 1024;
 constexpr unsigned kRamBlock = 512, kRamBlocks = 64;
 constexpr unsigned kRomFlag = 0x80;
 constexpr std::uint8_t kLastBlock = 0xFF;
-constexpr unsigned kLock = 4;  // index of the lock among the state's banks, behind the four windows
+constexpr unsigned kLock = 4;  // index of the lock among the state's banks, after the four windows
 
 inline constexpr std::array<std::uint8_t, MemoryMap::kPageSize> kZeros{};
 
@@ -36,7 +36,7 @@ inline std::uint8_t& ram_byte(Slot& slot, unsigned number, std::uint16_t address
 
 inline void reset(Slot&) {}
 
-// While the fourth window is locked, every access to the others does something.
+// While the fourth window is locked, every access to another window unlocks it.
 inline void map_window(Slot& slot, unsigned window) {
   const unsigned first = kWindow * window, number = block(slot, window);
   slot.map.hide(first, kWindow);

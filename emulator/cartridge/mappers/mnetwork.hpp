@@ -1,6 +1,7 @@
-// M Network's E7. Eight slices of 2K, of which $1000-$17FF shows one: $1FE0-$1FE6 pick slices 0 to 6, $1FE7 picks 1K of
-// RAM in place of the seventh, written at $1000-$13FF and read at $1400-$17FF. Above it are 256 bytes more of RAM, one
-// of four banks by $1FE8-$1FEB, written at $1800 and read at $1900; then the rest of slice 7. Write ports read as slice 7.
+// M Network's E7. $1000-$17FF shows one of eight slices of 2K: $1FE0-$1FE6 select slices 0 to 6. $1FE7
+// selects 1K of RAM instead, written at $1000-$13FF and read at $1400-$17FF. Above are 256 more bytes of RAM,
+// one of four banks selected by $1FE8-$1FEB, written at $1800 and read at $1900. The rest is slice 7. Write
+// ports read as slice 7.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"

@@ -1,5 +1,6 @@
-// Parker Brothers' E0. Eight slices of 1K seen through four windows. Touching $1FE0-$1FE7 picks the slice of the window
-// at $1000, $1FE8-$1FEF that at $1400, $1FF0-$1FF7 that at $1800; the window at $1C00 always shows slice 7.
+// Parker Brothers' E0. Eight slices of 1K, seen through four windows. An access to $1FE0-$1FE7 selects the
+// slice of the window at $1000, to $1FE8-$1FEF that at $1400, to $1FF0-$1FF7 that at $1800. The window at
+// $1C00 always shows slice 7.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"

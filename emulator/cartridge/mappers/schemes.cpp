@@ -1,4 +1,4 @@
-// The table of schemes, and which one an image has (docs/spec/cartridges.md, 2).
+// The table of schemes, and the detection of an image's scheme (docs/spec/cartridges.md, 2).
 #include <algorithm>
 #include <array>
 #include <initializer_list>
@@ -84,7 +84,8 @@ constexpr Scheme kSchemes[] = {
 
 using Signature = std::initializer_list<std::uint8_t>;
 
-// As the reference searches: the last possible position is not examined, and after a hit one byte more is skipped.
+// Searches as the reference does: the last possible position is not examined, and after a hit one more byte
+// is skipped.
 bool contains(const Rom& rom, Signature signature, int hits = 1) {
   const std::size_t length = signature.size();
   for (std::size_t i = 0; i + length + 1 <= rom.size(); ++i) {
@@ -108,7 +109,7 @@ bool halves_equal(const Rom& rom) {
   return std::equal(rom.begin(), middle, middle);
 }
 
-// On-board RAM hides the first 256 bytes of each bank, which are therefore left the same.
+// On-board RAM hides the first 256 bytes of each bank. Their content is therefore the same in each bank.
 bool is_sc(const Rom& rom) {
   const std::span<const std::uint8_t> bytes(rom);
   for (std::size_t bank = 0; bank < rom.size(); bank += 4096)
@@ -156,7 +157,7 @@ std::string_view name_16k(const Rom& rom) {
   return is_3f(rom) ? "3F" : "F6";
 }
 
-// The two that any size may have, else what the size says.
+// Two schemes can have any size. Otherwise the size decides.
 std::string_view name_large(const Rom& rom, std::string_view otherwise) {
   if (is_3e(rom)) return "3E";
   return is_3f(rom) ? "3F" : otherwise;
@@ -185,10 +186,10 @@ const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {
   const std::string size = std::to_string(rom.size()) + " bytes";
   if (name.empty()) {
     throw InvalidInput("no cartridge scheme fits an image of " + size +
-                                "; 2048, 4096, 8192, 16384 and 32768 bytes are usual");
+                                "; usual sizes are 2048, 4096, 8192, 16384 and 32768 bytes");
   }
   const auto scheme = std::ranges::find(kSchemes, name, &Scheme::name);
-  if (scheme == std::end(kSchemes)) throw InvalidInput("there is no cartridge scheme " + std::string(name));
+  if (scheme == std::end(kSchemes)) throw InvalidInput("unknown cartridge scheme " + std::string(name));
   if (rom.size() < scheme->image) {
     throw InvalidInput("the cartridge scheme " + std::string(name) + " needs an image of at least " +
                                 std::to_string(scheme->image) + " bytes; this one has " + size);

@@ -1,9 +1,10 @@
-// Tigervision's 3F. Banks of 2K: the one at $1000 is chosen by writing its number to $0000-$003F, the last one stays
-// at $1800. Reading $0000-$003F gives the bank's bytes, not the TIA; use the TIA's mirrors from $0040 on. Writes to
-// the cartridge reach the TIA too, and $1000-$103F selects like $0000-$003F.
+// Tigervision's 3F. Banks of 2K: the number of the one at $1000 is written to $0000-$003F; the last one stays
+// at $1800. Reads of $0000-$003F give the bank's bytes, not the TIA's; the TIA's mirrors from $0040 on are
+// not affected. Writes to the cartridge reach the TIA too, and $1000-$103F selects like $0000-$003F.
 //
-// 3E, Boulder Dash's, has 32 banks of 1K of RAM besides. $3F selects ROM, $3E RAM, and no other address does. RAM is
-// read at $1000 and again at $1400, where it is also written; such a write doesn't reach the TIA.
+// 3E, of Boulder Dash, also has 32 banks of 1K of RAM. Writes to $3F select ROM, to $3E RAM, and no other
+// address selects. RAM is read at $1000 and again at $1400, where it is also written; such a write does not
+// reach the TIA.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"
@@ -39,7 +40,7 @@ inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t value) {
   return Delivery::kToTia;
 }
 
-// 3E: bank 0 of the state is the ROM's; what $1000 shows is RAM if bank 2 says so, and then bank 1 of it.
+// 3E: bank 0 of the state is the ROM's. If bank 2 is not 0, $1000 shows the RAM's bank 1 instead.
 inline bool ram_selected(const Slot& slot) { return slot.state.bank[2] != 0; }
 
 inline std::uint8_t* ram_bank(const Slot& slot) { return slot.ram.data() + kRamBankSize * slot.state.bank[1]; }

@@ -1,4 +1,5 @@
-// UA Ltd.'s UA. Two banks of 4K, selected by touching $0220 and $0240, addresses of the TIA, which is touched too.
+// UA Ltd.'s UA. Two banks of 4K, selected by an access to $0220 or $0240. These are addresses of the TIA,
+// which is accessed too.
 #pragma once
 
 #include "emulator/cartridge/mappers/atari.hpp"

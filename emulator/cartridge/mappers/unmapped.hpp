@@ -1,4 +1,4 @@
-// 0840 and 4A50, which the reference knows by name but gives nothing to see: the cartridge reads 0 everywhere.
+// 0840 and 4A50. The reference knows their names, but maps no memory: the cartridge reads 0 everywhere.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"

@@ -20,7 +20,7 @@ void LineCache::begin() {
 
 void LineCache::drop() { sets_ = {}; }
 
-// No two machines have the same, for pictures are handed on.
+// Numbers are unique over all machines, because pictures can move between machines.
 LineNumber LineCache::new_numbers() {
   static std::atomic<LineNumber> last = 0;
   return last.fetch_add(kNumbers, std::memory_order_relaxed) + kNumbers;

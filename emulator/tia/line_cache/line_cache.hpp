@@ -1,7 +1,7 @@
-// The lines drawn last, a record for each row of the window. The two picture buffers share them, since most
-// rows show what they showed in the frame before; each picture says of its rows by number which line they
-// show, so that one that the other has can be copied. Where objects flicker there are two sets of records,
-// for even and for odd frames. Derived: not of the machine's state.
+// The lines drawn last: a record for each row of the window. The two frame buffers share the records, because
+// most rows show what they showed in the frame before. Each buffer knows, by number, which line each of its
+// rows shows, so that a row can be copied from the other. If objects flicker, there are two sets of records,
+// for even and for odd frames. The cache is derived: it is not part of the machine's state.
 #pragma once
 
 #include <array>
@@ -16,16 +16,16 @@ namespace racebeam {
 class LineCache {
  public:
   void begin_frame() { is_new_ = true; }
-  void aim(std::size_t rows);  // before a frame is drawn, or some more of one
+  void aim(std::size_t rows);  // before each part of a frame that is drawn
   void drop();
 
   std::size_t rows() const { return set_->size(); }
   LineRecord& row(std::size_t row) { return (*set_)[row]; }
 
-  // Another line is drawn on its row: is it to be remembered?
+  // Whether the line that is about to be drawn on the record's row is to be recorded.
   bool is_worthwhile(LineRecord& record) const { return flicker_.counts() || record.is_worthwhile(); }
 
-  // The line of the record has been drawn. Returns its number.
+  // Numbers the line that has been drawn and recorded. Returns the number.
   LineNumber add(LineRecord& record) {
     if ((next_number_ & (kNumbers - 1)) == 0) [[unlikely]]
       next_number_ = new_numbers();
@@ -36,7 +36,7 @@ class LineCache {
   }
 
  private:
-  // So many at a time. Their first is a multiple of that, and not 0.
+  // How many numbers a machine takes at a time. The first is a multiple of that, and not 0.
   static constexpr LineNumber kNumbers = LineNumber{1} << 32;
   static LineNumber new_numbers();
 

@@ -20,9 +20,9 @@ constexpr int longest_delay(unsigned reg) {
   return reg >= PF0 && reg <= PF2 ? 5 : 1;
 }
 
-// Cycle 76 is clock 228: the line is drawn, but its end is not acted on yet, which may undo what these write. So a write
-// there is as good as one in the next line, but for RESPx and what may start the Cosmic Ark mode. PFx waits for five
-// clocks in cycle 75, for two in 74.
+// The first cycle in which a write belongs to the next line. Cycle 76 is clock 228: the line is drawn, but
+// its end, which may undo these writes, is not processed. A write there is like one in the next line, except
+// RESPx and what may start the Cosmic Ark mode. PFx waits for five clocks in cycle 75, for two in 74.
 constexpr std::int8_t first_late(unsigned reg) {
   switch (reg) {
     case RESP0: case RESP1: case HMM0: case WriteLog::kNobody: return 127;
@@ -32,18 +32,18 @@ constexpr std::int8_t first_late(unsigned reg) {
   }
 }
 
-// VBLANK is part of every key, and what CTRLPF does to the colours of a playfield is noticed when it is drawn.
+// VBLANK is part of every key. The effect of CTRLPF on the playfield's colours is recorded when it is drawn.
 constexpr std::uint8_t control_of(unsigned reg) {
   switch (reg) {
     case GRP0: return bit(kP0) | bit(kP1);
-    case GRP1: return bit(kP0) | bit(kP1) | bit(kBall);  // both move something to where VDELxx shows it
+    case GRP1: return bit(kP0) | bit(kP1) | bit(kBall);  // both move a value to where VDELxx shows it
     case VDELP0: return bit(kP0);
     case VDELP1: return bit(kP1);
     case RESP0: return kPlaceOfP0;
     case RESP1: return kPlaceOfP1;
     case ENAM0: return bit(kM0);
     case ENAM1: return bit(kM1);
-    case RESMP0: return bit(kM0) | kPlaceOfP0;  // leaves the missile where its player is
+    case RESMP0: return bit(kM0) | kPlaceOfP0;  // leaves the missile at its player's position
     case RESMP1: return bit(kM1) | kPlaceOfP1;
     case ENABL: case VDELBL: return bit(kBall);
     case PF0: case PF1: case PF2: return bit(kPlayfield);
@@ -69,7 +69,8 @@ constexpr std::uint64_t make_drawing_registers() {
   return registers;
 }
 
-// The motions count where HMOVE moves what is shown. The cosmic counter is for the end of a line.
+// The motions count where HMOVE moves an object that is shown. The cosmic counter counts for the end of a
+// line.
 constexpr TiaRegisters make_seen(unsigned seen) {
   const auto shown = [seen](unsigned bits) { return static_cast<std::uint8_t>(seen & bits ? 0xFF : 0); };
   const std::uint8_t moves = shown(kMoves), ball = shown(bit(kBall)), playfield = shown(bit(kPlayfield));

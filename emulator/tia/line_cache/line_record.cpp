@@ -13,8 +13,8 @@ constexpr std::uint8_t kAll = 0xFF;
 // A write that comes no later than this after RESPx may wait for the old copy of the player.
 constexpr std::uint32_t kWaitOfRespx = TiaWrite(4, 0, 0).packed() - 1;
 
-// Bytes that a line may change without a write, and what that depends on: the end of a line latches REFLECT and lets
-// players be shown again; missile 0 in its Cosmic Ark mode moves.
+// Bytes that a line may change without a write, and what that depends on. The end of a line latches REFLECT,
+// and lets players be shown again. Missile 0 moves in its Cosmic Ark mode.
 constexpr TiaRegisters make_always() {
   TiaRegisters mask{};
   mask.ctrlpf = mask.reflect = mask.enabled = mask.cosmic = kAll;
@@ -22,7 +22,7 @@ constexpr TiaRegisters make_always() {
   return mask;
 }
 
-// Which bytes a write sets to a value that is always the same for the same writes before it and bytes that count.
+// The bytes that a write sets, to a value that depends only on the earlier writes and the bytes that count.
 constexpr TiaRegisters make_written(unsigned reg) {
   TiaRegisters mask{};
   auto& [p0, p1] = mask.player;
@@ -72,7 +72,7 @@ constexpr auto kWrittenBytes = [] {
 }();
 
 constexpr TiaRegisters kAlways = make_always();
-constexpr TiaRegisters kUsedUp = [] {  // by a line, if it finds it
+constexpr TiaRegisters kUsedUp = [] {  // by a line that uses them
   TiaRegisters mask{};
   mask.comb_armed = kAll;
   return mask;
@@ -85,12 +85,12 @@ void clear_but(TiaRegisters& registers, const RegisterVectors& mask) {
   bytes.write(registers);
 }
 
-// As far as they decide about where objects are, by Object. HMP0 to HMBL are in that order, too.
+// The motions as far as they affect positions, by Object. HMP0 to HMBL are in that order, too.
 std::array<std::uint8_t, 5> motions_of(const TiaRegisters& tia) {
   return {tia.player[0].motion, tia.player[1].motion, tia.missile[0].motion, tia.missile[1].motion, tia.ball.motion};
 }
 
-// Those that an HMOVE in this cycle moves.
+// The objects that an HMOVE in this cycle moves.
 unsigned moved_objects(int cycle, const std::array<std::uint8_t, 5>& motion) {
   const auto& movement = kMovement[static_cast<std::size_t>(cycle + kLineCycles) % kLineCycles];
   unsigned moved = 0;
@@ -109,7 +109,7 @@ void add_positions(TiaRegisters& mask, unsigned objects) {
 }  // namespace
 
 void LineRecord::open(const TiaRegisters& registers) {
-  number = kNoLine;  // until the line is whole
+  number = kNoLine;  // until the line is complete
   start = registers;
   mask = nullptr;
   view = {};
@@ -144,8 +144,8 @@ std::uint8_t LineRecord::hash() const {
   return static_cast<std::uint8_t>(hash >> 56);
 }
 
-// Which bytes count, and which are known at the end. What a register's value at the end depends on is the writes, and
-// the bytes that count anyway as far as they have to do with what is shown (line_dependencies.hpp), and these:
+// Computes which bytes count, and which are known at the end. A register's value at the end depends on the
+// writes, on the bytes that count for what is shown (line_dependencies.hpp), and on the following.
 void LineRecord::summarize(bool pal) {
   TiaRegisters more = kAlways;
   RegisterVectors sets(kUsedUp);
@@ -156,7 +156,7 @@ void LineRecord::summarize(bool pal) {
     const unsigned reg = write.reg();
     sets |= RegisterVectors(kWrittenBytes[reg]);
     switch (reg) {
-      // May start the Cosmic Ark mode, by an HMOVE on the line before.
+      // May start the Cosmic Ark mode, by an HMOVE on the previous line.
       case HMM0: foreseen &= write.value() >> 4 != 6; [[fallthrough]];
       case HMP0: case HMP1: case HMM1: case HMBL: motion[reg - HMP0] = write.value() >> 4; break;
       case HMCLR: motion = {}; break;
@@ -164,10 +164,10 @@ void LineRecord::summarize(bool pal) {
         hmove_cycle = static_cast<std::int8_t>(write.cycle());
         add_positions(more, moved_objects(hmove_cycle, motion));
         break;
-      // The missile stays where it was, or goes to its player.
+      // The missile keeps its position, or goes to its player's.
       case RESMP0: more.cosmic_shape = static_cast<CosmicShape>(kAll); [[fallthrough]];
       case RESMP1: more.missile[reg - RESMP0].position = kAll; break;
-      // In PAL, colours have the frame's colour loss in bit 0, all of them.
+      // In PAL, all colours have the frame's colour loss in bit 0.
       case COLUP0: case COLUP1: case COLUPF: case COLUBK: more.color[3] |= pal ? kAll : 0; break;
       default: break;
     }
@@ -181,7 +181,7 @@ void LineRecord::summarize(bool pal) {
   if (mask == nullptr) return;
   clear_but(start, counts);
   clear_but(end, sets);
-  start.spare[0] = foreseen ? 0 : 1;  // which it never is: the writes must be played
+  start.spare[0] = foreseen ? 0 : 1;  // a value that it never has: the writes must be played
 }
 
 }  // namespace racebeam
