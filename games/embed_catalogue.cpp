@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "games/digest.hpp"
 #include "games/files/game_file.hpp"
+#include "games/md5.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "games/digest.hpp"
+#include "games/md5.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "games/digest.hpp"
+#include "games/md5.hpp"
 
 namespace racebeam {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "emulator/tia/palette.hpp"
-#include "recording/kept.hpp"
+#include "recording/atomic_file.hpp"
 
 namespace racebeam {
 

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <list>
 
-#include "games/digest.hpp"
+#include "games/md5.hpp"
 #include "tests/environment/steered.hpp"
 #include "tests/support/random_image.hpp"
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "games/digest.hpp"
+#include "games/md5.hpp"
 #include "tests/golden/works.hpp"
 
 namespace racebeam::test {

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "games/catalogue.hpp"
-#include "games/digest.hpp"
 #include "games/files/game_file.hpp"
+#include "games/md5.hpp"
 #include "tests/support/random_image.hpp"
 #include "tests/support/roms.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "emulator/base/opcodes.hpp"
-#include "games/digest.hpp"
+#include "games/md5.hpp"
 
 namespace racebeam::test {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstring>
 #include <zlib.h>
 
-#include "environment/saved_state.hpp"
 #include "environment/saved/saved_state_format.hpp"
-#include "games/digest.hpp"
+#include "environment/saved_state.hpp"
+#include "games/md5.hpp"
 #include "tests/support/counter_image.hpp"
 #include "tests/support/observation.hpp"
 

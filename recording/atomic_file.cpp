@@ -1,4 +1,4 @@
-#include "recording/kept.hpp"
+#include "recording/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <stdio.h>

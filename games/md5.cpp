@@ -1,4 +1,4 @@
-#include "games/digest.hpp"
+#include "games/md5.hpp"
 
 #include <openssl/evp.h>
 
