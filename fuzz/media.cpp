@@ -143,7 +143,7 @@ void run(Bytes input) {
     media->frame(frame);
     media->sound(film.sound);
   }
-  media->keep();
+  media->commit();
   const std::string path = folder.path() + "/" + file_name(film.kind, "film");
   switch (film.kind) {
     case MediaKind::kPng: return check_png(film, path);

@@ -1,4 +1,4 @@
-// Files and folders that are there whole or not at all: written under a temporary name, synced, renamed.
+// Files and folders that appear whole or not at all: written under a temporary name, synced, renamed.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ class BudgetSpent : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What may be written, in all.
+// Limits the bytes that may be written in total.
 class DiskBudget {
  public:
   explicit DiskBudget(std::size_t bytes) : most_(bytes) {}
-  void take(std::size_t bytes);  // throws BudgetSpent when so much is not left
+  void take(std::size_t bytes);  // throws BudgetSpent if less is left
   void give_back(std::size_t bytes) { taken_ -= bytes; }
   std::size_t taken() const { return taken_; }
 
@@ -27,21 +27,21 @@ class DiskBudget {
   std::size_t most_, taken_ = 0;
 };
 
-// All throw std::runtime_error with a sentence when the disk refuses, or BudgetSpent.
-class KeptFile {
+// All throw BudgetSpent, or std::runtime_error with a sentence if the system refuses to write.
+class AtomicFile {
  public:
-  // `tail`: what the file ends with, whatever is written. It is there from the start, so that no disk is too
-  // full for it at the end.
-  KeptFile(std::string path, DiskBudget& budget, std::string tail = {});
-  ~KeptFile();  // without keep(), nothing is left
-  KeptFile(const KeptFile&) = delete;
-  KeptFile& operator=(const KeptFile&) = delete;
+  // tail: the end of the file, whatever is written. Its space is reserved at the start, so that a full disk
+  // cannot prevent the end.
+  AtomicFile(std::string path, DiskBudget& budget, std::string tail = {});
+  ~AtomicFile();  // without commit(), nothing remains
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // Appends all of it; when it throws, what is kept has nothing of it.
+  // Appends all bytes; if it throws, the file has none of them.
   void write(std::span<const std::uint8_t> bytes);
   void write(std::string_view text);
-  void overwrite(std::size_t place, std::span<const std::uint8_t> bytes);  // what was written already
-  void keep();                                                             // refuses to replace what is there
+  void overwrite(std::size_t place, std::span<const std::uint8_t> bytes);  // bytes that were written before
+  void commit();  // refuses to replace an existing file
 
  private:
   std::string path_, temporary_;
@@ -51,15 +51,16 @@ class KeptFile {
   std::size_t size_ = 0;  // without the tail
 };
 
-class KeptFolder {
+class AtomicFolder {
  public:
-  KeptFolder(std::string path, DiskBudget& budget);
-  ~KeptFolder();
-  KeptFolder(const KeptFolder&) = delete;
-  KeptFolder& operator=(const KeptFolder&) = delete;
+  AtomicFolder(std::string path, DiskBudget& budget);
+  ~AtomicFolder();
+  AtomicFolder(const AtomicFolder&) = delete;
+  AtomicFolder& operator=(const AtomicFolder&) = delete;
 
-  void add(const std::string& name, std::span<const std::uint8_t> bytes);  // a whole file, or none
-  void keep();
+  void add(const std::string& name,
+           std::span<const std::uint8_t> bytes);  // writes the whole file, or none of it
+  void commit();
 
  private:
   std::string path_, temporary_;

@@ -31,7 +31,7 @@ struct Film {
   explicit Film(MediaKind kind, std::size_t bytes) : budget(bytes) {
     const auto media = make_media(kind, folder.path(""), "a", {kHeight, palette(Format::kNtsc), 60}, budget);
     frames = fill(*media);
-    media->keep();
+    media->commit();
     if (kind != MediaKind::kPng) file = test::read(folder.path(file_name(kind, "a")));
   }
 

@@ -131,7 +131,7 @@ TEST_CASE("Of two files the one that can't be kept does not take the other with 
   film.work();
   CHECK(film.recording->cut() == Recording::Cut::kDisk);
   CHECK(film.recording->result().names == "a.wav");
-  CHECK_THAT(film.recording->result().failure, Contains("cannot keep a.y4m"));
+  CHECK_THAT(film.recording->result().failure, Contains("cannot create a.y4m"));
   CHECK(test::read(film.folder.path("a.y4m")) == "of somebody else");
   CHECK(test::files_in(film.folder.path("")) == 2);
 }

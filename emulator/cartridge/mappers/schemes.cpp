@@ -189,7 +189,7 @@ const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {
                                 "; usual sizes are 2048, 4096, 8192, 16384 and 32768 bytes");
   }
   const auto scheme = std::ranges::find(kSchemes, name, &Scheme::name);
-  if (scheme == std::end(kSchemes)) throw InvalidInput("unknown cartridge scheme " + std::string(name));
+  if (scheme == std::end(kSchemes)) throw InvalidInput("there is no cartridge scheme " + std::string(name));
   if (rom.size() < scheme->image) {
     throw InvalidInput("the cartridge scheme " + std::string(name) + " needs an image of at least " +
                                 std::to_string(scheme->image) + " bytes; this one has " + size);
