@@ -97,7 +97,7 @@ class Catalogue {
     if (!image.md5.empty())
       md5s_.push_back({image.md5, names_.size(), image.accepted});
     else if (!is_built_in)
-      throw InvalidInput(path.string() + ":1: image.md5: an image that is not built in needs this");
+      throw InvalidInput(path.string() + ":1: image.md5: an image that is not built in must have this key");
   }
 
   static std::string md5_of_text(const std::string& bytes) {

@@ -90,20 +90,20 @@ TEST_CASE("Bytes that are no state are refused") {
   CHECK_THROWS_WITH(refusal(Bytes(100000, 'x')), Catch::Contains("not a state"));
 }
 
-TEST_CASE("A state that was cut, at any place, is refused") {
+TEST_CASE("A state that was truncated, at any byte, is refused") {
   const Environment environment = counter();
   const Bytes bytes = some_state(true);
   for (std::size_t size = 0; size < bytes.size(); size += size < 400 ? 1 : 997) {
     CHECK_THROWS_AS(from_bytes(std::span(bytes).first(size), environment), std::invalid_argument);
   }
   CHECK_THROWS_WITH(from_bytes(std::span(bytes).first(bytes.size() - 1), environment),
-                    Catch::Contains("was cut"));
+                    Catch::Contains("was truncated"));
   Bytes longer = bytes;
   longer.push_back(0);
   CHECK_THROWS_WITH(from_bytes(longer, environment), Catch::Contains("something was added"));
 }
 
-TEST_CASE("A state that was altered, at any place, is refused") {
+TEST_CASE("A state that was altered, at any byte, is refused") {
   const Environment environment = counter();
   Bytes bytes = some_state(true);
   for (std::size_t i = 0; i < bytes.size(); i += i < 400 ? 1 : 499) {
