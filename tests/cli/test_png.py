@@ -115,10 +115,10 @@ class Png(unittest.TestCase):
         screen = run_lengths(self.pixels)
         self.refused(1, "odd number of digits", screen[:-1])
         self.refused(1, "has no length", screen[:-2])
-        self.refused(1, "no number of rows", screen[:-4])
+        self.refused(1, "not whole rows", screen[:-4])
         self.refused(1, "'XY' in the screen", "XY" + screen[2:])
         self.refused(1, "without --full", bytes(self.pixels).hex()[:-2], "--full")
-        self.refused(1, "no number of rows", "00FF" * 100000)
+        self.refused(1, "not whole rows", "00FF" * 100000)
 
     def test_words_that_make_no_sense_are_refused(self):
         screen = run_lengths(self.pixels)

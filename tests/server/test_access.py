@@ -321,7 +321,7 @@ class Tls(Folder):
 
     def test_a_certificate_and_a_key_are_needed(self):
         for options, status, hint in (([], 1, "needs --tls-cert and --tls-key"),
-                                      (["--tls-cert", self.certificate], 2, "go together"),
+                                      (["--tls-cert", self.certificate], 2, "must be given together"),
                                       (["--tls-cert", self.key, "--tls-key", self.key], 1, "cannot use the certificate"),
                                       (["--tls-cert", self.certificate, "--tls-key", "nothing"], 1, "cannot use the key")):
             with self.subTest(options=options):

@@ -61,7 +61,7 @@ class Strict(unittest.TestCase):
                       ("--classic", "--stdio", "--rom", GAME)):
             status, output, errors = run("serve", "--strict", *words)
             self.assertEqual((status, output, len(errors)), (2, b"", 1), errors)
-            self.assertIn("--strict: goes with --stdio and --pipes alone, in the line protocol", errors[0])
+            self.assertIn("--strict: requires --stdio or --pipes, and the line protocol", errors[0])
 
 
 class Pieces(unittest.TestCase):

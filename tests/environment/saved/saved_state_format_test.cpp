@@ -100,7 +100,7 @@ TEST_CASE("A state that was truncated, at any byte, is refused") {
                     Catch::Contains("was truncated"));
   Bytes longer = bytes;
   longer.push_back(0);
-  CHECK_THROWS_WITH(from_bytes(longer, environment), Catch::Contains("something was added"));
+  CHECK_THROWS_WITH(from_bytes(longer, environment), Catch::Contains("bytes were added"));
 }
 
 TEST_CASE("A state that was altered, at any byte, is refused") {
