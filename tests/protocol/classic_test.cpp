@@ -147,7 +147,7 @@ TEST_CASE("Saved states are a stack that a reset leaves alone") {
   CHECK(client.machine.frame_number() == 3);
   client.say("44,18\n");
   CHECK(client.machine.frame_number() == 1);
-  CHECK_THAT(refusal(client, "44,18\n", kMalformedStatus), Contains("has not saved one (43) that is left"));
+  CHECK_THAT(refusal(client, "44,18\n", kMalformedStatus), Contains("none that it saved (43) is left"));
 }
 
 TEST_CASE("The stack keeps the newest 4096 states") {

@@ -173,7 +173,7 @@ class Tokens(Folder):
             self.assertTrue(admits(server, OTHER) and not admits(server, TOKEN))
             self.write("tokens", "short\n")
             server.process.send_signal(signal.SIGHUP)
-            server.wait_for("line 1: a token has 16 .*; the old token file stays in use")
+            server.wait_for("line 1: a token must have 16 .*; the old token file stays in use")
             self.assertTrue(admits(server, OTHER))
 
     def test_files_without_a_good_token_are_refused(self):

@@ -214,7 +214,7 @@ class ReadyFile(unittest.TestCase):
                     before = marks(path)
                     status, output, errors = run("serve", *where, "--ready-file", path)
                     self.assertEqual((status, output, len(errors)), (1, b"", 1), errors)
-                    self.assertIn(f"--ready-file {path} is there, and is no ready file", errors[0])
+                    self.assertIn(f"--ready-file {path} exists, and is not a ready file", errors[0])
                     self.assertEqual(marks(path), before)
 
     def test_a_stale_one_is_gone_before_anything_else_is_looked_at(self):
@@ -299,9 +299,9 @@ class ReadyFile(unittest.TestCase):
 class Threads(unittest.TestCase):
     def test_the_log_says_how_many_and_what_limits_them(self):
         with serve("--threads", "3") as server:
-            server.wait_for("threads that serve: 3, limited by --threads$")
+            server.wait_for("threads: 3, limited by --threads$")
         with serve() as server:
-            server.wait_for("threads that serve: [0-9]+, limited by the (machine|affinity|control group)$")
+            server.wait_for("threads: [0-9]+, limited by the (machine|affinity|control group)$")
 
 
 class Systemd(unittest.TestCase):
