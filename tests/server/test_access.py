@@ -122,7 +122,7 @@ class Tokens(Folder):
             self.assertLess(time.monotonic() - start, longest)
 
     def test_who_has_no_token_makes_room_for_others(self):
-        full = b"error busy there are 3 sessions, as many as this server takes; "
+        full = b"error busy there are 3 sessions, the limit of this server; "
         with self.serve("--max-sessions", "3") as server:
             first, silent, other = (connect_tcp(server.port()) for _ in range(3))
             for wire in (first, silent, other):
@@ -213,7 +213,7 @@ class BeyondThisMachine(Folder):
 
     def test_a_warning_names_the_risk_of_plain_TCP(self):
         with Server("serve", "--listen", "tcp://0.0.0.0:0", "--token-file", self.write("tokens", TOKEN)) as server:
-            server.wait_for("warning: tcp://0.0.0.0:[0-9]+ can be reached from other machines, without TLS: who sees")
+            server.wait_for("warning: tcp://0.0.0.0:[0-9]+ can be reached from other machines, without TLS: tokens can be read")
             port = int(server.wait_for(r"listening on tcp://0\.0\.0\.0:(\d+)").group(1))
             wire = connect_tcp(port)
             self.assertTrue(ask(wire, b"games").startswith(b"error unauthorized "))
