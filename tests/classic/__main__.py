@@ -1,9 +1,9 @@
-"""Compares `racebeam classic` with ALE 0.6.0, live: the same lines are sent to both, and all that they answer is compared.
+"""Compares `racebeam classic` with ALE 0.6.0: sends the same lines to both, and compares their output.
 
-The reference is a build of ALE's tag v0.6.0, made outside of this tree; give the path of its program `ale`. Each run has
-actions, settings, saves, loads and resets of its own, drawn from its seed. Its name says all of that: --run plays it again.
-Status: 0 all identical, 1 something is not, 2 the command line makes no sense, 77 there is nothing to compare with.
-"""
+The reference is a build of ALE's tag v0.6.0, made outside of this tree; give the path of its program `ale`.
+The actions, settings, saves, loads and resets of a run are drawn from its seed. The run's name contains all
+of that: --run repeats it. Status: 0 all identical, 1 a run differs, 2 usage error, 77 there is nothing to
+compare with."""
 
 import argparse
 import os
@@ -54,7 +54,7 @@ def drawn_runs(options):
 
 
 def compare(reference, run):
-    """The run, its verdict, and what the reference answered."""
+    """Returns the run, its verdict, and the reference's output."""
     path = image(run.game)
     try:
         expected = play([reference], run, path)
@@ -82,7 +82,7 @@ def main():
 
 
 def compare_all(options, runs):
-    """What compare() found, for all runs; tells of differences as they come."""
+    """Returns the results of compare() for all runs. Prints differences as they are found."""
     results = []
     with ThreadPoolExecutor(options.jobs) as pool:
         for result in pool.map(lambda run: compare(options.reference, run), runs):
@@ -94,7 +94,7 @@ def compare_all(options, runs):
 
 
 def report(verdicts):
-    """Counts; the exit status."""
+    """Prints the counts. Returns the exit status."""
     unknown = sorted({run.game for run, verdict in verdicts.items() if verdict == UNKNOWN})
     played = {run: verdict for run, verdict in verdicts.items() if verdict != UNKNOWN}
     differing = sorted({run.game for run, verdict in played.items() if verdict != IDENTICAL})

@@ -1,4 +1,4 @@
-"""`racebeam classic` says what ALE 0.6.0 said, in one session of each game that it had."""
+"""`racebeam classic` gives the recorded output of ALE 0.6.0, in one session of each of its games."""
 
 import os
 import sys

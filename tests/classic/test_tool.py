@@ -1,4 +1,5 @@
-"""The tool finds what is different, and nothing else. Its reference here is racebeam itself, as it is or set differently."""
+"""The tool finds differences, and reports nothing else. Its reference here is racebeam itself, with the same
+or other settings."""
 
 import os
 import pathlib
@@ -28,7 +29,7 @@ class Tool(unittest.TestCase):
         return path
 
     def compare(self, command, *options):
-        """Status and output of the tool, beside a reference that runs `command`."""
+        """Status and output of the tool, with `command` as the reference."""
         done = subprocess.run(
             [sys.executable, "-B", TOOL, "--reference", self.reference(command), "--lines", "200", *options],
             env={**os.environ, "RACEBEAM_ROMS": str(self.folder), "RACEBEAM_BINARY": BINARY}, capture_output=True, text=True)

@@ -1,4 +1,4 @@
-"""racebeam bench: what it reports, and that its settings do the work they say."""
+"""racebeam bench: its report, and the effect of its settings."""
 
 import json
 import unittest

@@ -1,4 +1,4 @@
-"""Files that the user names, in all commands: what is no file is refused at once, whatever it is for."""
+"""Files that the user names, in all commands: anything but a regular file is refused at once."""
 
 import os
 import re

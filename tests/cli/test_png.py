@@ -1,4 +1,4 @@
-"""racebeam png: the picture holds what the client's line says."""
+"""racebeam png: the picture shows the screen of the client's line."""
 
 import os
 import struct
@@ -23,7 +23,7 @@ def run_lengths(pixels):
 
 
 def read_png(data):
-    """Width, height and the rows of an 8-bit RGB picture that is not interlaced."""
+    """Width, height and rows of an 8-bit RGB picture without interlacing."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, packed = 8, b""
     while at < len(data):

@@ -1,4 +1,4 @@
-"""racebeam trace on our own game: the format of its lines, where actions come from, and actions that can't be played."""
+"""racebeam trace on our own game: the format of its lines, the sources of actions, and invalid actions."""
 
 import gzip
 import os

@@ -1,10 +1,10 @@
-"""Compares racebeam with ALE, frame by frame, on fresh random play. See docs/conformance.md for what is compared.
+"""Compares racebeam with ALE, frame by frame, on new random actions. docs/conformance.md says what is
+compared.
 
-Without options all games are played in the default settings, 20,000 frames with each of two seeds, and 2,000 frames in
-every other setting: less than an hour on two cores. Results are kept in build/conformance; where a run differs, its
-picture and its actions too. Status: 0 all identical, 1 something is not, 2 the command line makes no sense, 77 there is
-nothing to compare with, 130 stopped.
-"""
+Without options, all games are played: 20,000 frames in the default settings with each of two seeds, and
+2,000 frames in every other setting. That takes less than an hour on two cores. Results are stored in
+build/conformance; for a run that differs, also its picture and its actions. Status: 0 all identical, 1 a run
+differs, 2 usage error, 77 there is nothing to compare with, 130 interrupted."""
 
 import pathlib
 import sys
@@ -105,7 +105,7 @@ def chosen_runs(options, seeds):
 
 
 def as_result(run, result):
-    """A sentence in place of a result is why the comparison did not come back."""
+    """A result that is a sentence is the reason why the comparison failed."""
     if not isinstance(result, str):
         return result
     return {"run": run.name, "verdict": FAILED, "frames": 0, "report": result}
@@ -128,7 +128,7 @@ def compare_all(runs, options, kept):
 
 
 def conclude(runs, options, kept, gaps):
-    """The report; the exit status."""
+    """Writes the report. Returns the exit status."""
     done = [kept.results[run.name] for run in runs if run.name in kept.results]
     identical = sum(result["verdict"] == IDENTICAL for result in done)
     text = markdown(done, kept.identity, shlex.join(["scripts/conformance", *command_line()]), gaps)
@@ -142,7 +142,7 @@ def conclude(runs, options, kept, gaps):
 
 
 def command_line():
-    """As given; where it says nothing of this machine."""
+    """The command line as given, without options that concern this machine."""
     return [word for word in sys.argv[1:] if word not in ("--resume", "--publish")]
 
 

@@ -1,7 +1,7 @@
-"""What the reference can't be compared in, and why. The plan leaves it out of a run, and the report counts it.
+"""What cannot be compared with the reference, and why. The plan leaves it out of a run, and the report
+counts it.
 
-The findings are in docs/spec/environment.md, 5, docs/spec/games/README.md and docs/spec/palette.md.
-"""
+The findings are in docs/spec/environment.md, 5, docs/spec/games/README.md and docs/spec/palette.md."""
 
 from dataclasses import dataclass, replace
 
@@ -22,7 +22,7 @@ NOT_COMPARABLE = (
 
 
 def comparable(run):
-    """The run without what can't be compared in it, and the gaps that this leaves."""
+    """Returns the run without what cannot be compared in it, and the gaps that this leaves."""
     gaps = [gap for gap in NOT_COMPARABLE if run.game in gap.games and getattr(run, gap.key)]
     for gap in gaps:
         run = replace(run, **{gap.key: 0})

@@ -1,4 +1,5 @@
-"""The suite itself: it must find what differs, say where, show it, and never count what it did not compare."""
+"""The suite itself: it must find and locate differences, reproduce them, and never count what it did not
+compare."""
 
 import pathlib
 import sys
@@ -51,7 +52,7 @@ class Suite(unittest.TestCase):
                           *words, **more)
 
     def kept(self):
-        """The whole lines of the results."""
+        """The complete lines of the results."""
         return [json.loads(line) for line in (self.out / "results.jsonl").read_text().split("\n")[:-1]]
 
 

@@ -62,7 +62,7 @@ Bytes fetches_what_the_bus_holds(std::uint8_t n) {
 }
 
 TEST_CASE(
-    "Whoever looks at RAM or writes it leaves the byte on the bus, from which an opcode may be fetched") {
+    "Reads and writes of RAM from outside leave the byte on the bus, from which an opcode may be fetched") {
   constexpr std::uint8_t kJam = 0x12, kRolA = 0x2A;
   Machine looked_at(fetches_what_the_bus_holds(kJam)), written(fetches_what_the_bus_holds(kRolA));
   for (Machine* machine : {&looked_at, &written}) {
@@ -273,7 +273,7 @@ TEST_CASE(
   CHECK(machine.console.state().frame.open == 1);
   machine.console.step();
   CHECK(machine.console.state().frame.open == 0);
-  // Nothing is drawn before line 34, and then with what is written by then.
+  // Nothing is drawn before line 34; then all writes up to there have taken effect.
   CHECK(first_pixels(machine.console, {0, 1, 33, 51, 101, 209}) == std::vector{32, 32, 32, 50, 100, 208});
 
   Machine fresh(kCountsLines);

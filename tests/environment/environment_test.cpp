@@ -1,4 +1,4 @@
-// The environment on a cartridge of our own, which shows in its RAM what was done to it.
+// The environment with a cartridge of our own, whose RAM records what was done to it.
 #include <catch2/catch.hpp>
 #include <vector>
 

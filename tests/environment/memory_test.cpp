@@ -1,4 +1,4 @@
-// States that come and go leave nothing behind.
+// Saved states that are released leave no memory allocated.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>

@@ -195,7 +195,7 @@ TEST_CASE("a game file that cannot be read is refused") {
   CHECK(load_game_file(scratch.write("fine.toml", "title = 'T'\n"))->name == "fine");
 }
 
-// Undefined in toml++ 3.3 itself: where it was, a build with sanitizers fails.
+// toml++ 3.3 has undefined behaviour here. If that occurred, a build with sanitizers would fail.
 TEST_CASE("letters beyond ASCII are part of texts and comments, and nothing else") {
   const Game game = parse_game("title = 'Gr\xC3\xB6\xC3\x9F' # gr\xC3\xBC\xC3\x9F\n", "test", "my.toml");
   CHECK(game.title == "Gr\xC3\xB6\xC3\x9F");

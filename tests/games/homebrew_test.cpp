@@ -1,4 +1,4 @@
-// Our own games, played on the bare console: what a player must be able to rely on.
+// Our own games on the bare console: what a player relies on.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ class Player {
     }
   }
 
-  // Everything a hand can do, held for a few frames at a time.
+  // All controls of a player, held for a few frames at a time.
   void play_at_random(std::mt19937& random) {
     Inputs& inputs = console_.inputs();
     inputs.joystick[0] = static_cast<std::uint8_t>(random() & 31);

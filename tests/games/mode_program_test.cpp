@@ -9,7 +9,7 @@ using Catch::Contains;
 
 namespace {
 
-// Writes down what it is told; SELECT counts up the byte at $80.
+// Records its calls; SELECT increments the byte at $80.
 struct FakeHost : ModeHost {
   FakeMemory bytes;
   std::string log;
@@ -144,7 +144,7 @@ TEST_CASE("Adventure's mode program holds SELECT for a random time, then waits a
 }
 
 TEST_CASE("what is no mode program is refused with file, line and field") {
-  // The first line of a program stands on line 12 of these files.
+  // The first line of a program is line 12 of these files.
   CHECK_THAT(error_of("select"), Contains("test.toml:11: mode.setup: expected a value"));
   CHECK_THAT(error_of("soft_reset\nact JUMP"), Contains("test.toml:12: mode.setup: 'JUMP' is not an action"));
   CHECK_THAT(error_of("act RESET"), Contains("'RESET' is not an action"));

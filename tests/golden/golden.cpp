@@ -1,4 +1,4 @@
-// The digests that our own games must show, kept beside this file, and the signature of the machine.
+// Compares our own games with their digests in this folder, and prints the signature of the machine.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -39,7 +39,7 @@ void write_file(const std::string& path, const std::string& text) {
   if (!(file << text).flush()) throw std::runtime_error("can't write " + path);
 }
 
-// Prints the lines that differ, under the setting that they belong to. Are there none?
+// Prints the lines that differ, with their setting. Returns whether there are none.
 bool same_lines(const std::string& game, const std::string& kept, const std::string& shown) {
   std::istringstream kept_lines(kept), shown_lines(shown);
   std::string kept_line, shown_line, setting;
@@ -81,7 +81,7 @@ std::vector<Work> works_of_signature(const std::vector<std::string>& games,
   return all;
 }
 
-// The same work in so many threads at once, on machines of their own. What all of them showed.
+// Runs the same work in several threads at once, each with its own machines. Returns their output.
 std::string reported_at_once(const std::vector<Work>& works, int threads, bool states) {
   std::vector<std::future<std::string>> reports;
   for (int i = 0; i < threads; ++i)
@@ -94,7 +94,7 @@ std::string reported_at_once(const std::vector<Work>& works, int threads, bool s
   return first;
 }
 
-// One digest of all that is played; the lines themselves say where two compilers part.
+// Prints one digest of all output, or its lines, which show where two builds differ.
 void print_signature(const std::vector<std::string>& games, const SignatureOptions& options) {
   const auto works = works_of_signature(games, options);
   const std::string text = reported_at_once(works, options.at_once, options.states);

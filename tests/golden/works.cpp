@@ -47,7 +47,7 @@ std::vector<NamedSettings> all_settings() {
           {"classic", classic}};
 }
 
-// Television standards and controllers, for programs that are no game.
+// Television standards and controllers, for programs that are not games.
 std::shared_ptr<const Game> program_game(std::string_view scheme, int number) {
   static constexpr std::array kProperties = {"", "format = \"PAL\"", "format = \"SECAM\"",
                                              "left = \"paddles\"\nystart = 40"};

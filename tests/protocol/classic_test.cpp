@@ -36,7 +36,7 @@ struct Client {
   explicit Client(Environment its_machine, const ClassicOptions& options = {})
       : machine(std::move(its_machine)), session(machine, options) {}
 
-  // Sends the text and returns all that comes back.
+  // Sends the text. Returns all output.
   std::string say(const std::string& text) {
     std::string answers = listen();
     for (std::size_t at = 0; at < text.size();) {
@@ -178,7 +178,7 @@ TEST_CASE("The screen is recorded before each frame of an act, and for frames th
   Client client({.frame_skip = 3, .max_episode_frames = 7}, {.record = record});
   client.say_and_close("0,0,0,0\n3,18\n43,18\n3,18\n44,18\n3,18\n3,18\n3,18\n45,18\n3,18\n");
   // Two acts; a third, from the state of the first; one that ends the episode, and one after its end; a
-  // reset, an act; and the one at the end of input.
+  // reset; an act; and the act at the end of input.
   CHECK(frames == std::vector{0, 1, 2, 3, 4, 5, 3, 4, 5, 6, 7, 7, 7, 7, 7, 7, 8, 9, 10, 11, 12});
 }
 

@@ -1,4 +1,4 @@
-// help, suggestions and comments: what a person meets.
+// help, suggestions and comments, for users who type.
 #include "protocol/line/commands/help.hpp"
 
 #include <catch2/catch.hpp>
@@ -27,7 +27,7 @@ std::string plain(std::string_view text) {
   return plain;
 }
 
-// All names that help knows, with what it must say of each.
+// All names that help knows, with a part of each help text.
 std::multimap<std::string, std::string> all_names() {
   std::multimap<std::string, std::string> names;
   const auto add = [&names](std::string_view name, std::string_view text) {

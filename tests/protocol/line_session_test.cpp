@@ -1,4 +1,4 @@
-// Lines, errors and limits of a session; load_test.cpp has what a game is loaded with.
+// Lines, errors and limits of a session; load_test.cpp tests `load`.
 #include <catch2/catch.hpp>
 
 #include "protocol/line/commands/command_table.hpp"
@@ -69,7 +69,7 @@ TEST_CASE("A line that is too long is skipped as a whole and told once") {
   CHECK_THAT(answers, StartsWith("error line-too-long ") && Contains("\nok act"));
 }
 
-TEST_CASE("What is left without LF at the end of input is not carried out") {
+TEST_CASE("A rest without LF at the end of input is not executed") {
   LineClient client;
   client.ask(kLoad);
   client.say("act NOOP");
@@ -100,7 +100,7 @@ TEST_CASE("Commands say what they need") {
   CHECK_THAT(client.ask("reset now"), Contains("takes 0 arguments, not 1"));
 }
 
-TEST_CASE("The examples of help are carried out") {
+TEST_CASE("The examples of help are executed") {
   LineService service = line_service();
   const Scratch folder;
   service.recorder = std::make_shared<Recorder>(folder.path(""));
@@ -132,7 +132,7 @@ TEST_CASE("A request is done in slices, between which others have their turn") {
   CHECK(client.session.output().starts_with("ok frames="));
 }
 
-TEST_CASE("Who sends ahead gets the first replies before the last request is carried out") {
+TEST_CASE("A client that sends ahead gets the first replies before the last request is executed") {
   LineClient client;
   client.ask(kLoad);
   client.ask("observe frame");
@@ -201,7 +201,7 @@ TEST_CASE("A reply is not to be sent before it is whole") {
   CHECK(std::ranges::count(client.listen(), '|') == 3);
 }
 
-TEST_CASE("Who does not read is not answered any more, and loses nothing") {
+TEST_CASE("A client that does not read gets no more replies, and loses none") {
   LineLimits limits;
   limits.output = 1000;
   LineClient client(line_service(limits));

@@ -1,4 +1,4 @@
-// What a game is loaded with: its image, settings, presets and rules.
+// The arguments of `load`: image, settings, presets and rules.
 #include <catch2/catch.hpp>
 
 #include "protocol/encoding/base64.hpp"
@@ -46,7 +46,7 @@ TEST_CASE("A load that is refused leaves the game before it running") {
   CHECK(client.ask("restore here") == "ok frame=1");
 }
 
-// The score of tetris is in two bytes that beamfall leaves alone; the corrected rule knows that it wraps.
+// The score of tetris is in two bytes that beamfall does not change; the corrected rule knows its wrap.
 TEST_CASE("Corrected rules are a setting, and no state goes from one to the other") {
   LineClient client;
   std::string exported;

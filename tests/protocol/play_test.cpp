@@ -36,7 +36,7 @@ std::vector<std::uint8_t> exported(LineClient& client, const std::string& name) 
   return bytes_of_base64(value(client.ask("export " + name), "data")).value();
 }
 
-// As text, with the checksum that they need.
+// A state as text, with its checksum.
 std::string forged(std::vector<std::uint8_t> bytes) {
   const auto checksum =
       static_cast<std::uint32_t>(crc32(0, bytes.data() + kHeader, static_cast<uInt>(bytes.size() - kHeader)));

@@ -1,4 +1,4 @@
-// One recording, with a disk that works when it is told to.
+// One recording, on a simulated disk.
 #include "recording/recording.hpp"
 
 #include <catch2/catch.hpp>
@@ -125,14 +125,14 @@ TEST_CASE("A recording that is cut off is kept at once, and holds up nothing") {
 TEST_CASE("Of two files the one that can't be kept does not take the other with it") {
   Film film({MediaKind::kY4m, MediaKind::kWav});
   film.work();
-  film.folder.write("a.y4m", "of somebody else");
+  film.folder.write("a.y4m", "another file");
   film.add_until_behind(5);
   film.recording->finish();
   film.work();
   CHECK(film.recording->cut() == Recording::Cut::kDisk);
   CHECK(film.recording->result().names == "a.wav");
   CHECK_THAT(film.recording->result().failure, Contains("cannot create a.y4m"));
-  CHECK(test::read(film.folder.path("a.y4m")) == "of somebody else");
+  CHECK(test::read(film.folder.path("a.y4m")) == "another file");
   CHECK(test::files_in(film.folder.path("")) == 2);
 }
 

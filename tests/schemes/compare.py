@@ -99,14 +99,14 @@ def random_slot(rng, scheme):
 
 
 def subroutine(rng, scheme):
-    """Calls the code that is planted in the pages of the hot spots."""
+    """Calls the code in the pages of the hot spots."""
     if scheme == "MC":  # only its locked window is sure to have it
         return [(0, BIT, 0x1FFC), (0, JSR, 0xFC00 | images.SNIPPET)]
     return [(rng.randrange(256), JSR, 0xF000 | images.CHUNK * rng.randrange(4) | images.SNIPPET)]
 
 
 def ram_code(rng, scheme):
-    """Writes EOR #value; RTS to RAM on the cartridge, and calls it."""
+    """Writes EOR #value; RTS to cartridge RAM, and calls it."""
     select, first, read_port, size = rng.choice(images.RAM_CODE[scheme])
     at = rng.randrange(size - 2)
     code = [0x49, rng.randrange(256), 0x60]
@@ -150,8 +150,8 @@ def differing(a, b):
 
 
 def align(scheme, *machines):
-    """Takes away what is not to be compared. MC: its registers, undefined in the reference at power-on. AR: how many
-    frames the BIOS took."""
+    """Removes what cannot be compared. MC: its registers, which are undefined in the reference at power-on.
+    AR: the duration of the BIOS in frames."""
     if scheme == "MC":
         pokes = list(pokes_of([(0x80 + number, STA, 0x3C + number) for number in range(4)]))
     else:
@@ -160,7 +160,8 @@ def align(scheme, *machines):
 
 
 def compare(ale_py, probe, scheme, seed, frames):
-    """Nothing, or a sentence about the first difference. Of AR, RAM only: the reference's BIOS leaves a picture."""
+    """The first difference as a sentence, or nothing. For AR, only RAM is compared: the reference's BIOS
+    leaves a picture."""
     rng = random.Random(f"{scheme} {seed} accesses")
     seen = 256 if scheme == "AR" else None
     with tempfile.TemporaryDirectory() as folder:

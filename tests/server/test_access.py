@@ -1,4 +1,4 @@
-"""Who may play: tokens, TLS, and what is refused beyond this machine."""
+"""Access: tokens, TLS, and what is refused on addresses that other machines can reach."""
 
 import contextlib
 import os

@@ -1,7 +1,7 @@
-"""Clients that ask for as much as they can: the server's other clients are answered, and the server ends when it is told to.
+"""Clients that request as much as they can: the server still answers other clients, and stops when it is
+told to.
 
-The thresholds leave room for slow machines. What they guard against takes seconds to minutes.
-"""
+The thresholds leave room for slow machines. The faults that they guard against take seconds to minutes."""
 
 import base64
 import os
@@ -27,7 +27,7 @@ def load_inline(program):
     return b"load inline max_episode_frames=0 image=" + base64.b64encode(image)
 
 
-# What a client asks first, and then for as long as it lives. One such request takes long.
+# A client's first requests, and then its repeated ones, each of which takes long.
 SKIPPING = ENDLESS + b" frame_skip=1000"
 NO_OPS = ENDLESS + b" noop_max=1000"
 LONG_REQUESTS = {
@@ -42,7 +42,7 @@ LONG_REQUESTS = {
 
 
 def begin(wire, first, request):
-    """The client has got its replies to `first`; some of `request` are under way, unread."""
+    """The client has received its replies to `first`; some of `request` are in flight, unread."""
     for line in first:
         reply = ask(wire, line)
         assert reply.startswith(b"ok"), reply
@@ -50,7 +50,7 @@ def begin(wire, first, request):
 
 
 def median_wait(wire, count=9):
-    """Seconds that a client waits for a short act."""
+    """The latency of a short act, in seconds."""
     waits = []
     for _ in range(count):
         asked = time.monotonic()
@@ -76,7 +76,7 @@ def processor_seconds(server):
 
 
 class Case(unittest.TestCase):
-    """Has a server, and connections to it, that end with the test."""
+    """A server, and connections to it, which are closed at the end of the test."""
 
     def start(self, server):
         self.server = server

@@ -1,4 +1,4 @@
-"""The line protocol over the wire: clients that are slow, leave, or ask for much do not disturb the others."""
+"""The line protocol over the wire: slow, vanishing or demanding clients do not affect others."""
 
 import os
 import resource
@@ -65,8 +65,8 @@ class Strict(unittest.TestCase):
 
 
 class Pieces(unittest.TestCase):
-    """A client that writes a request in pieces, and lets its system hold the second back until the first is
-    acknowledged. Left to itself, the server's system does that after 40 ms."""
+    """A client that writes a request in pieces, and lets its system delay the second until the first is
+    acknowledged. By default, the server's system acknowledges after 40 ms."""
 
     def steps_a_second(self, port, first, request, count):
         with socket.create_connection(("127.0.0.1", port), PATIENCE) as connection, connection.makefile("rb") as reader:
@@ -101,7 +101,7 @@ class Pieces(unittest.TestCase):
 
 
 class Netcat(unittest.TestCase):
-    """OpenBSD's closes its sending end with -N only."""
+    """OpenBSD's netcat closes its sending end only with -N."""
 
     def converse(self, requests, *words):
         done = subprocess.run(["nc", *words], input=requests, capture_output=True, timeout=PATIENCE)

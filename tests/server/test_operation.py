@@ -1,4 +1,4 @@
-"""What those who run a server rely on: limits, the end, the ready file, systemd's sockets."""
+"""Operation of a server: limits, its end, the ready file, systemd's sockets."""
 
 import os
 import signal
@@ -16,7 +16,7 @@ LONG = b"branch root " + b"NOOP*%d " % FRAMES * 100 + b"\n"  # 100,000 frames, o
 
 
 def load(wire, request=b""):
-    """Loads a game, sends the request at once behind that, and waits until only its reply is still to come."""
+    """Loads a game, sends the request directly after it, and waits until only its reply is missing."""
     wire.send(LOAD + request)
     for _ in LOAD.splitlines():
         wire.line()
@@ -305,7 +305,8 @@ class Threads(unittest.TestCase):
 
 
 class Systemd(unittest.TestCase):
-    """By its convention, played by the test: sockets from descriptor 3 on, and variables that name this process."""
+    """The convention of systemd, played by the test: sockets from descriptor 3 on, and variables that name
+    this process."""
 
     def start(self, folder, options, names="line:classic"):
         sockets = [socket.socket(socket.AF_UNIX) for _ in range(2)]

@@ -1,4 +1,5 @@
-"""Small cases of the classic protocol over every transport, and clients that leave, stall or make no sense."""
+"""Small cases of the classic protocol over every transport, and clients that leave, stall or send invalid
+lines."""
 
 import os
 import unittest
@@ -9,7 +10,7 @@ MEBIBYTE = 1 << 20
 
 
 def converse(transport, data, *options, **image):
-    """Sends `data`, closes, and returns what came back, the exit status and the log."""
+    """Sends `data` and closes. Returns the output, the exit status and the log."""
     with Session(transport, "--seed", "123", "--sticky", "0", *options, **image) as session:
         session.wire.send(data)
         session.wire.stop_sending()
@@ -115,7 +116,7 @@ class Leaving(unittest.TestCase):
 
     def check_sent(self, transport, data):
         received, status, log = converse(transport, data)
-        # A last line that is too short is refused; all others are carried out.
+        # A last line that is too short is refused; all others are executed.
         last, numbers = data.split(b"\n")[-1], 2 if b"\n" in data else 4
         refused = bool(last) and len([part for part in last.split(b",") if part]) < numbers
         self.assertEqual(received.endswith(b"DIE\n"), not refused)
@@ -160,7 +161,7 @@ class Stalling(unittest.TestCase):
     AHEAD = b"1,1,0,1\n" + b"3,18\n" * 1000
 
     def stall(self, session):
-        """Asks for 67 MB of screens and reads none of them."""
+        """Requests 67 MB of screens, and reads none of them."""
         session.wire.send(self.AHEAD)
 
     def memory(self, session):

@@ -1,4 +1,4 @@
-"""A start that fails says why in one line, with an exit status and nothing on standard output."""
+"""A start that fails prints its reason in one line, with an exit status and nothing on standard output."""
 
 import hashlib
 import os
@@ -23,7 +23,7 @@ class Refusals(unittest.TestCase):
 
 class Images(Refusals):
     def check_image(self, data, *hints):
-        """Every server refuses an image with these bytes, and makes nothing."""
+        """Every server refuses an image with these bytes, and creates nothing."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "pong.bin")
             with open(path, "wb") as image:
@@ -118,7 +118,7 @@ class CommandLine(Refusals):
 
 
 class Folders(unittest.TestCase):
-    """What lies in the folder of --roms; what can't be used there is passed over."""
+    """Files in the folder of --roms; unusable ones are skipped."""
 
     def games(self, prepare):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,4 +1,4 @@
-// The property of states, over all games: see check.hpp. scripts/check/snapshots runs this.
+// Tests saved states of all games: see check.hpp. scripts/check/snapshots runs this.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -29,7 +29,7 @@ std::shared_ptr<const Image> image_of(const CatalogueEntry& entry, const Game& g
   return entry.built_in ? load_image("builtin:" + std::string(entry.name)) : find_rom_of(game);
 }
 
-// Why no machine runs them; empty if one does.
+// Why no machine can run the game; empty if one can.
 std::string obstacle(const std::shared_ptr<const Image>& image, const std::shared_ptr<const Game>& game) {
   try {
     const Environment environment(image, game, Settings{});
@@ -71,7 +71,7 @@ std::string check_game(const Cartridge& cartridge, const Cartridge& other, Plan 
   return {};
 }
 
-// The games, shared out among threads. How many had a fault?
+// Distributes the games over threads. Returns how many had a fault.
 int check_games(const std::vector<Cartridge>& cartridges, const Options& options) {
   std::atomic<std::size_t> next = 0;
   std::atomic<int> faults = 0;

@@ -51,7 +51,7 @@ const std::vector<Recipe>& recipes() {
       {"CV 4K", 4096, 2048, {{0x1000, 0x800}}},
       {"AR", kStarpathLoad, 2048, {{0x1000, 0x100}, {0x1FF8, 1}, {0x1850, 1}}},
       {"MB", 65536, 4096, {{0x1FF0, 1}}},
-      // The window that the program runs in shows ROM.
+      // The program's window shows ROM.
       {"MC", 131072, 1024, {{0x003C, 3}, {0x1000, 0xC00}, {0x1FFC, 2}}, {0xA9, 0x90, 0x85, 0x3F}},
   };
   return all;
@@ -73,9 +73,9 @@ bool jumps(unsigned opcode) {
 
 bool branches(unsigned opcode) { return (opcode & 0x1F) == 0x10; }
 
-// A frame of straight code, again and again: writes to the TIA, loops that wait, touched hot spots, and any
-// instruction that there is but jumps. All units have the same instructions, with other values, so that code
-// that changes the bank goes on in the other one; none lies across a border of two windows.
+// A frame of straight code, repeatedly: writes to the TIA, loops that wait, accesses of hot spots, and any
+// instruction except jumps. All units have the same instructions, with different values, so that code that
+// switches the bank continues in the other one. No instruction crosses a border of two windows.
 class Writer {
  public:
   Writer(const Recipe& recipe, unsigned seed) : recipe_(recipe), random_(seed) {}
@@ -158,7 +158,7 @@ class Writer {
     return all;
   }
 
-  // Load 0 fills the three banks of RAM; it is started with the last of them in the upper half
+  // Load 0 fills the three banks of RAM. It starts with the last of them in the upper half
   // (docs/spec/cartridges.md, 9).
   Bytes starpath_load() {
     constexpr unsigned kConfiguration = 0x0D, kPagesABank = 8;

@@ -19,7 +19,7 @@ constexpr auto kVersion1 =
     "32 31 0:29 / /sys/fs/cgroup/cpu,cpuacct rw - cgroup cgroup rw,cpu,cpuacct\n"
     "35 31 0:32 / /sys/fs/cgroup/memory rw - cgroup cgroup rw,memory\n";
 
-// The files of a system, in a folder.
+// The files of a simulated system, in a folder.
 class Root {
  public:
   ~Root() { fs::remove_all(path_); }

@@ -1,4 +1,4 @@
-// What a program costs on the interpreter and on the translator, from power-on, in processor time.
+// The cost of a program on the interpreter and on the translator, from power-on, in processor time.
 #pragma once
 
 #include <vector>
@@ -15,11 +15,11 @@ struct Cost {
 
 enum class Look { kNone, kEveryFrame };  // at the picture
 
-// Switches a machine on, runs it for so many steps, and throws it away, on both in turns: the medians of
-// `rounds` rounds. What translation needs is begun afresh in each.
+// Switches a machine on, runs `steps` steps, and releases it, alternately with both CPUs. Returns the medians
+// of `rounds` rounds. Each round translates from the beginning.
 Cost cost_of(const Program& program, int steps, Look look, int rounds);
 
-// The longest step of such a run, and of each the shortest time that it took in `rounds` rounds.
+// The longest step of such a run. For each step, the shortest time of `rounds` rounds counts.
 Cost longest_step(const Program& program, int steps, Look look, int rounds);
 
 }  // namespace racebeam::test

@@ -13,7 +13,7 @@
 namespace racebeam::test {
 namespace {
 
-// A small picture: what the processor does is compared here.
+// A small picture, because the CPU is tested.
 Properties properties_for(const Program& program) {
   Properties properties;
   properties.format = Format::kNtsc;

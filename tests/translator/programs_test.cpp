@@ -1,4 +1,4 @@
-// The interpreter against the translator. scripts/check/programs runs as many as are asked for.
+// Compares the interpreter and the translator. scripts/check/programs runs more programs.
 #include <catch2/catch.hpp>
 
 #include "emulator/translator/translator.hpp"

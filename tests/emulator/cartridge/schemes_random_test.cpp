@@ -1,4 +1,5 @@
-// Schemes beside their models (reference_cartridges.hpp): random reads and writes, with states saved and restored.
+// Compares schemes with their models (reference_cartridges.hpp): random reads and writes, with saved and
+// restored states.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
@@ -66,7 +67,7 @@ class Trial {
   }
 
  private:
-  // A bench has read the reset vector already, which some cartridges notice.
+  // The bench has read the reset vector already, which affects some cartridges.
   void forget_vector() {
     Slot& slot = bench_.board.slot;
     bench_.state.cartridge.bank = {};
@@ -105,7 +106,7 @@ class Trial {
     kept_ = {bench_.state, bench_.board.cartridge_ram, model_->copy(), cycle_};
   }
 
-  // The map is made anew from the state; it must show the same.
+  // Rebuilds the map from the state; it must not change.
   void go_back() {
     bench_.board.cartridge_ram = kept_.ram;
     bench_.restore(kept_.state);

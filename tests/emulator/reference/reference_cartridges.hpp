@@ -1,5 +1,5 @@
-// Models of the cartridge schemes, written from docs/spec/cartridges.md, 5 to 10, and from nothing else: each
-// decodes every address anew. They know no memory map, and of emulator/ nothing at all.
+// Models of the cartridge schemes, written only from docs/spec/cartridges.md, 5 to 10. Each decodes every
+// address anew. They use no memory map, and nothing of emulator/.
 #pragma once
 
 #include <array>
@@ -148,7 +148,7 @@ struct ModelMc : Copyable<ModelMc> {
   }
 };
 
-// Without a load: there is no RIOT here.
+// Without loads, because there is no RIOT here.
 struct ModelAr : Copyable<ModelAr> {
   using Copyable::Copyable;
   unsigned configuration = 0, hold = 0;

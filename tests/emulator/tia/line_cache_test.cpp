@@ -1,4 +1,4 @@
-// Which lines are remembered for how long: what a picture shows, and rows that flicker.
+// Which lines are recorded, and for how long: rows of a picture, and rows that flicker.
 #include <catch2/catch.hpp>
 #include <functional>
 #include <set>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kRows = 40;
 
-// As a drawn line whose background has this colour.
+// Adds a drawn line with this background colour.
 LineNumber draw(LineCache& memory, std::size_t row, unsigned colour) {
   TiaRegisters registers;
   registers.color[3] = static_cast<std::uint8_t>(colour);
@@ -21,8 +21,8 @@ LineNumber draw(LineCache& memory, std::size_t row, unsigned colour) {
   return memory.add(record);
 }
 
-// Frames of which each row is drawn in the colour that `colour(frame, row)` says. Answers whether each row
-// had a record of its own in the last two.
+// Draws frames with the row colours `colour(frame, row)`. Returns whether each row had a record of its own in
+// the last two frames.
 bool ends_with_two_sets(int frames, const std::function<unsigned(int, std::size_t)>& colour) {
   LineCache memory;
   std::set<const LineRecord*> last;

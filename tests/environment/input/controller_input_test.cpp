@@ -5,7 +5,7 @@
 namespace racebeam {
 namespace {
 
-// What is pressed, and where the paddles end up.
+// The pressed controls, and the final positions of the paddles.
 struct Player {
   ControllerInput hands;
   Inputs inputs{};

@@ -19,7 +19,7 @@ std::vector<std::uint32_t> first_draws(std::uint32_t seed, std::size_t count) {
   return draws;
 }
 
-// The actions that become current when 1, 2, 3 ... are asked for.
+// The actions that take effect when 1, 2, 3 ... are requested.
 std::vector<int> performed(float p, std::uint32_t seed, int acts) {
   const Sticky sticky(p);
   MersenneTwister random(seed);

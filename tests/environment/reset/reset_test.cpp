@@ -1,4 +1,4 @@
-// What happens between two episodes (docs/spec/environment.md, 7).
+// Resets between episodes (docs/spec/environment.md, 7).
 #include <catch2/catch.hpp>
 
 #include "tests/environment/steered.hpp"

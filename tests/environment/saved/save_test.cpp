@@ -1,4 +1,4 @@
-// Saving and restoring, in one process: nothing that can be seen afterwards tells the difference.
+// Saving and restoring in one process has no observable effect.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -30,8 +30,7 @@ Future play(Environment& environment, int frames, unsigned seed) {
   return seen;
 }
 
-// Along a random run, every state restores to what it was, in this machine, in another one, and through
-// bytes.
+// Along a random run, every state can be restored: in this machine, in another one, and from bytes.
 void check_identity_of_states(const std::shared_ptr<const Image>& image,
                               const std::shared_ptr<const Game>& game, Settings settings, int frames,
                               int stride) {
@@ -79,8 +78,8 @@ TEST_CASE("Every state of a run restores to itself, also with averaging and skip
   check_identity_of_states(test::counter_image(), game, settings, 20, 2);
 }
 
-// Plain, paddles, unfinished frames, E0, FE, on-board RAM, PAL, and the one whose missiles the reference
-// forgets.
+// Plain games, paddles, unfinished frames, E0, FE, on-board RAM, PAL, and the game whose missiles the
+// reference forgets.
 TEST_CASE("Every state of a run of a commercial game restores to itself") {
   constexpr const char* kGames[] = {"seaquest", "breakout",        "tetris", "montezuma_revenge",
                                     "robotank", "elevator_action", "skiing", "yars_revenge",

@@ -1,4 +1,4 @@
-// What is wrong in a state is named. That whatever passes does no harm is saved_state_fuzz_test.cpp's business.
+// Errors in a state are named. That accepted states do no harm is tested in saved_state_fuzz_test.cpp.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <functional>
@@ -20,7 +20,7 @@ struct Wrong {
   std::function<void(Values&)> spoil;
 };
 
-// `spoil` is told to change one field of a right state; the bytes' checksum is right all the same.
+// `spoil` changes one field of a valid state; the checksum of the bytes is right.
 std::string refusal(Environment& environment, const std::function<void(Values&)>& spoil) {
   Environment::Saved saved = *environment.save(true);
   spoil(saved.values);
@@ -75,7 +75,7 @@ TEST_CASE("A state with a value that no machine has is refused by the field's na
   }
 }
 
-// The most that a byte of CartridgeState::bank can be; 0 for all that are not listed.
+// The largest valid value of a byte of CartridgeState::bank; 0 for those that are not listed.
 struct Most {
   const char* scheme;
   std::size_t index;

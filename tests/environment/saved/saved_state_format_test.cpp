@@ -1,4 +1,4 @@
-// A state as bytes: exact, and nothing else is taken for one.
+// A state as bytes: it is restored exactly, and other bytes are refused.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <zlib.h>
@@ -45,7 +45,8 @@ TEST_CASE("A state carries its generator through bytes") {
   CHECK(*second.save(true)->random == *first.save(true)->random);
 }
 
-// 4K of CommaVid's: counts frames in the cartridge's RAM, which a state has no room for, and shows the count at $80.
+// 4K of CommaVid's scheme: counts frames in cartridge RAM that does not fit into a state, and shows the count
+// at $80.
 std::shared_ptr<const Image> image_with_ram() {
   std::vector<std::uint8_t> bytes(4096, 0xEA);
   bytes[0] = 100;  // first contents of the RAM
