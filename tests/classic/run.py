@@ -1,7 +1,8 @@
 """One run: a game, settings of the server, and the client's lines.
 
 A run's name contains everything that determines it: `pong:seed=7,skip=4,lines=500` is the same run on every
-machine. Settings that it does not name have their defaults."""
+machine. Settings that it does not name have their defaults.
+"""
 
 import pathlib
 import random

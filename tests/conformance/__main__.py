@@ -4,7 +4,8 @@ compared.
 Without options, all games are played: 20,000 frames in the default settings with each of two seeds, and
 2,000 frames in every other setting. That takes less than an hour on two cores. Results are stored in
 build/conformance; for a run that differs, also its picture and its actions. Status: 0 all identical, 1 a run
-differs, 2 usage error, 77 there is nothing to compare with, 130 interrupted."""
+differs, 2 usage error, 77 there is nothing to compare with, 130 interrupted.
+"""
 
 import pathlib
 import sys

@@ -1,7 +1,8 @@
 """What cannot be compared with the reference, and why. The plan leaves it out of a run, and the report
 counts it.
 
-The findings are in docs/spec/environment.md, 5, docs/spec/games/README.md and docs/spec/palette.md."""
+The findings are in docs/spec/environment.md, 5, docs/spec/games/README.md and docs/spec/palette.md.
+"""
 
 from dataclasses import dataclass, replace
 

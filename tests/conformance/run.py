@@ -1,7 +1,8 @@
 """One run of the suite: a game, its settings, a seed and a number of frames; and its actions.
 
 A run's name contains everything that determines it: `pong:skip=4,sticky=0.25,averaging=1,seed=7,frames=2000`
-is the same run on every machine. Settings that it does not name have their defaults."""
+is the same run on every machine. Settings that it does not name have their defaults.
+"""
 
 import pathlib
 import random

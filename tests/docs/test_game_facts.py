@@ -1,6 +1,7 @@
 """The program's facts of each game equal those of the specification (docs/spec/games/README.md, 1).
 
-The program reads its own game files (games/catalogue), so that the two can be compared."""
+The program reads its own game files (games/catalogue), so that the two can be compared.
+"""
 
 import json
 import os

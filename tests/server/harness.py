@@ -1,7 +1,8 @@
 """Shared by tests of the running server: starts it, talks to it over four transports, and waits for its end.
 
 RACEBEAM_BINARY names the executable. RACEBEAM_ROMS (or an ale-py in .venv) has the commercial images; tests
-that need one are skipped without it."""
+that need one are skipped without it.
+"""
 
 import glob
 import os

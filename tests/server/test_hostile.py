@@ -1,7 +1,8 @@
 """Clients that request as much as they can: the server still answers other clients, and stops when it is
 told to.
 
-The thresholds leave room for slow machines. The faults that they guard against take seconds to minutes."""
+The thresholds leave room for slow machines. The faults that they guard against take seconds to minutes.
+"""
 
 import base64
 import os

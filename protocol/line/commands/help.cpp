@@ -25,7 +25,7 @@ std::string list_of(Words names) {
   return list;
 }
 
-// PROTOCOL.md has the same tables, with marked words.
+// protocol/PROTOCOL.md has the same tables, with marked words.
 std::string plain(std::string text) {
   std::erase(text, '`');
   return text;
