@@ -15,7 +15,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 from images import SKIPPED, folder, image, images
-from kept import write as write_kept
+from recorded import write as write_kept
 from run import Run, drawn
 from session import BINARY, difference, play
 

@@ -55,7 +55,7 @@ class Tool(unittest.TestCase):
         self.assertIn("0 of 0 runs identical", output)
 
     def test_what_is_kept_is_what_the_reference_said(self):
-        from kept import digest, read
+        from recorded import digest, read
         from session import play
         self.compare(f"exec '{BINARY}' classic \"$@\"", "--seed", "1", "--seeds", "2", "--keep", str(self.folder / "kept"))
         runs = read(self.folder / "kept")

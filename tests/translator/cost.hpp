@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "emulator/console.hpp"
-#include "tests/translator/program.hpp"
+#include "tests/translator/random_program.hpp"
 
 namespace racebeam::test {
 

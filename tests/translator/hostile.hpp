@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/translator/program.hpp"
+#include "tests/translator/random_program.hpp"
 
 namespace racebeam::test {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "emulator/console.hpp"
-#include "tests/translator/program.hpp"
+#include "tests/translator/random_program.hpp"
 
 namespace racebeam::test {
 namespace {

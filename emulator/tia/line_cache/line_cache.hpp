@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "emulator/tia/line_cache/flicker.hpp"
+#include "emulator/tia/line_cache/flicker_detector.hpp"
 #include "emulator/tia/line_cache/line_record.hpp"
 
 namespace racebeam {

@@ -5,7 +5,7 @@ import pathlib
 
 from run import Run
 
-FILE = pathlib.Path(__file__).with_name("kept.txt")
+FILE = pathlib.Path(__file__).with_name("recorded.txt")
 
 
 def digest(answer):

@@ -6,7 +6,7 @@ import unittest
 from concurrent.futures import ThreadPoolExecutor
 
 from images import SKIPPED, folder, image, images
-from kept import digest, read
+from recorded import digest, read
 from session import BINARY, play
 
 RUNS = [(run, wanted) for run, wanted in read() if run.game in images()]

@@ -1,4 +1,4 @@
-#include "tests/translator/program.hpp"
+#include "tests/translator/random_program.hpp"
 
 #include <algorithm>
 #include <array>

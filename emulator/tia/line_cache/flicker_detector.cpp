@@ -1,4 +1,4 @@
-#include "emulator/tia/line_cache/flicker.hpp"
+#include "emulator/tia/line_cache/flicker_detector.hpp"
 
 #include <algorithm>
 #include <cstdint>
