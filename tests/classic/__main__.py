@@ -15,7 +15,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 from images import SKIPPED, folder, image, images
-from recorded import write as write_kept
+from recorded import write as write_recorded
 from run import Run, drawn
 from session import BINARY, difference, play
 
@@ -33,7 +33,7 @@ def parse_arguments():
     add("--lines", type=int, default=1000, metavar="N", help="of a run (default 1000)")
     add("--run", action="append", metavar="NAME", help="this run alone, by the name that a report gives it; repeatable")
     add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs at once (default: one a processor)")
-    add("--keep", type=pathlib.Path, metavar="FILE", help="write digests of what the reference said")
+    add("--record", type=pathlib.Path, metavar="FILE", help="write digests of what the reference said")
     return parser.parse_args()
 
 
@@ -77,8 +77,8 @@ def main():
         print(f"scripts/check/classic-conformance: {error}", file=sys.stderr)
         return 2
     results = compare_all(options, runs)
-    if options.keep:
-        write_kept(options.keep, {run: expected for run, verdict, expected in results if expected and verdict != UNKNOWN})
+    if options.record:
+        write_recorded(options.record, {run: expected for run, verdict, expected in results if expected and verdict != UNKNOWN})
     return report({run: verdict for run, verdict, _ in results})
 
 

@@ -54,11 +54,11 @@ class Tool(unittest.TestCase):
         self.assertIn("1 games that the reference does not know: beamfall", output)
         self.assertIn("0 of 0 runs identical", output)
 
-    def test_what_is_kept_is_what_the_reference_said(self):
+    def test_the_record_is_the_output_of_the_reference(self):
         from recorded import digest, read
         from session import play
-        self.compare(f"exec '{BINARY}' classic \"$@\"", "--seed", "1", "--seeds", "2", "--keep", str(self.folder / "kept"))
-        runs = read(self.folder / "kept")
+        self.compare(f"exec '{BINARY}' classic \"$@\"", "--seed", "1", "--seeds", "2", "--record", str(self.folder / "recorded"))
+        runs = read(self.folder / "recorded")
         self.assertEqual(len(runs), 2)
         for run, wanted in runs:
             self.assertEqual(digest(play([BINARY, "classic"], run, str(IMAGE))), wanted)

@@ -5,7 +5,7 @@
 
 namespace racebeam {
 
-void Flicker::begin_frame() {
+void FlickerDetector::begin_frame() {
   odd_ = !odd_;
   if (++frame_ == period_) frame_ = 0;
   if (frame_ == kFirst) alike_ = drawn_with_one_ = 0;
@@ -14,13 +14,13 @@ void Flicker::begin_frame() {
   counts_ = (frame_ >= kFirst && frame_ <= kLast) || frame_ >= period_ - 2;
 }
 
-void Flicker::judge() {
+void FlickerDetector::judge() {
   const bool found = found_ ? drawn_with_two_ < drawn_with_one_ : alike_ >= kMany;
   period_ = found == found_ ? std::min(2 * period_, kLongPeriod) : kShortPeriod;
   found_ = found;
 }
 
-void Flicker::count(LineRecord& drawn) {
+void FlickerDetector::count(LineRecord& drawn) {
   if (frame_ > kLast) {
     ++drawn_with_two_;
     return;

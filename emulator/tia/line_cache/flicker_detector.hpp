@@ -10,7 +10,7 @@
 
 namespace racebeam {
 
-class Flicker {
+class FlickerDetector {
  public:
   void begin_frame();  // of a frame that is drawn
 

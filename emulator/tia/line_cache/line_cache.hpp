@@ -45,7 +45,7 @@ class LineCache {
   std::array<std::vector<LineRecord>, 2> sets_;
   std::vector<LineRecord>* set_ = sets_.data();
   LineNumber next_number_ = 0;
-  Flicker flicker_;
+  FlickerDetector flicker_;
   bool is_new_ = true;
 };
 
