@@ -56,10 +56,10 @@ class Console {
   // passes can be restored and run, whatever its source.
   void check(const State& state, std::span<const std::uint8_t> cartridge_ram = {}) const;
 
-  Format format() const;  // kNtsc, kPal, kPal60 or kSecam: detected, or from the properties
-  bool has_paddles() const;  // in either port
-  int height() const;  // rows of picture(): the picture's height, at least 200
-  std::span<const std::uint8_t> picture() const;  // height() x 160 palette indices, drawn last
+  Format format() const;                                   // kNtsc, kPal, kPal60 or kSecam: detected, or from the properties
+  bool has_paddles() const;                                // in either port
+  int height() const;                                      // rows of picture(): the picture's height, at least 200
+  std::span<const std::uint8_t> picture() const;           // height() x 160 palette indices, drawn last
   std::span<const std::uint8_t> previous_picture() const;  // the picture before it
 
   // Both buffers in their order, for a saved state; undrawn ones as they are. They are shared until the
@@ -77,7 +77,7 @@ class Console {
 
   std::span<const std::uint8_t, 128> ram() const;  // $80-$FF
   void set_ram(int index, std::uint8_t value);
-  // reads RAM and cartridge without side effects; 0 elsewhere
+  // Reads RAM and cartridge without side effects; 0 elsewhere.
   std::uint8_t peek(std::uint16_t address) const;
 
  private:

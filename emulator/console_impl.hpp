@@ -29,7 +29,7 @@ struct Console::Impl {
   struct {
     Collisions sought = 0;
     Collisions unknown = 0;  // latches of the state that have not been computed
-    FrameStart step;  // the step that computes them, if there are any
+    FrameStart step;         // the step that computes them, if there are any
   } latches;
 
   DeferredRenderPolicy render_policy;

@@ -45,9 +45,9 @@ class Environment::Saved {
   Identity identity;
   Values values;
   std::vector<std::uint8_t> cartridge_ram;  // Console::cartridge_ram()
-  Properties properties;  // of the console
-  FrameBuffers pictures;  // shared with the console until it draws again
-  int height = 0;  // visible rows of the pictures
+  Properties properties;                    // of the console
+  FrameBuffers pictures;                    // shared with the console until it draws again
+  int height = 0;                           // visible rows of the pictures
   std::optional<MersenneTwister> random;
 
   // As Environment::state_hash() and same_state(). States of different images are never the same.

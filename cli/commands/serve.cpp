@@ -144,7 +144,7 @@ int serve(const ServeOptions& options) {
 int serve(ServeOptions& options, CLI::App& command) {
   return_large_blocks();
   const std::vector<Setting> settings = complete(command);
-  // before anything slow, and before anything that may fail
+  // Before anything slow, and before anything that may fail.
   remove_stale_ready_file(options.server.ready_file);
   finish(options, settings);
   set_up_log(options.log_level, options.log_format);

@@ -34,9 +34,9 @@ class Board {
   Sound sound;
   Slot slot;
   std::vector<std::uint8_t> cartridge_ram;  // what does not fit into the state; empty for most schemes
-  WriteLog* log = nullptr;  // of the step that runs
-  CodeWindow code;    // where the CPU fetches; empty after the map has changed or the frame has closed
-  bool stop = false;  // the frame has closed: the CPU stops after this instruction
+  WriteLog* log = nullptr;                  // of the step that runs
+  CodeWindow code;                          // where the CPU fetches; empty after the map has changed or the frame has closed
+  bool stop = false;                        // the frame has closed: the CPU stops after this instruction
 
   // Accesses of the CPU where there is no plain memory. `latch` is the data bus before the access.
   std::uint8_t read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);  // plain memory or a device
@@ -87,7 +87,7 @@ class Board {
   bool needs_exact_step() const;
   void set_format_limits();  // after `video` or the frame's origin has changed
 
-  void map_memory();  // rebuilds everything that is derived from the state, after a reset
+  void map_memory();                 // rebuilds everything that is derived from the state, after a reset
   void restore(const State& other);  // replaces the state
 
  private:
@@ -123,13 +123,13 @@ class Board {
   std::array<KnownWindow, 64> known_windows_{};
   Ports ports_;
   std::uint64_t plain_registers_ = 0;
-  // the first cycle, at a line's start, from which a TIA write closes the frame
+  // The first cycle, at a line's start, from which a TIA write closes the frame.
   std::int32_t overlong_cycle_ = 0;
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
-  std::int32_t last_access_ = 0;     // cycle of the last TIA access that was no plain write: the picture is drawn so far
-  bool exact_mode_ = false;     // each access is played on its own
-  bool picture_is_exact_ = true;  // of the last step, even if it ran in another mode
-  bool fetched_latches_ = false;     // an opcode was read from a collision register
+  std::int32_t last_access_ = 0;           // cycle of the last TIA access that was no plain write: the picture is drawn so far
+  bool exact_mode_ = false;                // each access is played on its own
+  bool picture_is_exact_ = true;           // of the last step, even if it ran in another mode
+  bool fetched_latches_ = false;           // an opcode was read from a collision register
 };
 
 }  // namespace racebeam

@@ -36,9 +36,9 @@ using PortReader = std::uint8_t (*)(Slot&, std::uint16_t address, std::int32_t c
 
 struct MapperOps {
   void (*reset)(Slot&);  // sets the initial banks
-  void (*map)(Slot&);  // maps what the banks select
-  PortReader read;  // reads a hidden page, or watches a read of the TIA
-  // any cartridge address, or a watched TIA address
+  void (*map)(Slot&);    // maps what the banks select
+  PortReader read;       // reads a hidden page, or watches a read of the TIA
+  // Any cartridge address, or a watched TIA address.
   Delivery (*write)(Slot&, std::uint16_t address, std::uint8_t value);
 
   // Whether the cartridge can be in `state`, which comes from an untrusted source. It must check every value
@@ -54,11 +54,11 @@ struct MapperOps {
 
 struct Scheme : MapperOps {
   std::string_view name;
-  unsigned image;  // the least bytes of an image
+  unsigned image;    // the least bytes of an image
   unsigned hotspot;  // Atari's schemes: offset in 4K of the first hot spot, number of banks, initial bank
   std::uint8_t banks, initial;
-  unsigned ram;  // bytes on the cartridge, or of its registers
-  bool random_ram;  // filled with random bytes at every reset
+  unsigned ram;      // bytes on the cartridge, or of its registers
+  bool random_ram;   // filled with random bytes at every reset
   bool watches_tia;  // takes part in accesses to the TIA's addresses
 };
 

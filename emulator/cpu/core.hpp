@@ -20,17 +20,17 @@ struct ZeroPage {
 
 struct Core {
   Board& board;
-  std::int64_t clock;      // cycle() and executed() in one number, so that an instruction counts both with one addition
-  std::uintptr_t at;       // PC, as an address in the host's memory
+  std::int64_t clock;         // cycle() and executed() in one number, so that an instruction counts both with one addition
+  std::uintptr_t at;          // PC, as an address in the host's memory
   std::uintptr_t start, end;  // of the code window; end is 0 if locate() must find the next instruction
-  std::uintptr_t origin;   // the host's address of address 0
-  std::int32_t budget;     // instructions that may be executed
-  std::int32_t enough;     // from this count on, it stops at the next instruction that checks
-  std::uint32_t nz;        // N is bit 15 or bit 7; Z is set when bits 7-0 are 0
+  std::uintptr_t origin;      // the host's address of address 0
+  std::int32_t budget;        // instructions that may be executed
+  std::int32_t enough;        // from this count on, it stops at the next instruction that checks
+  std::uint32_t nz;           // N is bit 15 or bit 7; Z is set when bits 7-0 are 0
   std::uint8_t A, X, Y, SP;
-  std::uint8_t C, V, D, I; // 0 or 1
-  std::uint8_t latch;      // the data bus after the last access
-  bool counted = false;    // the alarm bit has been seen
+  std::uint8_t C, V, D, I;  // 0 or 1
+  std::uint8_t latch;       // the data bus after the last access
+  bool counted = false;     // the alarm bit has been seen
 
   static constexpr int kCycleBit = 24;
   static constexpr std::int64_t kCycle = 1 << kCycleBit;

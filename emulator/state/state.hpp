@@ -22,11 +22,11 @@ struct CpuState {
 
 struct RiotState {
   std::array<std::uint8_t, 128> ram{};
-  std::uint32_t timer_set = 0;   // cycle at which the timer was written
-  std::uint32_t late_read = 0;   // cycle of the first read after it ran out
-  std::uint8_t timer = 0;        // value written
-  std::uint8_t shift = 0;        // log2 of the interval
-  std::uint8_t late = 0;  // whether late_read is valid
+  std::uint32_t timer_set = 0;  // cycle at which the timer was written
+  std::uint32_t late_read = 0;  // cycle of the first read after it ran out
+  std::uint8_t timer = 0;       // value written
+  std::uint8_t shift = 0;       // log2 of the interval
+  std::uint8_t late = 0;        // whether late_read is valid
   std::uint8_t swacnt = 0;
 };
 
@@ -36,7 +36,7 @@ struct PlayerState {
   std::uint8_t nusiz = 0;     // copies of player and missile; size of the missile
   std::uint8_t position = 0;  // 0-159
   std::uint8_t motion = 0;    // HMPx >> 4
-  std::uint8_t skip = 0;  // the first copy is left out until the end of the line
+  std::uint8_t skip = 0;      // the first copy is left out until the end of the line
 };
 
 struct MissileState {
@@ -66,18 +66,18 @@ struct TiaRegisters {
   std::uint8_t cosmic = 0;         // missile 0 moves by itself (docs/spec/tia.md, "Cosmic Ark mode")
   std::uint8_t cosmic_count = 0;
   CosmicShape cosmic_shape = CosmicShape::kNormal;
-  std::uint8_t enabled = 0;        // enabled_objects(), kept up to date
-  std::uint8_t spare[4]{};  // padding to whole words: lines are compared and masked by words
+  std::uint8_t enabled = 0;  // enabled_objects(), kept up to date
+  std::uint8_t spare[4]{};   // padding to whole words: lines are compared and masked by words
 };
 
 // The picture side of the TIA: registers, and where the beam is.
 struct TiaState : TiaRegisters {
-  std::int32_t origin = 0;         // F: colour clock at which line 0 of the frame starts, <= 0
-  std::int32_t cursor = 0;         // L: drawn up to this colour clock
-  std::int32_t left = 228;         // E: clocks left on the cursor's line; 0: its end is still to be processed
-  std::int32_t pixel = 0;          // index of the next pixel in the picture
-  std::uint32_t hmove_clock = 0;   // of the last HMOVE
-  std::uint16_t collisions = 0;    // one bit a pair of objects, see line.hpp
+  std::int32_t origin = 0;        // F: colour clock at which line 0 of the frame starts, <= 0
+  std::int32_t cursor = 0;        // L: drawn up to this colour clock
+  std::int32_t left = 228;        // E: clocks left on the cursor's line; 0: its end is still to be processed
+  std::int32_t pixel = 0;         // index of the next pixel in the picture
+  std::uint32_t hmove_clock = 0;  // of the last HMOVE
+  std::uint16_t collisions = 0;   // one bit a pair of objects, see line.hpp
   std::uint8_t spare_bytes[2]{};
 
   TiaRegisters& registers() { return *this; }

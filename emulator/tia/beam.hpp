@@ -92,7 +92,7 @@ class Beam {
   bool is_worthwhile() { return lines_.is_worthwhile(record()); }
   void forget_lines() { lines_.drop(); }
 
-  // for the cursor's row and those after it
+  // For the cursor's row and those after it.
   const LineNumber* shown() const { return &picture_->shows(row()); }
   [[gnu::noinline]] bool can_copy(const LineNumber* shown, LineNumber line) {
     return picture_->copy_row(other_, static_cast<std::size_t>(shown - &picture_->shows(0)), line);
@@ -141,7 +141,7 @@ class Beam {
     const int first = kLinePixels - tia_.left, last = first + clock - tia_.cursor;
     const bool left = first < part.left_end && last > part.left, right = first < part.right_end && last > part.right;
     if (left || right) return false;
-    // if it was enabled, its position matters
+    // If it was enabled, its position matters.
     if (tia_.enabled & object_bit(kPlayfield)) seen_ |= object_bit(kPlayfield);
     return true;
   }
@@ -177,8 +177,8 @@ class Beam {
   std::uint8_t stale_ = 0xFF;  // masks to rebuild, bit n: Object n
   bool lost_track_ = false;
   std::uint16_t seen_ = 0;
-  Collisions meetings_ = 0;     // pairs that have met: they need not be computed
-  Collisions unsought_ = 0;     // pairs that are not sought
+  Collisions meetings_ = 0;  // pairs that have met: they need not be computed
+  Collisions unsought_ = 0;  // pairs that are not sought
   std::uint8_t sought_objects_ = 0;
   bool cleared_ = false;
   std::uint32_t spans_ = 0;

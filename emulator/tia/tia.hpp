@@ -29,17 +29,17 @@ class Tia {
   void find_collisions(std::int32_t cycle, Collisions asked);  // computes these latches as of `cycle`
   Collisions asked() const { return asked_; }  // latches that have been read in this step
   bool cleared() const { return beam_.cleared(); }  // whether all latches have been, in this step
-  // of this step: an estimate of the host's instructions
+  // Of this step: an estimate of the host's instructions.
   std::uint32_t work() const { return work_ + 250 * beam_.spans(); }
   bool drew_all() const { return tia_.cursor >= beam_.end(); }  // whether the window is complete
   // catch_up() at the end of a picture. Returns false if an access that is not in the log may have left
   // visible pixels.
   bool end_picture(std::int32_t cycle);
-  // whether pixels that were drawn ahead are visible in a picture that stops here
+  // Whether pixels that were drawn ahead are visible in a picture that stops here.
   bool stopped_inside(std::int32_t cycle) const;
   void forget() { beam_.forget(); }  // the registers were replaced as a whole
   void forget_lines() { beam_.forget_lines(); }
-  // greys the rows that were not drawn when a step ended open
+  // Greys the rows that were not drawn when a step ended open.
   void grey(FrameBuffer& picture, std::int32_t cycle) const;
 
  private:
@@ -65,11 +65,11 @@ class Tia {
   Beam beam_;
   WriteLog* log_ = nullptr;
   const std::uint32_t* played_ = nullptr;  // entries up to here have been played
-  LineRecord* recorded_ = nullptr;  // the cursor's line, as far as it has been drawn
+  LineRecord* recorded_ = nullptr;         // the cursor's line, as far as it has been drawn
   Collisions asked_ = 0;
   std::uint32_t work_ = 0;
   bool watches_ = false;  // objects of a sought pair may meet, in a step without pixels
-  // the clock that the reference's beam has reached; ours may be behind, with the same registers
+  // The clock that the reference's beam has reached; ours may be behind, with the same registers.
   std::int32_t reached_ = 0;
 };
 

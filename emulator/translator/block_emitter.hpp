@@ -37,9 +37,9 @@ class BlockEmitter {
     Xbyak::RegExp place = {};
   };
 
-  enum class NzHome { kNumber, kA, kX, kY };             // r8d, or the register whose value they describe
-  enum class CarryHome { kNumber, kClear, kSet };        // r9d, or known when translating
-  enum class HostCarry { kUnknown, kSame, kInverted };   // whether the host's CF holds the carry
+  enum class NzHome { kNumber, kA, kX, kY };            // r8d, or the register whose value they describe
+  enum class CarryHome { kNumber, kClear, kSet };       // r9d, or known when translating
+  enum class HostCarry { kUnknown, kSame, kInverted };  // whether the host's CF holds the carry
 
   // What is known at one point of the block. Code that exits from there needs it.
   struct ExitState {
@@ -65,7 +65,7 @@ class BlockEmitter {
   void jump_to_other_batch(std::uint16_t target);
   void check_limit();
   void exit_before(const Instruction& instruction);  // The interpreter executes it. Call this in cold code.
-  void settle(const ExitState& exit);  // brings cycle and flags into their registers
+  void settle(const ExitState& exit);                // brings cycle and flags into their registers
   void exit_out_of_line(Xbyak::Label label, const Instruction& instruction, const ExitState& exit);
   ExitState exit_state() const { return {elapsed_, nz_, carry_, rom_loaded_}; }
   void cold(std::function<void()> emit) { cold_.push_back(std::move(emit)); }

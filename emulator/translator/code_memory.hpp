@@ -24,8 +24,8 @@ class CodeMemory {
  private:
   char* base_ = nullptr;
   std::size_t size_;
-  std::size_t used_ = 0;   // executable
-  std::size_t open_ = 0;   // pages up to here are writable
+  std::size_t used_ = 0;  // executable
+  std::size_t open_ = 0;  // pages up to here are writable
 };
 
 }  // namespace racebeam::translator

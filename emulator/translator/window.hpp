@@ -9,7 +9,7 @@ namespace racebeam::translator {
 
 // How the cartridge is wired: the same for all boards with one cartridge scheme.
 struct Wiring {
-  std::uint64_t plain_registers;  // TIA registers whose writes only go to the write log, a bit each
+  std::uint64_t plain_registers;                        // TIA registers whose writes only go to the write log, a bit each
   PortReader (*port_reader_at)(std::uint16_t address);  // of the scheme
 
   bool operator==(const Wiring&) const = default;
@@ -24,7 +24,7 @@ struct Wiring {
 
 // What a window's code is translated for. It is constant while the window's code is valid.
 struct Window : Wiring {
-  CodeWindow code;  // in the translator's own copy of the image
+  CodeWindow code;             // in the translator's own copy of the image
   const void* const* entries;  // by offset in the window: the start of a block, or null
 };
 

@@ -51,7 +51,7 @@ class ResetCache {
   static constexpr std::size_t kMost = 128;  // entries; the two pictures take most of their memory
 
   std::optional<ResetEnd> find(const ResetStart& start);
-  // replaces the entry that was not used for longest
+  // Replaces the entry that was not used for longest.
   void keep(const ResetStart& start, const ResetEnd& end);
   std::size_t size();
 

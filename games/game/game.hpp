@@ -16,7 +16,7 @@ namespace racebeam {
 struct GameImage {
   std::string md5;        // lower-case hex; empty: any image
   Properties properties;  // what the console must know about this image
-  bool accepted = true;  // false: another dump; it is not recognised as this game by its MD5
+  bool accepted = true;   // false: another dump; it is not recognised as this game by its MD5
 };
 
 // The origin of the rule in a game file's [rule].
@@ -24,7 +24,7 @@ enum class RuleSource { kAle012, kRacebeam };
 
 // A known error of the reference's rule, and its correction by --rules fixed ([fixed] in a game file).
 struct Correction {
-  std::optional<int> wraps;  // rewards are counted across the score's wrap at this number
+  std::optional<int> wraps;                     // rewards are counted across the score's wrap at this number
   std::string reference, correction, evidence;  // for the documents; empty if `wraps` says it all
 };
 
@@ -58,7 +58,7 @@ struct Game {
 
   bool has_rule() const { return rule.has_value(); }
   bool has_second_reward() const { return rule && rule->reward_b; }
-  std::vector<int> offered_modes() const;  // modes and two_player_modes, ascending
+  std::vector<int> offered_modes() const;      // modes and two_player_modes, ascending
   bool accepts(const std::string& md5) const;  // whether the rule was written for this image
   Properties properties_for(const std::string& md5) const;
 };

@@ -33,7 +33,7 @@ struct Variable {
 struct RuleProgram {
   std::vector<Variable> variables;  // variable n is Tally::values[n]
   Program step;
-  Program terminal, lives;  // for queries; they read variables only
+  Program terminal, lives;      // for queries; they read variables only
   std::optional<int> reward_b;  // the variable with player B's reward, if the rule has one
 };
 

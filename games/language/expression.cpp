@@ -46,7 +46,7 @@ constexpr std::array kFunctions = {Function{"if", 3, Op::kSelect}, Function{"min
                                    Function{"u8", 1, Op::kUnsigned8}};
 
 constexpr int kFirstRamAddress = 0x80, kLastRamAddress = 0xFF;
-constexpr int kDeepest = 500;  // levels of operators and parentheses, so that no text can exhaust the stack
+constexpr int kDeepest = 500;       // levels of operators and parentheses, so that no text can exhaust the stack
 constexpr int kMaxSumTerms = 4096;  // of one expression, in total
 
 class Compiler {

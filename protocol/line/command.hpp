@@ -19,9 +19,9 @@ struct Command {
   std::string_view name;
   std::string_view arguments;  // as in `help` and protocol/PROTOCOL.md
   std::string_view summary;
-  std::string_view hint;  // for `help`: where to find the accepted words; may be empty
+  std::string_view hint;     // for `help`: where to find the accepted words; may be empty
   std::string_view example;  // for `help`: a working example; empty: none is needed
-  std::size_t least, most;  // number of arguments
+  std::size_t least, most;   // number of arguments
   Needs needs;
 
   // Appends "ok" and the fields to session.out, without LF. Throws Refusal. It is the body of session.pacer:

@@ -40,14 +40,14 @@ struct LineService {
   std::string version = "0";
   std::shared_ptr<const Images> images;
   LineLimits limits;
-  std::shared_ptr<Recorder> recorder;  // null: recording is off
-  Parallel parallel;  // empty: tasks run one after the other
-  std::size_t threads = 1;  // of `parallel`
-  Admission admission;  // empty: no token is required
-  CpuKind cpu = CpuKind::kAuto;        // of all machines
+  std::shared_ptr<Recorder> recorder;    // null: recording is off
+  Parallel parallel;                     // empty: tasks run one after the other
+  std::size_t threads = 1;               // of `parallel`
+  Admission admission;                   // empty: no token is required
+  CpuKind cpu = CpuKind::kAuto;          // of all machines
   std::shared_ptr<MemoryBudget> memory;  // of all sessions; null: there is no limit
-  bool strict = false;  // the first error ends a session; for scripts
-  // reports an `internal` error; thread-safe; may be empty
+  bool strict = false;                   // the first error ends a session; for scripts
+  // Reports an `internal` error; thread-safe; may be empty.
   std::function<void(const std::string& sentence)> report_fault;
 };
 

@@ -38,7 +38,7 @@ class Client {
   }
   void received(std::size_t bytes);
   void sent(std::size_t bytes);
-  // the client probably sleeps until its reply, because its last request was long
+  // The client probably sleeps until its reply, because its last request was long.
   bool sleeps() const { return sleeps_; }
 
   // Ends the session: cancels what it waits for, and sends it the error. A client that does not read the
@@ -58,12 +58,12 @@ class Client {
   Socket socket;
   Loop& loop;
   const std::string name;
-  std::optional<Guesser> guesser;  // while a token is required
+  std::optional<Guesser> guesser;     // while a token is required
   std::optional<Lobby::Place> place;  // while a token is required
-  bool admitted = false;  // it has given its token, or needs none
-  bool held_back = false;  // its token is delayed, because of wrong ones from the same address
-  bool working = false;  // a slice of its requests is done, and the next is pending
-  Usage usage;  // of the event loop
+  bool admitted = false;              // it has given its token, or needs none
+  bool held_back = false;             // its token is delayed, because of wrong ones from the same address
+  bool working = false;               // a slice of its requests is done, and the next is pending
+  Usage usage;                        // of the event loop
 
  private:
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};

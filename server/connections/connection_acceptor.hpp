@@ -30,8 +30,8 @@ class ConnectionAcceptor {
 
   std::vector<std::string> names() const;  // of the listeners
   bool empty() const { return listeners_.empty(); }
-  void open();  // accepts clients from now on
-  void close();  // accepts no more
+  void open();        // accepts clients from now on
+  void close();       // accepts no more
   void read_again();  // tokens and certificate; errors are logged, and the old ones stay in use
 
  private:
@@ -40,7 +40,7 @@ class ConnectionAcceptor {
   void check(const Listener& listener) const;  // throws unless it is safe
   const Service& service_of(const Listener& listener) const;
   boost::asio::awaitable<void> welcome(Listener& listener);
-  // the reason against one more session; nothing if there is none
+  // The reason against one more session; nothing if there is none.
   std::optional<std::string> obstacle(const Service& service);
   void admit(Socket socket, Loop& loop, const Listener& listener, int number);
 

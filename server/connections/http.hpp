@@ -40,7 +40,7 @@ class Http {
   boost::asio::ip::tcp::acceptor acceptor_;
   HttpPages pages_;
   std::string name_;
-  // ordered by the latest request, or else the connection; the oldest is first
+  // Ordered by the latest request, or else the connection; the oldest is first.
   std::list<Connection> connections_;
 };
 

@@ -13,7 +13,7 @@ namespace racebeam {
 
 class IdleMonitor {
  public:
-  // the parameters must outlive it
+  // The parameters must outlive it.
   IdleMonitor(const ServerSettings& settings, Loops& loops, Metrics& metrics)
       : settings_(settings), loops_(loops), metrics_(metrics) {}
 

@@ -19,11 +19,11 @@ struct ServerSettings {
   int threads = 1;                           // of event loops
   std::string threads_limited_by;            // what limits their number, for the log
   std::chrono::microseconds busy_poll{100};  // how long a thread polls for a quick client; 0: never
-  std::uint64_t max_memory = 0;  // bytes for all sessions; 0: no limit
+  std::uint64_t max_memory = 0;              // bytes for all sessions; 0: no limit
   int max_sessions = 4096;                   // sessions at the same time
-  int idle_seconds = 86400;    // timeout without a byte to or from a client; 0: never
-  int handshake_seconds = 10;  // timeout for TLS and the token
-  int grace_seconds = 5;       // until sessions end after the server was told to stop
+  int idle_seconds = 86400;                  // timeout without a byte to or from a client; 0: never
+  int handshake_seconds = 10;                // timeout for TLS and the token
+  int grace_seconds = 5;                     // until sessions end after the server was told to stop
 };
 
 }  // namespace racebeam

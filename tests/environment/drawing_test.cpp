@@ -46,11 +46,11 @@ void check(const std::shared_ptr<const Image>& image, const std::shared_ptr<cons
   }
 }
 
-TEST_CASE("Which frames are drawn can't be seen") {
+TEST_CASE("Which frames are drawn has no observable effect") {
   for (const bool averaging : {false, true}) check(test::counter_image(), test::game(), averaging, 500);
 }
 
-TEST_CASE("Which frames of a commercial game are drawn can't be seen") {
+TEST_CASE("Which frames of a commercial game are drawn has no observable effect") {
   for (const char* name : {"seaquest", "pong", "tetris", "montezuma_revenge", "elevator_action", "journey_escape", "robotank"}) {
     const auto game = find_game(name);
     const auto image = test::needed_rom_of(name);

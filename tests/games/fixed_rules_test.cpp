@@ -206,7 +206,7 @@ TEST_CASE("away from the wrap a corrected rule gives what the reference's gives"
   }
 }
 
-TEST_CASE("a score that is cleared is no wrap") {
+TEST_CASE("a score that is cleared is not a wrap") {
   const auto bytes = [](int value) { return all({0xBA, 0xB9, 0xB8}, value); };
   CHECK(reward_of_second(fixed("seaquest"), bytes(0x50), bytes(0)) == -505050);
 }

@@ -106,7 +106,7 @@ TEST_CASE("RAM comes before the screen, and every field ends with a colon") {
   CHECK(line.size() == 256 + 1 + 67200 + 1 + 4 + 1);
 }
 
-TEST_CASE("Screens are written as runs unless told otherwise") {
+TEST_CASE("Screens are written as runs by default") {
   Client client;
   client.listen();
   std::string runs;

@@ -119,7 +119,7 @@ TEST_CASE("For a person help is folded to the width of the terminal, and says th
   }
 }
 
-TEST_CASE("What is nearly right is asked about, whatever it is") {
+TEST_CASE("Similar names are suggested, for every kind of name") {
   LineClient client;
   client.say(kLoad + "\nsave start\nopen 2\n");
   const std::vector<std::pair<std::string, std::string>> cases = {
@@ -152,7 +152,7 @@ TEST_CASE("What is nearly right is asked about, whatever it is") {
   }
 }
 
-TEST_CASE("What is like nothing gets the list of what there is") {
+TEST_CASE("A name without similar ones gets the list of names") {
   LineClient client;
   client.ask(kLoad);
   CHECK_THAT(client.ask("xyzzy"), Contains("there is no command 'xyzzy'; there are hello help"));

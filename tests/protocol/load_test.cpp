@@ -112,7 +112,7 @@ TEST_CASE("A range of frames is drawn anew for each act, by the seed") {
   CHECK(lengths.find_first_not_of("234\n") == std::string::npos);
 }
 
-TEST_CASE("A mode that the image does not come to is refused, and nothing has happened") {
+TEST_CASE("A mode that the image does not reach is refused, and nothing changes") {
   LineClient client;  // updraft has no switch that pong's modes are counted by
   client.ask(kLoad);
   CHECK_THAT(client.ask("load updraft as=pong mode=3"),

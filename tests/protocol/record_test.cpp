@@ -70,7 +70,7 @@ TEST_CASE("A machine of open is recorded as one of its seed is") {
   CHECK(code(many.ask("record stop")) == "recording");
 }
 
-TEST_CASE("A recording that is cut off is told of once, by act or step") {
+TEST_CASE("A recording that was cut short is reported once, by act or step") {
   Studio studio(1'000'000);
   studio.ask("open 2");
   studio.ask("record y4m a");
@@ -140,7 +140,7 @@ TEST_CASE("What a recording holds is given back when it is written, after its se
   CHECK(memory.taken() == before);
 }
 
-TEST_CASE("What is no recording is refused, with what is accepted") {
+TEST_CASE("An invalid recording is refused, with what is accepted") {
   Studio studio;
   for (const std::string request :
        {"record", "record gif", "record avi a", "record gif, a", "record ,gif a", "record gif,gif a",

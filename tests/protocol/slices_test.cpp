@@ -68,7 +68,7 @@ TEST_CASE("Slices change nothing") {
   }
 }
 
-TEST_CASE("What is given up leaves no trace but the end of the session") {
+TEST_CASE("A cancelled request leaves no trace except the end of the session") {
   LineClient client;
   client.ask(kLong);
   client.hand_in("open 200\n");

@@ -29,7 +29,7 @@ void add(Recording& recording, Environment& machine, int frames) {
 
 }  // namespace
 
-TEST_CASE("What is let go of is kept all the same") {
+TEST_CASE("A recording that is released is committed all the same") {
   const Scratch folder;
   Environment machine = test::beamfall();
   {

@@ -122,7 +122,7 @@ TEST_CASE("A recording that is cut off is kept at once, and holds up nothing") {
   CHECK(film.claims->empty());
 }
 
-TEST_CASE("Of two files the one that can't be kept does not take the other with it") {
+TEST_CASE("If one of two files cannot be committed, the other still is") {
   Film film({MediaKind::kY4m, MediaKind::kWav});
   film.work();
   film.folder.write("a.y4m", "another file");
@@ -136,7 +136,7 @@ TEST_CASE("Of two files the one that can't be kept does not take the other with 
   CHECK(test::files_in(film.folder.path("")) == 2);
 }
 
-TEST_CASE("A recording that can't begin says why, and leaves nothing") {
+TEST_CASE("A recording that cannot begin gives the reason, and leaves nothing") {
   Film film({MediaKind::kWav, MediaKind::kGif}, 100);
   film.work();
   CHECK(!film.recording->is_behind());
@@ -160,7 +160,7 @@ TEST_CASE("A recording is charged for until all of it is written") {
   CHECK(charge.expired());
 }
 
-TEST_CASE("What is given up leaves nothing") {
+TEST_CASE("An aborted recording leaves nothing") {
   Film film({MediaKind::kPng, MediaKind::kGif});
   film.work();
   film.add_until_behind(10);

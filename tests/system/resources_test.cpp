@@ -111,7 +111,7 @@ TEST_CASE("in a container the mount begins at the container's group") {
   CHECK(root.memory() == 3000000);
 }
 
-TEST_CASE("files that make no sense are no limits") {
+TEST_CASE("invalid files set no limits") {
   const Root root;
   root.set_up("nonsense\n0:\n0::/job\n", std::string("\n1 2 3\na b c d e -\n") + kUnified);
   for (const char* text : {"", "-5", "many", "12x", "99999999999999999999999"}) {

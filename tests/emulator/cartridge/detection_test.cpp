@@ -146,7 +146,7 @@ TEST_CASE("The search misses the last place, and skips a byte after each hit") {
          {"3F once", mixed(8192, {{100, {0x85, 0x3F}}}), "F8"}});
 }
 
-TEST_CASE("What can't be played is refused with a sentence that says why") {
+TEST_CASE("An unsuitable image is refused with the reason") {
   CHECK_THROWS_WITH(scheme_of(mixed(5000)), Catch::Contains("5000") && Catch::Contains("4096"));
   CHECK_THROWS_AS(scheme_of(Rom{}), std::invalid_argument);
   CHECK_THROWS_WITH(scheme_of(mixed(4096), "F9"), Catch::Contains("no cartridge scheme F9"));

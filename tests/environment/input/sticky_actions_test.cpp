@@ -112,7 +112,7 @@ TEST_CASE("Illegal actions and RESET act as NOOP, for both players") {
   }
 }
 
-TEST_CASE("With joysticks, numbers that are no action are refused") {
+TEST_CASE("With joysticks, numbers that are not actions are refused") {
   const LegalActions all(all_actions(), false);
   for (const int a : {18, 35, 36, 41, 43, 50, 99}) {
     CHECK_THROWS_WITH(all.check(pressing(a)),

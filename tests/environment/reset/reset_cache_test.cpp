@@ -106,7 +106,7 @@ BootFacts study(std::initializer_list<std::uint8_t> program) {
   return study_boot(console, "4K");
 }
 
-TEST_CASE("What a program overwrites before it looks is found") {
+TEST_CASE("The study finds what a program overwrites before it reads it") {
   // LDX #0; TXA; loop: STA 0,X; INX; BNE loop; LDA #1; STA $296; then LDA INTIM
   const auto all = study({0xA2, 0, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0xA9, 1, 0x8D, 0x96, 2, 0xAD, 0x84, 2});
   CHECK((all.clears_ram && all.sets_timer && all.sets_sound));

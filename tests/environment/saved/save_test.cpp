@@ -95,7 +95,7 @@ TEST_CASE("Every state of a run of a commercial game restores to itself") {
   }
 }
 
-TEST_CASE("Without the generator, a restored state goes on with the draws of now") {
+TEST_CASE("Without its generator, a restored state continues with the current one") {
   Settings settings = sticky_settings();
   settings.sticky = 0.5F;
   Environment environment(test::counter_image(), test::game(), settings);

@@ -168,7 +168,7 @@ TEST_CASE("Cartridge RAM of another size is refused") {
   }
 }
 
-TEST_CASE("A generator that can't be one is refused") {
+TEST_CASE("An impossible generator is refused") {
   Environment environment = test::steered();
   auto saved = *environment.save(true);
   std::stringstream zeros;

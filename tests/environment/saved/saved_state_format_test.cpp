@@ -83,7 +83,7 @@ TEST_CASE("A state has the cartridge's RAM, in memory and as bytes") {
   CHECK(int{environment.ram()[0]} == count + 1);
 }
 
-TEST_CASE("Bytes that are no state are refused") {
+TEST_CASE("Bytes that are not a state are refused") {
   const Environment environment = counter();
   const auto refusal = [&](const Bytes& bytes) { from_bytes(bytes, environment); };
   CHECK_THROWS_WITH(refusal({}), Catch::Contains("not a state"));
@@ -124,7 +124,7 @@ TEST_CASE("A state of another format is refused by its number") {
                     Catch::Contains("format 77") && Catch::Contains("reads format " + std::to_string(kSnapshotVersion)));
 }
 
-TEST_CASE("What a state says that it is of is shown as printable text") {
+TEST_CASE("The image and the game that a state names are printable text") {
   Bytes bytes = some_state();
   const std::size_t name = 24 + sizeof(Identity::md5);
   bytes[name] = '\x1B';
