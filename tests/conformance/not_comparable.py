@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 @dataclass(frozen=True)
 class Gap:
     games: tuple
-    key: str  # the field of Run that is put back to 0
+    key: str  # the field of Run that is reset to 0
     reason: str
 
 

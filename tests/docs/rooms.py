@@ -7,7 +7,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_SUBJECTS = 25
-NOT_OURS = {"build", "__pycache__"}  # and what begins with a dot
+NOT_OURS = {"build", "__pycache__"}  # and names that begin with a dot
 DATA = ("games/catalogue", "fuzz/corpora", "docs/spec")  # folders of files of one kind
 
 

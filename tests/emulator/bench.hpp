@@ -65,8 +65,8 @@ struct Bench {
   };
   std::unique_ptr<Whole> whole_;  // too large for a stack
   std::size_t current_ = 0;
-  State at_begin_;  // of the step
-  std::vector<std::function<std::uint8_t(Bench&)>> step_;  // what was done in it
+  State at_begin_;                                         // of the step
+  std::vector<std::function<std::uint8_t(Bench&)>> step_;  // the accesses of the step
 
  public:
   Board& board = whole_->board;

@@ -90,7 +90,7 @@ TEST_CASE("A restored machine goes on as the saved one did") {
     first.push_back(machine.digest());
   }
   CHECK(first[0] != first[1]);
-  CHECK(std::equal(current.begin(), current.end(), pictures.current->pixels().begin()));  // not drawn over
+  CHECK(std::equal(current.begin(), current.end(), pictures.current->pixels().begin()));  // not overwritten
 
   machine.console.restore(saved);
   CHECK(std::memcmp(&saved, &machine.console.state(), sizeof saved) == 0);
@@ -211,7 +211,7 @@ TEST_CASE("Paddles of the right port, and a pot of no resistance") {
   bench.state.inputs.paddle = {0, 0, 0, 27450};
   bench.write_at(0, VBLANK, 0x80);
   CHECK((bench.read_at(3, 8) & 0x80) == 0x00);   // left: a joystick has no pots
-  CHECK((bench.read_at(3, 10) & 0x80) == 0x80);  // no resistance: charged even while it is dumped
+  CHECK((bench.read_at(3, 10) & 0x80) == 0x80);  // no resistance: charged even while it is discharged
   CHECK((bench.read_at(3, 11) & 0x80) == 0x00);
   bench.write_at(100, VBLANK, 0x00);
   CHECK((bench.read_at(622, 11) & 0x80) == 0x00);  // 522 cycles

@@ -33,7 +33,7 @@ TEST_CASE("A hundred thousand restores leave the process as large as it was") {
   const long before = resident_kilobytes();
   REQUIRE(before > 0);
   restore(100000);
-#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer keeps what is let go
+#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer keeps released memory
   CHECK(resident_kilobytes() - before < 1024);
 #endif
 }

@@ -23,7 +23,7 @@ bool show_the_same(const Environment& one, const Environment& other) {
 
 using Code = std::vector<std::uint8_t>;
 
-constexpr std::size_t kResult = 1;  // index of the RAM that the programs here leave something in
+constexpr std::size_t kResult = 1;  // index of the RAM for results of the programs
 
 // LDA #2, VSYNC on, two lines, off; JMP to the start.
 Code with_frame(Code code, std::uint8_t page) {

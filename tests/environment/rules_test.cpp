@@ -113,8 +113,8 @@ TEST_CASE("Klax counts across the wrap of a score in the cartridge's memory") {
 
 struct OurGame {
   const char* name;
-  int address;               // of the mode in RAM
-  int (*shown)(int mode);    // what is there
+  int address;             // of the mode in RAM
+  int (*shown)(int mode);  // its expected value
 };
 
 TEST_CASE("every mode of our own rules is set up, in any order, and its game runs") {

@@ -35,7 +35,7 @@ class Player {
     console_.inputs().paddle = {kPaddleMiddle, kPaddleMiddle, 0, 0};
     frames(60);
     press_reset();
-    longest = 0, shortest = 1000;  // from here on: the first frames after power-on are what they are
+    longest = 0, shortest = 1000;  // the first frames after power-on may be irregular
   }
 
   void press_reset() {

@@ -83,7 +83,7 @@ TEST_CASE("help explains each name of each table, on one line") {
   for (const auto& [name, text] : all_names()) {
     INFO(name);
     if (name == "settings" && text == "the settings in effect")
-      continue;  // the topic comes before the command
+      continue;  // a topic is preferred to the command
     const std::string reply = client.say("help " + name + "\n");
     CHECK_THAT(reply, StartsWith("ok ") && Contains(text));
     CHECK(std::ranges::count(reply, '\n') == 1);

@@ -113,7 +113,7 @@ TEST_CASE("A range of frames is drawn anew for each act, by the seed") {
 }
 
 TEST_CASE("A mode that the image does not reach is refused, and nothing changes") {
-  LineClient client;  // updraft has no switch that pong's modes are counted by
+  LineClient client;  // updraft has no such switch as pong, whose modes are counted by it
   client.ask(kLoad);
   CHECK_THAT(client.ask("load updraft as=pong mode=3"),
              StartsWith("error bad-value mode 3 of pong could not be set up on this image"));

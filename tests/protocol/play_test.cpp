@@ -135,7 +135,7 @@ TEST_CASE("Frames are counted beyond the largest number of them") {
   const auto before = exported(client, "here");
   client.say("act NOOP\nsave here\n");
   auto bytes = exported(client, "here");
-  constexpr std::size_t kValues = kHeader + 108;  // behind the image, the game and three sizes
+  constexpr std::size_t kValues = kHeader + 108;  // after the image, the game and three sizes
   const std::uint32_t frame = 78, last = 2147483647;
   std::size_t at =
       kValues;  // the counter: what went from 77 to 78, there twice, of the game and of the episode

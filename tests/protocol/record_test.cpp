@@ -135,7 +135,8 @@ TEST_CASE("What a recording holds is given back when it is written, after its se
     CHECK(memory.taken() > before + (2 << 20));
   }
   studio.client.service.recorder->end(std::chrono::seconds(10));
-  for (int look = 0; look < 10'000 && memory.taken() != before; ++look)  // its last job has yet to go
+  // Its last job is still to be released.
+  for (int look = 0; look < 10'000 && memory.taken() != before; ++look)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   CHECK(memory.taken() == before);
 }

@@ -94,13 +94,13 @@ def random_slot(rng, scheme):
     value = rng.choice([rng.randrange(256), rng.randrange(16), 0x80 | rng.randrange(128)])
     opcode, address = rng.choice([STA, STA, STA, LDA, LDA, LDA, INC, BIT]), random_address(rng, scheme)
     if scheme == "AR" and address & 0x0800 and opcode == LDA:
-        opcode = BIT  # its bytes can be those of the BIOS, which is not the reference's
+        opcode = BIT  # its bytes may be those of the BIOS, which differs from the reference's
     return value, opcode, address
 
 
 def subroutine(rng, scheme):
     """Calls the code in the pages of the hot spots."""
-    if scheme == "MC":  # only its locked window is sure to have it
+    if scheme == "MC":  # only its locked window certainly has it
         return [(0, BIT, 0x1FFC), (0, JSR, 0xFC00 | images.SNIPPET)]
     return [(rng.randrange(256), JSR, 0xF000 | images.CHUNK * rng.randrange(4) | images.SNIPPET)]
 
@@ -183,7 +183,7 @@ def compare(ale_py, probe, scheme, seed, frames):
                     what, a, b = describe(slots), theirs.frame(pokes), ours.frame(pokes)
                 if a[:seen] != b[:seen]:
                     return f"frame {frame}: {what}\n    {differing(a, b)}\n    reference {a}\n    racebeam  {b}"
-                stuck = counter == counter_in(a)  # a subroutine went astray
+                stuck = counter == counter_in(a)  # a subroutine did not return
                 counter = counter_in(a)
         finally:
             ours.close()

@@ -245,7 +245,7 @@ class Session:
         return connect_unix(self.server.path("s"))
 
     def __enter__(self):
-        if self.transport == "stdio":  # what is left are the duplicates
+        if self.transport == "stdio":  # the remaining descriptors are duplicates
             self.server.process.stdin.close()
             self.server.process.stdout.close()
         return self

@@ -102,7 +102,7 @@ class Tokens(Folder):
             self.assertTrue(ask(admitted, right[:-1]).startswith(b"ok "))  # from elsewhere, on the same thread
             self.assertTrue(ask(admitted, b"load beamfall").startswith(b"ok "))
             self.assertFalse(select.select(held, [], [], 0)[0])
-            self.assertLess(time.monotonic() - start, 1.6)  # until the first of those that wait
+            self.assertLess(time.monotonic() - start, 1.6)  # until the first of those that are delayed
             self.assertEqual(wrong_tokens(), len(delays))
 
             replies = [wire.line() for wire in held]
@@ -115,7 +115,7 @@ class Tokens(Folder):
 
             start = time.monotonic()
             self.assertTrue(say("127.0.0.2", wrong).startswith(b"error unauthorized that token is not"))
-            self.assertTrue(say("127.0.0.2", right).startswith(b"ok "))  # is not locked out, but waits alike
+            self.assertTrue(say("127.0.0.2", right).startswith(b"ok "))  # is not locked out, but delayed, too
             self.assertGreaterEqual(time.monotonic() - start, longest)
             start = time.monotonic()
             self.assertTrue(say("127.0.0.2", right).startswith(b"ok "))

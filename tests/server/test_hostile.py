@@ -16,7 +16,8 @@ import urllib.request
 from harness import PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, open_pipes, serve
 
 ENDLESS = b"load beamfall as=tetris seed=1 system_seed=1 sticky=0 max_episode_frames=0"  # beamfall with rules that end no episode
-MODE = b"load beamfall as=adventure mode=1 frame_skip=1000 max_episode_frames=0"   # which never comes about on beamfall
+# which beamfall never reaches
+MODE = b"load beamfall as=adventure mode=1 frame_skip=1000 max_episode_frames=0"
 HOUR = b"act NOOP*900000000"
 JUMP_TO_ITSELF = bytes([0x4C, 0x00, 0xF0])
 MANY_FRAMES = ("--max-request-frames", "1000000000")

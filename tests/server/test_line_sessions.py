@@ -185,7 +185,7 @@ class Sessions(unittest.TestCase):
                 other.line()
             with open(f"/proc/{server.process.pid}/status") as status:
                 resident = next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
-            if not sanitized():  # whose memory is mostly the sanitizer's
+            if not sanitized():  # most of it is the sanitizer's
                 self.assertLess(resident, 100_000)  # KiB
             heard = 0
             while heard < 2004:

@@ -51,7 +51,7 @@ class Limits(unittest.TestCase):
             wire = connect_tcp(server.port())
             load(wire)
             sequences, took = 5, 0
-            while took < 1.5 * idle:  # longer and longer ones, however fast the machine is now
+            while took < 1.5 * idle:  # longer and longer requests, for any speed of the machine
                 sequences *= 2
                 start = time.monotonic()
                 reply = ask(wire, b"branch root " + b"NOOP*%d " % FRAMES * sequences)
@@ -201,7 +201,7 @@ class ReadyFile(unittest.TestCase):
         kinds = {"notes": lambda path: file(path, "tcp://127.0.0.1:1\n"), "empty": lambda path: file(path, ""),
                  "near": lambda path: file(path, FIRST_LINE[:15]), "pipe": os.mkfifo, "folder": os.mkdir,
                  "device": lambda path: os.symlink("/dev/null", path), "link": lambda path: os.symlink("ready", path)}
-        def marks(path):  # all but the time of the last look
+        def marks(path):  # all but the time of the last access
             found = os.lstat(path)
             return found.st_ino, found.st_mode, found.st_size, found.st_mtime_ns
 

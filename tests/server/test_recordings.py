@@ -14,7 +14,7 @@ from harness import BINARY, PATIENCE, ask, connect_tcp, connect_unix, main, run,
     thread_sanitized, Server
 
 LIMIT = 1000000
-SLACK = 2  # seconds, for a machine that has other work
+SLACK = 2  # seconds, for a busy machine
 KINDS = {"y4m": ["film.y4m"], "gif": ["film.gif"], "wav": ["film.wav"], "png": ["film"], "y4m,wav": ["film.wav", "film.y4m"]}
 
 

@@ -132,7 +132,7 @@ class Leaving(unittest.TestCase):
                     self.check_heard(transport, answers, count)
 
     def check_heard(self, transport, answers, count):
-        lines = answers[:count].count(b"\n")  # this many answers were heard whole
+        lines = answers[:count].count(b"\n")  # this many complete replies were received
         said = self.SAID.splitlines(keepends=True)
         with Session(transport, "--seed", "1", "--sticky", "0") as session:
             wire = session.wire
@@ -174,7 +174,7 @@ class Stalling(unittest.TestCase):
                 before = self.memory(session)
                 self.stall(session)
                 session.wire.receive(100)
-                if not sanitized():  # whose memory is mostly the sanitizer's; so is some of the other's
+                if not sanitized():  # most of it is the sanitizer's
                     self.assertLess(self.memory(session) - before, (64 if thread_sanitized() else 32) << 20)
                 session.wire.stop_sending()
                 answers = session.wire.rest()

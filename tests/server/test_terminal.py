@@ -26,7 +26,7 @@ def said_on_a_terminal(requests):
     try:
         while piece := os.read(ours, 65536):
             heard += piece
-    except OSError as error:  # the way in which a terminal ends
+    except OSError as error:  # the end of a terminal
         if error.errno != errno.EIO:
             raise
     os.close(ours)

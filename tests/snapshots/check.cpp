@@ -96,7 +96,7 @@ class Run {
   void play() {
     for (int n = 0; n < first_; ++n) act(running_, plan_.seed, n);
     now_.push_back(digest(running_, 0));
-    led_to_.push_back(0);  // nothing led to the first
+    led_to_.push_back(0);  // the first has no act before it
     for (int i = 0; i < plan_.frames + plan_.ahead; ++i) {
       if (i < plan_.frames) saved_.push_back(running_.save(manner(number_).with_random));
       led_to_.push_back(act(running_, plan_.seed, first_ + i));

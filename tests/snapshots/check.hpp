@@ -17,9 +17,9 @@ struct Cartridge {
 
 struct Plan {
   int frames = 0;   // consecutive frames whose state is saved
-  int ahead = 200;  // frames that each is compared for
+  int ahead = 200;  // frames after each state that are compared
   std::uint64_t seed = 1;
-  std::string executable;  // of the fresh processes; see resume()
+  std::string executable;  // of the other processes; see resume()
 };
 
 // Plays `cartridge` in manner(number), and saves the state at every frame. Then restores each state, and

@@ -121,7 +121,7 @@ int run(int argc, char** argv) {
   app.add_option("--games", options.games, "Names; all if not given")->delimiter(',');
   app.add_option("--threads", options.threads, "Games at once")->check(CLI::PositiveNumber);
   app.add_flag("--verbose", options.verbose, "Print a line for each game");
-  app.add_option("--resume", resumption.folder)->group("");  // for the fresh processes
+  app.add_option("--resume", resumption.folder)->group("");  // for the other processes
   app.add_option("--manner", resumption.manner)->group("");
   app.add_option("--first", resumption.first)->group("");
   CLI11_PARSE(app, argc, argv);

@@ -7,7 +7,7 @@ import dataclasses
 class NamedRun:
     """The base of a dataclass: its first field is the game, the others are numbers with defaults."""
 
-    ALWAYS = ("seed",)  # the fields that a name says in any case
+    ALWAYS = ("seed",)  # fields that every name contains
 
     @property
     def name(self):

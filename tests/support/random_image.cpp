@@ -23,8 +23,9 @@ struct Range {
 struct Recipe {
   std::string_view scheme;
   std::size_t size;  // of the image
-  unsigned unit;     // each so many bytes hold the program once; it runs in the last one that the CPU sees
-  std::vector<Range> lively;  // addresses that do something
+  // Each block of this many bytes holds the program once; it runs in the last one that the CPU sees.
+  unsigned unit;
+  std::vector<Range> lively;  // addresses with an effect
   Bytes first{};              // instructions that the program begins with
 };
 
@@ -177,7 +178,7 @@ class Writer {
   const Recipe& recipe_;
   std::mt19937 random_;
   Bytes bytes_;
-  std::vector<std::size_t> values_;  // places of what is written to the TIA
+  std::vector<std::size_t> values_;  // offsets of the values that are written to the TIA
 };
 
 }  // namespace

@@ -75,7 +75,7 @@ Cost longest_step(const Program& program, int steps, Look look, int rounds) {
         const double now = microseconds();
         double& best = shortest[which][static_cast<std::size_t>(step)];
         if (step > 0)
-          best = std::min(best, now - before);  // the first one has the machine's making in it
+          best = std::min(best, now - before);  // the first one includes the construction of the machine
         else
           best = 0;
         before = now;

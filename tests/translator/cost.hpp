@@ -13,7 +13,7 @@ struct Cost {
   double ratio() const { return translated / interpreted; }
 };
 
-enum class Look { kNone, kEveryFrame };  // at the picture
+enum class Look { kNone, kEveryFrame };  // whether the picture is read
 
 // Switches a machine on, runs `steps` steps, and releases it, alternately with both CPUs. Returns the medians
 // of `rounds` rounds. Each round translates from the beginning.

@@ -193,7 +193,7 @@ void add_random_fields(Collection& to) {
     Bytes field(0xC00);
     for (std::uint8_t& byte : field) {
       byte = random() % 3 == 0 ? static_cast<std::uint8_t>(random()) : kOpcodes[random() % kOpcodes.size()];
-      if ((byte & 0x1F) == 0x12 || (byte & 0x9F) == 0x02) byte = 0xEA;  // it would stop the processor
+      if ((byte & 0x1F) == 0x12 || (byte & 0x9F) == 0x02) byte = 0xEA;  // it would halt the CPU
     }
     add_field(to, "every address, random code " + std::to_string(seed), field, 0x2F5);
   }

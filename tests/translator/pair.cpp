@@ -33,7 +33,7 @@ struct Machine {
 
 template <class Range>
 std::string first_difference(const char* what, const Range& a, const Range& b) {
-  if (std::equal(a.begin(), a.end(), b.begin(), b.end())) return {};  // many bytes at a time
+  if (std::equal(a.begin(), a.end(), b.begin(), b.end())) return {};  // compares many bytes at a time
   const auto [at, other] = std::mismatch(a.begin(), a.end(), b.begin());
   std::ostringstream text;
   text << what << ", byte " << at - a.begin() << ": " << int{*at} << " interpreted, " << int{*other} << " translated";

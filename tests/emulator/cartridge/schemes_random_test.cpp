@@ -20,7 +20,7 @@ struct Case {
   const char* name;
   std::size_t size;
   std::function<std::unique_ptr<CartridgeModel>(const Rom&)> model;
-  std::vector<Range> lively;  // where something happens
+  std::vector<Range> lively;  // addresses with an effect
 };
 
 template <class Model>
@@ -91,7 +91,7 @@ class Trial {
   }
 
   void read(unsigned a) {
-    const unsigned high = below(2) ? 0xE000 : 0;  // the upper three bits don't count
+    const unsigned high = below(2) ? 0xE000 : 0;  // the upper three bits are not decoded
     const unsigned theirs = model_->read(a, cycle_), ours = bench_.see(a | high, cycle_);
     INFO(case_.name << " read " << std::hex << a);
     if (theirs < 0x100) REQUIRE(ours == theirs);

@@ -164,7 +164,7 @@ struct ModelAr : Copyable<ModelAr> {
       configuration = hold;
     }
   }
-  static constexpr unsigned kBios = 0x100;  // more than a byte: what it is, is not said
+  static constexpr unsigned kBios = 0x100;  // above all bytes: the specification does not give the contents
   unsigned read(unsigned a, int) override {
     static constexpr unsigned kBanks[8][2] = {{2, 3}, {0, 3}, {2, 0}, {0, 2}, {2, 3}, {1, 3}, {2, 1}, {1, 2}};
     access(a);

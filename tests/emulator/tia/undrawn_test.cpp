@@ -31,7 +31,7 @@ class Program {
     put({0xE6, 0x90, 0xA5, 0x90, 0x29, random_.percent(50) ? std::uint8_t{3} : std::uint8_t{31}, 0x85, 0x91});
     const int lines = random_.percent(70) ? 262 : random_.below(340);
     for (int line = 0; line < lines && code_.size() < 3900;) line += add_group();
-    if (random_.percent(10)) put({0xE6, 0x92, 0xD0, 0xFE, 0xE6, 0x92});  // stands still, from one frame on
+    if (random_.percent(10)) put({0xE6, 0x92, 0xD0, 0xFE, 0xE6, 0x92});  // loops for ever, from one frame on
     put({0x4C, 0x00, 0xF0});
     code_.resize(4096, 0xEA);
     code_[0xFFC] = 0x00;
@@ -68,8 +68,9 @@ class Program {
   }
 
   Random random_;
-  const int reads_ = 1 + random_.below(8);                       // so many collision registers are read in each frame
-  const int clears_ = random_.percent(50) ? 0 : random_.below(10);  // and cleared before so many of 100 writes
+  const int reads_ = 1 + random_.below(8);  // how many collision registers are read in each frame
+  // How many percent of the writes clear the collision registers before.
+  const int clears_ = random_.percent(50) ? 0 : random_.below(10);
   std::vector<std::uint8_t> code_;
 };
 

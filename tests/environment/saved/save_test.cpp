@@ -161,7 +161,7 @@ TEST_CASE("A classic restore answers the old screen and RAM until a frame runs")
   CHECK(environment.frame_number() == 5);
   CHECK(environment.save()->values.play.held.a.action == held);
 
-  environment.restore_classic(*saved);  // once more: still the RAM of before the first
+  environment.restore_classic(*saved);  // again: still the RAM of before the first restore
   CHECK(observe(environment).ram == now.ram);
   environment.act(0);
   CHECK(environment.ram()[0] == then.ram[0] + 1);

@@ -33,7 +33,7 @@ class LocalSession {
   explicit LocalSession(const Job& job);  // prepared
 
   void ask(const std::string& request);                         // throws std::runtime_error
-  std::string_view reply() const { return session_.output(); }  // good until the next request
+  std::string_view reply() const { return session_.output(); }  // valid until the next request
 
  private:
   racebeam::LineService service_;

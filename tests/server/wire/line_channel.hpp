@@ -40,7 +40,7 @@ void stop(const Child& child);  // closes its streams and waits for its end
 int connect_unix(const std::string& path);
 int connect_tcp(int port);
 int listen_unix(const std::string& path);
-int listen_tcp(int& port);  // of 127.0.0.1; says which was picked
+int listen_tcp(int& port);  // of 127.0.0.1; sets the port that was picked
 int accept_one(int listener);
 
 double now();  // seconds
