@@ -27,13 +27,13 @@ def parse_arguments():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
     add("--reference", required=True, metavar="PATH", help="the program `ale` of ALE 0.6.0")
-    add("--games", metavar="A,B", help="only these games (default: all that there are images of)")
-    add("--seed", type=int, help="of the first series of runs (default: drawn, and printed)")
+    add("--games", metavar="A,B", help="only these games (default: all with an image)")
+    add("--seed", type=int, help="seed of the first series of runs (default: random, and printed)")
     add("--seeds", type=int, default=3, metavar="N", help="runs of each game (default 3)")
-    add("--lines", type=int, default=1000, metavar="N", help="of a run (default 1000)")
-    add("--run", action="append", metavar="NAME", help="this run alone, by the name that a report gives it; repeatable")
-    add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs at once (default: one a processor)")
-    add("--record", type=pathlib.Path, metavar="FILE", help="write digests of what the reference said")
+    add("--lines", type=int, default=1000, metavar="N", help="lines of a run (default 1000)")
+    add("--run", action="append", metavar="NAME", help="only this run, by its name in a report; repeatable")
+    add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs in parallel (default: one for each processor)")
+    add("--record", type=pathlib.Path, metavar="FILE", help="write digests of the reference's output")
     return parser.parse_args()
 
 

@@ -42,24 +42,24 @@ def parse_arguments():
     parser = argparse.ArgumentParser(prog="scripts/conformance", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
-    add("--frames", type=int, default=20000, metavar="N", help="of a run in the default settings (default 20000)")
+    add("--frames", type=int, default=20000, metavar="N", help="frames of a run in the default settings (default 20000)")
     add("--other-frames", type=int, metavar="N",
-        help="of a run in another setting (default 2000, or --frames if fewer)")
-    add("--seed", help="of the first series of runs; 'date' takes today's (default: drawn, and printed)")
+        help="frames of a run in another setting (default 2000, or --frames if fewer)")
+    add("--seed", help="seed of the first series of runs; 'date': today's date (default: random, and printed)")
     add("--seeds", type=int, default=2, metavar="N", help="series in the default settings (default 2)")
-    add("--games", metavar="A,B", help="only these games (default: all that there are images of)")
+    add("--games", metavar="A,B", help="only these games (default: all with an image)")
     add("--settings", choices=["default", "sample", "all"], default="all",
-        help="default: the default settings; sample: these, and one other drawn for each game; all (the default)")
-    add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="processes at once (default: one a processor)")
-    add("--run", action="append", metavar="NAME", help="this run alone, by the name that a report gives it; repeatable")
-    add("--resume", action="store_true", help="go on with the results that are kept")
+        help="default: the default settings; sample: these, and a random one for each game; all (the default)")
+    add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="processes in parallel (default: one for each processor)")
+    add("--run", action="append", metavar="NAME", help="only this run, by its name in a report; repeatable")
+    add("--resume", action="store_true", help="continue from the stored results")
     add("--out", type=pathlib.Path, default=ours.SOURCE / "build/conformance", metavar="FOLDER",
-        help="where results, pictures and the report go (default build/conformance)")
-    add("--publish", action="store_true", help="write docs/conformance.md, too")
+        help="folder for results, pictures and the report (default build/conformance)")
+    add("--publish", action="store_true", help="also write docs/conformance.md")
     add("--racebeam-options", default="", metavar="WORDS",
-        help="options for racebeam's side alone, as --racebeam-options='--system-seed 1'")
+        help="options for racebeam only, such as --racebeam-options='--system-seed 1'")
     add("--forms", action="store_true",
-        help=f"play each run in all forms of racebeam's machine, too: {', '.join(ours.FORMS)}")
+        help=f"also play each run in all variants of racebeam: {', '.join(ours.FORMS)}")
     return parser, parser.parse_args()
 
 

@@ -107,19 +107,18 @@ int run_checks(const Options& options) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app(
-      "Checks, for every game, that the state at each frame of a random run restores to what it was");
+  CLI::App app("Checks, for every game, that the state at each frame of a random run can be restored");
   Options options;
   Resumption resumption;
   options.plan.frames = 6;
   app.add_option("--frames", options.plan.frames, "Consecutive frames of each game whose state is restored")
       ->envname("RACEBEAM_SNAPSHOT_FRAMES")
       ->check(CLI::PositiveNumber);
-  app.add_option("--ahead", options.plan.ahead, "Acts after each that are compared")
+  app.add_option("--ahead", options.plan.ahead, "Acts after each restored state that are compared")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--seed", options.plan.seed, "Of the runs");
-  app.add_option("--games", options.games, "Names; all if not given")->delimiter(',');
-  app.add_option("--threads", options.threads, "Games at once")->check(CLI::PositiveNumber);
+  app.add_option("--seed", options.plan.seed, "Seed of the runs");
+  app.add_option("--games", options.games, "Names of games (default: all)")->delimiter(',');
+  app.add_option("--threads", options.threads, "Games that run in parallel")->check(CLI::PositiveNumber);
   app.add_flag("--verbose", options.verbose, "Print a line for each game");
   app.add_option("--resume", resumption.folder)->group("");  // for the other processes
   app.add_option("--manner", resumption.manner)->group("");
