@@ -104,7 +104,7 @@ void check_inputs(const Inputs& inputs) {
   check_range("the paddles' buttons", inputs.paddle_fire, 0, 0x0F);
 }
 
-void check_cartridge(const CartridgeState& state, const Slot& slot) {
+void check_cartridge(const CartridgeState& state, const CartridgeSlot& slot) {
   if (!slot.scheme.admits(slot, state))
     throw InvalidInput("invalid state: a cartridge of scheme " + std::string(slot.scheme.name) +
                        " has no such banks or registers");
@@ -114,7 +114,7 @@ void check_cartridge(const CartridgeState& state, const Slot& slot) {
 
 }  // namespace
 
-void check_state(const State& state, const Video& video, const Slot& slot) {
+void check_state(const State& state, const Video& video, const CartridgeSlot& slot) {
   check_range("the cycle", state.cycle, 0, kEndlessCycle - 1);
   check_range("the number of draws at power-on", state.drawn, 0, kMostDrawn);
   check_cpu(state.cpu);

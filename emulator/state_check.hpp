@@ -10,6 +10,6 @@ namespace racebeam {
 
 // Throws InvalidInput, with the field, its value and what is accepted. `video` and `slot` are those of the
 // console that will be restored.
-void check_state(const State& state, const Video& video, const Slot& slot);
+void check_state(const State& state, const Video& video, const CartridgeSlot& slot);
 
 }  // namespace racebeam

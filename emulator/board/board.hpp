@@ -32,7 +32,7 @@ class Board {
   Video video;
   Tia tia;
   Sound sound;
-  Slot slot;
+  CartridgeSlot slot;
   std::vector<std::uint8_t> cartridge_ram;  // what does not fit into the state; empty for most schemes
   WriteLog* log = nullptr;                  // of the step that runs
   CodeWindow code;                          // where the CPU fetches; empty after the map has changed or the frame has closed

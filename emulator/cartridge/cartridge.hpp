@@ -20,7 +20,7 @@ struct Scheme;
 
 // The cartridge in the console's slot: its image, its scheme, its part of the machine's state, and the memory
 // map.
-struct Slot {
+struct CartridgeSlot {
   const Rom& rom;
   const Scheme& scheme;
   State& machine;
@@ -32,20 +32,20 @@ struct Slot {
 // What happens to a write after the cartridge has seen it.
 enum class Delivery : bool { kTaken, kToTia };
 
-using PortReader = std::uint8_t (*)(Slot&, std::uint16_t address, std::int32_t cycle);
+using PortReader = std::uint8_t (*)(CartridgeSlot&, std::uint16_t address, std::int32_t cycle);
 
 struct MapperOps {
-  void (*reset)(Slot&);  // sets the initial banks
-  void (*map)(Slot&);    // maps what the banks select
+  void (*reset)(CartridgeSlot&);  // sets the initial banks
+  void (*map)(CartridgeSlot&);    // maps what the banks select
   PortReader read;       // reads a hidden page, or watches a read of the TIA
   // Any cartridge address, or a watched TIA address.
-  Delivery (*write)(Slot&, std::uint16_t address, std::uint8_t value);
+  Delivery (*write)(CartridgeSlot&, std::uint16_t address, std::uint8_t value);
 
   // Whether the cartridge can be in `state`, which comes from an untrusted source. It must check every value
   // that selects or indexes something, but not the bytes behind the scheme's RAM.
-  bool (*admits)(const Slot&, const CartridgeState& state);
+  bool (*admits)(const CartridgeSlot&, const CartridgeState& state);
 
-  void (*power_on)(Slot&) = nullptr;  // sets what is not zero before the first reset
+  void (*power_on)(CartridgeSlot&) = nullptr;  // sets what is not zero before the first reset
 
   // For translated code: the function that does the work of `read` at `address`. Null if that may select a
   // bank.

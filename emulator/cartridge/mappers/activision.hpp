@@ -6,9 +6,9 @@
 
 namespace racebeam::activision {
 
-inline void reset(Slot&) {}
+inline void reset(CartridgeSlot&) {}
 
-inline void map(Slot& slot) {
+inline void map(CartridgeSlot& slot) {
   for (unsigned offset = 0; offset < 4096; offset += MemoryMap::kPageSize) {
     slot.map.page[(0x3000 + offset) >> 6] = slot.rom.data() + offset;
     slot.map.page[(0x1000 + offset) >> 6] = slot.rom.data() + 4096 + offset;

@@ -39,26 +39,26 @@ struct Chip {
 static_assert(sizeof(Chip) <= kRamInState && std::is_trivially_copyable_v<Chip>);
 static_assert(alignof(Chip) <= alignof(CartridgeState));
 
-inline Chip& chip_of(Slot& slot) { return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data())); }
+inline Chip& chip_of(CartridgeSlot& slot) { return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data())); }
 
 // Only at power-on: a reset does not change the fetchers.
-inline void power_on(Slot& slot) {
+inline void power_on(CartridgeSlot& slot) {
   chip_of(slot) = Chip{};
   chip_of(slot).random = 1;
 }
 
-inline void reset(Slot& slot) {
+inline void reset(CartridgeSlot& slot) {
   atari::reset(slot);
   chip_of(slot).fraction = 0;
 }
 
-inline void map(Slot& slot) {
+inline void map(CartridgeSlot& slot) {
   slot.map.show(kPorts, atari::bank(slot) + kPorts, kHotPage - kPorts);
   slot.map.hide(0, kPorts);
   slot.map.hide(kHotPage, MemoryMap::kPageSize);
 }
 
-inline void touch(Slot& slot, std::uint16_t address) {
+inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   const unsigned selected = (address & 0xFFFU) - slot.scheme.hotspot;
   if (selected >= slot.scheme.banks) return;
   slot.state.bank[0] = static_cast<std::uint8_t>(selected);
@@ -99,7 +99,7 @@ inline double clocks_in(std::int32_t cycles) {
   return number < kClocks.size() ? kClocks[number] : divided_clocks(cycles);
 }
 
-inline void run_music(Slot& slot, Chip& chip, std::int32_t cycle) {
+inline void run_music(CartridgeSlot& slot, Chip& chip, std::int32_t cycle) {
   const auto passed = static_cast<std::int32_t>(static_cast<std::uint32_t>(cycle) - slot.machine.frame.cartridge_clock);
   slot.machine.frame.cartridge_clock = static_cast<std::uint32_t>(cycle);
   const double clocks = clocks_in(passed) + chip.fraction;
@@ -123,7 +123,7 @@ inline std::uint8_t amplitude(const Chip& chip) {
 enum Function : unsigned { kRandomOrSound, kDisplayed, kMasked, kFlag = 7 };
 
 template <unsigned kFunction>
-std::uint8_t fetch(Slot& slot, std::uint16_t address, std::int32_t cycle) {
+std::uint8_t fetch(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycle) {
   Chip& chip = chip_of(slot);
   clock_random(chip);
   const unsigned number = address & 7;
@@ -150,7 +150,7 @@ std::uint8_t fetch(Slot& slot, std::uint16_t address, std::int32_t cycle) {
 }
 
 // An address without a fetcher reads the image.
-inline std::uint8_t read_image(Slot& slot, std::uint16_t address, std::int32_t) {
+inline std::uint8_t read_image(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
   clock_random(chip_of(slot));
   return atari::bank(slot)[address & 0xFFF];
 }
@@ -181,7 +181,7 @@ inline void set_register(Chip& chip, std::uint16_t address, std::uint8_t value) 
   }
 }
 
-inline bool admits(const Slot& slot, const CartridgeState& state) {
+inline bool admits(const CartridgeSlot& slot, const CartridgeState& state) {
   Chip chip;
   std::memcpy(&chip, state.ram.data(), sizeof chip);
   for (unsigned i = 0; i < kFetchers; ++i) {
@@ -194,13 +194,13 @@ inline bool admits(const Slot& slot, const CartridgeState& state) {
   return atari::admits(slot, state) && is_fraction && is_filled_up;
 }
 
-inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t cycle) {
+inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycle) {
   if (const PortReader reader = port_reader(address)) return reader(slot, address, cycle);
   touch(slot, address);
   return read_image(slot, address, cycle);
 }
 
-inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t value) {
+inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
   const unsigned offset = address & 0xFFF;
   touch(slot, address);
   Chip& chip = chip_of(slot);

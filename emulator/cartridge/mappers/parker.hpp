@@ -10,37 +10,37 @@ namespace racebeam::parker {
 constexpr unsigned kSlice = 1024;
 constexpr unsigned kFirstHotspot = 0xFE0, kHotPage = 4 * kSlice - MemoryMap::kPageSize;
 
-inline const std::uint8_t* slice(const Slot& slot, unsigned window) {
+inline const std::uint8_t* slice(const CartridgeSlot& slot, unsigned window) {
   return slot.rom.data() + kSlice * slot.state.bank[window];
 }
 
-inline void reset(Slot& slot) {
+inline void reset(CartridgeSlot& slot) {
   for (unsigned window = 0; window < 4; ++window) slot.state.bank[window] = static_cast<std::uint8_t>(4 + window);
 }
 
-inline void map(Slot& slot) {
+inline void map(CartridgeSlot& slot) {
   for (unsigned window = 0; window < 4; ++window) slot.map.show(kSlice * window, slice(slot, window), kSlice);
   slot.map.hide(kHotPage, MemoryMap::kPageSize, kFirstHotspot - kHotPage);
 }
 
-inline void touch(Slot& slot, std::uint16_t address) {
+inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   const unsigned hotspot = (address & 0xFFFU) - kFirstHotspot;
   if (hotspot >= 24) return;
   slot.state.bank[hotspot / 8] = hotspot % 8;
   slot.map.show(kSlice * (hotspot / 8), slice(slot, hotspot / 8), kSlice);
 }
 
-inline bool admits(const Slot&, const CartridgeState& state) {
+inline bool admits(const CartridgeSlot&, const CartridgeState& state) {
   const auto& bank = state.bank;
   return bank[0] < 8 && bank[1] < 8 && bank[2] < 8 && bank[3] == 7 && banks_unused(state, 4);
 }
 
-inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {
+inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
   touch(slot, address);
   return slice(slot, 3)[address & (kSlice - 1)];
 }
 
-inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t) {
+inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
   touch(slot, address);
   return Delivery::kTaken;
 }

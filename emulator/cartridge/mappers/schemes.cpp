@@ -23,15 +23,15 @@
 namespace racebeam {
 namespace {
 
-std::uint8_t no_hidden_page(Slot&, std::uint16_t, std::int32_t) { return 0; }
+std::uint8_t no_hidden_page(CartridgeSlot&, std::uint16_t, std::int32_t) { return 0; }
 
-bool no_banks(const Slot&, const CartridgeState& state) { return banks_unused(state, 0); }
+bool no_banks(const CartridgeSlot&, const CartridgeState& state) { return banks_unused(state, 0); }
 
 // F4SC's hot spots react to reads only.
-Delivery write_f4sc(Slot& slot, std::uint16_t address, std::uint8_t value) { return atari::write_ram(slot, address, value); }
+Delivery write_f4sc(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) { return atari::write_ram(slot, address, value); }
 
 // clang-format off
-constexpr Delivery (*kIgnore)(Slot&, std::uint16_t, std::uint8_t) = atari::ignore_write;
+constexpr Delivery (*kIgnore)(CartridgeSlot&, std::uint16_t, std::uint8_t) = atari::ignore_write;
 
 //                               reset                   map                  read            write                  admits
 constexpr MapperOps kPlain    = {atari::reset,           atari::map_plain,    no_hidden_page, kIgnore,               atari::admits};

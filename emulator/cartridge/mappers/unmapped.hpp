@@ -5,7 +5,7 @@
 
 namespace racebeam::unmapped {
 
-inline void reset(Slot&) {}
-inline void map(Slot& slot) { slot.map.hide(0, 4096); }
+inline void reset(CartridgeSlot&) {}
+inline void map(CartridgeSlot& slot) { slot.map.hide(0, 4096); }
 
 }  // namespace racebeam::unmapped

@@ -69,7 +69,7 @@ class Trial {
  private:
   // The bench has read the reset vector already, which affects some cartridges.
   void forget_vector() {
-    Slot& slot = bench_.board.slot;
+    CartridgeSlot& slot = bench_.board.slot;
     bench_.state.cartridge.bank = {};
     slot.scheme.reset(slot);
     if (slot.scheme.power_on) slot.scheme.power_on(slot);
