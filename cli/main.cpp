@@ -1,4 +1,4 @@
-// racebeam: one program, a subcommand for each thing to do with it.
+// The program racebeam, with its subcommands.
 #include <fcntl.h>
 
 #include <CLI/CLI.hpp>
@@ -25,15 +25,15 @@ constexpr auto kAbout =
     "A headless Atari 2600 as a server: agents in any language play its games over a pipe or a socket.";
 
 constexpr auto kFooter = R"(Try first:
-  racebeam games                                          which games there are
+  racebeam games                                          list the games
   racebeam serve --stdio                                  play by hand: type load beamfall, act FIRE, help
-  racebeam serve --classic --stdio --rom builtin:NAME     as agents of old do: type 0,0,0,1 then 3,18
-  racebeam trace --rom builtin:NAME --actions FILE        what a list of actions leads to, frame by frame
+  racebeam serve --classic --stdio --rom builtin:NAME     as ALE 0.4 to 0.6: type 0,0,0,1, then 3,18
+  racebeam trace --rom builtin:NAME --actions FILE        print what a list of actions leads to, act by act
 
-Each of them explains itself: racebeam serve --help.
+Each subcommand has a help text, such as racebeam serve --help.
 
-Exit status: 0 done; 1 it could not be done, with one line on standard error that says why;
-2 the command line makes no sense; 255 a classic client asked for an action that does not exist.)";
+Exit status: 0 success; 1 failure, with one line on standard error that gives the reason; 2 usage error;
+255 a classic client requested an action that does not exist.)";
 
 std::string subcommand_names(const CLI::App& app) {
   std::string names;
@@ -43,35 +43,35 @@ std::string subcommand_names(const CLI::App& app) {
   return names;
 }
 
-// Tools of the time of ALE 0.6 call a program of that name.
+// Tools from the time of ALE 0.6 call a program of that name.
 bool is_called_ale(const std::filesystem::path& called) {
   return called.filename() == "ale" || called.filename() == "racebeam-ale";
 }
 
-// The words of the command line; those of ALE, when called by its name, are the subcommand's.
+// The arguments of the command line. When called as ALE, all are arguments of `racebeam classic`.
 std::vector<const char*> words_of(int argc, char** argv) {
   std::vector<const char*> words(argv, argv + argc);
   if (argc > 0 && is_called_ale(argv[0])) words.insert(words.begin() + 1, "classic");
   return words;
 }
 
-// What is wrong with the command line, and where to read more.
+// An error message for the command line, with a pointer to the help text.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
   if (chosen.empty()) {
     const auto given = app.remaining();
-    return (given.empty() ? "a subcommand is needed: "
-                          : "'" + given.front() + "' is no subcommand; there are ") +
+    return (given.empty() ? "a subcommand is required: "
+                          : "'" + given.front() + "' is not a subcommand; there are ") +
            subcommand_names(app) + " (see racebeam --help)";
   }
   const std::string sentence = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)
-                                   ? "not understood: " + CLI::detail::join(chosen[0]->remaining(), " ")
+                                   ? "unknown argument: " + CLI::detail::join(chosen[0]->remaining(), " ")
                                    : std::string(error.what());
   return sentence + " (see racebeam " + chosen[0]->get_name() + " --help)";
 }
 
-// A descriptor of these that is closed would be taken by the next file or socket, which would then get what
-// is meant for people. Opened the wrong way round, they fail for who uses them.
+// If a standard descriptor is closed, the next file or socket would get its number, and messages for the user
+// would go there. This opens /dev/null instead, in the wrong direction, so that uses fail.
 void take_standard_descriptors() {
   constexpr std::array kWays = {O_WRONLY, O_RDONLY, O_RDONLY};
   for (int descriptor = 0; descriptor < 3; ++descriptor) {
@@ -98,7 +98,7 @@ int main(int argc, char** argv) {
   racebeam::add_png(app);
   try {
     const std::vector<const char*> words = words_of(argc, argv);
-    app.parse(static_cast<int>(words.size()), words.data());  // runs the subcommand
+    app.parse(static_cast<int>(words.size()), words.data());  // executes the subcommand
     return 0;
   } catch (const CLI::RuntimeError& ended) {  // how a subcommand sets the exit status
     return ended.get_exit_code();

@@ -62,13 +62,14 @@ void Console::Impl::reset() {
   reset_cpu(board);
 }
 
-// A black picture; one that a snapshot holds too is left as it is.
+// A black picture. A buffer that a saved state holds too is replaced, not changed.
 void Console::Impl::blank(std::shared_ptr<FrameBuffer>& picture) {
   if (is_own(picture)) picture->blank();
   else picture = std::make_shared<FrameBuffer>();
 }
 
-// The console's own buffers are kept for the frames to come, if nobody else holds them.
+// Takes over the pictures of a saved state. The console keeps its own buffers for later frames, unless they
+// are shared.
 void Console::Impl::take(const FrameBuffers& others) {
   const auto displace = [](std::shared_ptr<FrameBuffer>& own, const std::shared_ptr<FrameBuffer>& other,
                            std::shared_ptr<FrameBuffer>& kept) {

@@ -1,4 +1,5 @@
-// The board: a cartridge, the three chips, and the frame (docs/spec/console.md; docs/spec/tia.md, 2).
+// The console: a board with a cartridge and three chips, run frame by frame (docs/spec/console.md;
+// docs/spec/tia.md, 2).
 #pragma once
 
 #include <array>
@@ -21,59 +22,63 @@ namespace racebeam {
 class Console {
  public:
   // Builds the console around an image, as docs/spec/console.md, 1 says: power-on RAM, format detection,
-  // system reset. Throws InvalidInput when no cartridge scheme fits the image. `power_on` must
-  // outlive the console. cpu: what runs the instructions; kTranslator throws std::system_error where code
-  // can't be translated. pace: is told of every step, those of format detection too, and must outlive the
-  // console; null: none.
+  // system reset. Throws InvalidInput if no cartridge scheme fits the image.
+  // power_on: must outlive the console.
+  // cpu: executes the instructions. For kTranslator, throws std::system_error where code cannot be
+  // translated.
+  // pace: is told of every step, those of format detection included, and must outlive the console. Null:
+  // none.
   Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on,
           CpuKind cpu = CpuKind::kAuto, Pace* pace = nullptr);
   ~Console();
 
   void reset();  // system reset, docs/spec/console.md, 2
 
-  // Runs until a frame closes (docs/spec/tia.md, 2). draw: its picture will be looked at. Without, all is the
-  // same and picture() too, but it must then run the frame again: what will mostly not be looked at costs
-  // less. Where drawing costs less all the same, it is drawn, unless it is to be followed in any case.
+  // Runs until a frame closes (docs/spec/tia.md, 2). draw: the caller will read the picture. If false,
+  // rendering may be deferred: the state is identical, and picture() renders on demand. A deferred frame is
+  // drawn all the same where that takes less time, unless `follow` forbids it.
   void step(bool draw = true, bool follow = false);
 
-  Inputs& inputs();               // what is pressed from now on
+  Inputs& inputs();  // what the controllers hold during the next steps
   Sound& sound();
   const Sound& sound() const;
-  const State& state() const;     // the whole machine, one trivially copyable value
+  const State& state() const;  // the whole machine, one trivially copyable value
 
-  // RAM on the cartridge that `state` has no room for (E7, 3E, CV, AR, MC); mostly empty. It belongs to a saved state.
+  // Cartridge RAM that does not fit into `state` (E7, 3E, CV, AR, MC); empty for other schemes. It belongs to
+  // a saved state.
   std::span<const std::uint8_t> cartridge_ram() const;
 
-  // The machine alone: exact in everything but what undrawn rows of the two pictures show. Throws
-  // InvalidInput, and changes nothing, when `cartridge_ram` is not as large as this console's.
+  // Restores the machine, but no pictures: undrawn rows keep their pixels. Throws InvalidInput, and changes
+  // nothing, if `cartridge_ram` does not have this console's size.
   void restore(const State& state, std::span<const std::uint8_t> cartridge_ram = {});
 
-  // Throws InvalidInput, naming the field, when this machine can't be in `state`. What passes can be restored
-  // and run, whoever wrote it.
+  // Throws InvalidInput, with the name of the field, if this machine cannot be in `state`. A state that
+  // passes can be restored and run, whatever its source.
   void check(const State& state, std::span<const std::uint8_t> cartridge_ram = {}) const;
 
-  Format format() const;          // kNtsc, kPal, kPal60 or kSecam: detected, or from the properties
-  bool has_paddles() const;       // either port
-  int height() const;             // rows given out: the picture's height, at least 200
+  Format format() const;                                   // kNtsc, kPal, kPal60 or kSecam: detected, or from the properties
+  bool has_paddles() const;                                // in either port
+  int height() const;                                      // rows of picture(): the picture's height, at least 200
   std::span<const std::uint8_t> picture() const;           // height() x 160 palette indices, drawn last
   std::span<const std::uint8_t> previous_picture() const;  // the picture before it
 
-  // Both buffers with their order, for a snapshot; undrawn ones as they are. They are shared until the console draws on
-  // one of them again, so that taking and putting back cost nothing. What is put back must come from a console with the
-  // same image and properties.
+  // Both buffers in their order, for a saved state; undrawn ones as they are. They are shared until the
+  // console draws on one of them again, so that saving and restoring copy no pixels. Restored pictures must
+  // come from a console with the same image and properties.
   const FrameBuffers& pictures() const;
   void restore_pictures(const FrameBuffers& pictures);
 
-  // Gives back what only makes drawing faster, half of a console's memory: for one that will not run for a while. It
-  // comes back with the next frames.
+  // Releases caches that only make drawing faster, half of a console's memory. For a console that will not
+  // run for a while; the next frames allocate them again.
   void rest();
 
-  // A picture of such a snapshot with its pixels: the same, or a copy that has been drawn.
+  // A picture of a saved state with its pixels: the same buffer, or a drawn copy.
   std::shared_ptr<const FrameBuffer> drawn(std::shared_ptr<FrameBuffer> picture) const;
 
   std::span<const std::uint8_t, 128> ram() const;  // $80-$FF
   void set_ram(int index, std::uint8_t value);
-  std::uint8_t peek(std::uint16_t address) const;  // RAM and cartridge, without any side effect; 0 elsewhere
+  // Reads RAM and cartridge without side effects; 0 elsewhere.
+  std::uint8_t peek(std::uint16_t address) const;
 
  private:
   struct Impl;

@@ -1,4 +1,4 @@
-// The inside of a Console. Its parts are in console.cpp and frame_runner.cpp.
+// The implementation of Console, in console.cpp and frame_runner.cpp.
 #pragma once
 
 #include <algorithm>
@@ -23,18 +23,18 @@ struct Console::Impl {
   Board board;
   Format format;
   FrameBuffers pictures;
-  FrameBuffers spare;  // buffers of the console's own that a snapshot's have displaced, or null
-  // Collisions are looked for where the picture is drawn, and else only those that the game has read so far. What the
-  // others would be can be found out: nobody sees a state in which they are not known.
+  FrameBuffers spare;  // buffers of the console's own that a restored state's have replaced, or null
+  // Collisions are computed for all pairs of objects where the picture is drawn, and elsewhere only for the
+  // pairs that the game has read so far. The other latches are computed before the state is read.
   struct {
     Collisions sought = 0;
-    Collisions unknown = 0;  // of the state's latches
-    FrameStart step;         // the step that would tell, if any are
+    Collisions unknown = 0;  // latches of the state that have not been computed
+    FrameStart step;         // the step that computes them, if there are any
   } latches;
 
-  DeferredRenderPolicy unseen;
+  DeferredRenderPolicy render_policy;
 
-  const std::unique_ptr<Translator> translator;  // null: the interpreter runs all
+  const std::unique_ptr<Translator> translator;  // null: the interpreter executes everything
 
   State& state() { return board.state; }
   std::size_t rows() const { return static_cast<std::size_t>(height()); }
@@ -50,14 +50,14 @@ struct Console::Impl {
   void check_ram_size(std::span<const std::uint8_t> cartridge_ram) const;
 
   // frame_runner.cpp
-  void step(bool looked_at, bool follow);
-  bool step_over(FrameStart& start, bool draw, bool judged);
-  bool run_step(FrameBuffer& picture, const FrameStart& start, Pixels pixels);
-  FrameStart here() const { return {board.state, board.cartridge_ram, board.sound}; }
+  void step(bool observed, bool follow);
+  bool step_over(FrameStart& start, bool draw, bool deferred);
+  bool run_step(FrameBuffer& picture, const FrameStart& start, RenderMode mode);
+  FrameStart frame_start() const { return {board.state, board.cartridge_ram, board.sound}; }
   bool reads_unknown_latches(FrameStart& start, bool drew);
   void note_latches(FrameStart& start, Collisions looked_for);
   void settle_latches();
-  void go_back(const FrameStart& start);
+  void rewind(const FrameStart& start);
   void draw_now(std::shared_ptr<FrameBuffer>& picture);
   std::shared_ptr<FrameBuffer> own_copy(const FrameBuffer& picture);
   FrameBuffer& canvas();

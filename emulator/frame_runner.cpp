@@ -1,5 +1,5 @@
-// Running a frame, with its pixels or without (docs/spec/tia.md, 2). A frame whose pixels nobody has asked
-// for leaves its start in the picture, and is run again when somebody asks.
+// Runs a frame, with or without its pixels (docs/spec/tia.md, 2). A frame whose pixels are not observed
+// leaves its start in the picture. It is run again if the picture is read later.
 #include "emulator/console_impl.hpp"
 #include "emulator/cpu/cpu.hpp"
 #include "emulator/tia/registers/motion.hpp"
@@ -12,9 +12,9 @@ constexpr std::int32_t kEndlessTurn = kEndlessCycle / 2 / (2 * kLineCycles) * (2
 
 }  // namespace
 
-void Console::Impl::step(bool looked_at, bool follow) {
-  const bool judged = !looked_at && !follow;  // how the next ones are to be run
-  const bool draw = looked_at || (judged && unseen.draws());
+void Console::Impl::step(bool observed, bool follow) {
+  const bool deferred = !observed && !follow;  // the policy chooses, and learns
+  const bool draw = observed || (deferred && render_policy.next_is_drawn());
   FrameState& frame = state().frame;
   const bool opens = !frame.open;
   if (opens) {
@@ -23,14 +23,14 @@ void Console::Impl::step(bool looked_at, bool follow) {
     frame.greyed = 0;
     frame.open = 1;
   }
-  FrameStart start = here();
+  FrameStart start = frame_start();
   const bool keeps_old_pixels = draw && !pictures.current->is_undrawn && is_own(pictures.current);
-  if (!opens || keeps_old_pixels || !step_over(start, draw, judged)) {
+  if (!opens || keeps_old_pixels || !step_over(start, draw, deferred)) {
     settle_latches();
-    start = here();
+    start = frame_start();
     draw_now(pictures.current);
-    run_step(canvas(), start, Pixels::kDrawn);
-    if (judged && draw) unseen.took(board.tia.work());
+    run_step(canvas(), start, RenderMode::kDrawn);
+    if (deferred && draw) render_policy.record(board.tia.work());
     latches.sought |= board.tia.asked();
     note_latches(start, kAllPairs);
   }
@@ -47,21 +47,21 @@ void Console::Impl::step(bool looked_at, bool follow) {
   if (pace != nullptr) pace->frame();
 }
 
-// Runs a frame without a look at what its picture shows so far. It must fill the whole window: false if it does not, or
-// does not close, and the machine stands at its start again.
-bool Console::Impl::step_over(FrameStart& start, bool draw, bool judged) {
+// Runs a frame on a buffer whose pixels will all be overwritten. Returns false, with the machine back at its
+// start, if the frame does not fill the whole window or does not close.
+bool Console::Impl::step_over(FrameStart& start, bool draw, bool deferred) {
   std::shared_ptr<FrameBuffer>& current = pictures.current;
   if (!spare.current) std::swap(spare.current, spare.previous);
   std::shared_ptr<FrameBuffer>& place = is_own(current) ? current : spare.current;
   if (!is_own(place)) place = std::make_shared<FrameBuffer>();
   bool closes;
-  do closes = run_step(*place, start, draw ? Pixels::kDrawn : Pixels::kNone) && !state().frame.open;
+  do closes = run_step(*place, start, draw ? RenderMode::kDrawn : RenderMode::kNone) && !state().frame.open;
   while (reads_unknown_latches(start, draw));
   if (!closes || !board.tia.drew_all()) {
-    go_back(start);
+    rewind(start);
     return false;
   }
-  if (judged) unseen.took(board.tia.work());
+  if (deferred) render_policy.record(board.tia.work());
   note_latches(start, draw ? kAllPairs : latches.sought);
   place->is_undrawn = !draw;
   if (!draw) place->undrawn = start;
@@ -69,89 +69,90 @@ bool Console::Impl::step_over(FrameStart& start, bool draw, bool judged) {
   return true;
 }
 
-// From `start` on. What the reference draws ahead of the beam is seen in few steps: such a one is run once more, access
-// by access; but false, and all is left as it is, if its pixels are not wanted.
-bool Console::Impl::run_step(FrameBuffer& picture, const FrameStart& start, Pixels pixels) {
+// Runs a step from `start`. In a few steps, pixels can be seen that the reference draws ahead of the beam.
+// Such a step is run once more, access by access. If its pixels are not wanted, returns false instead; the
+// caller must rewind.
+bool Console::Impl::run_step(FrameBuffer& picture, const FrameStart& start, RenderMode mode) {
   thread_local WriteLog log;
   const FrameBuffer* const other =
       (&picture == pictures.previous.get() ? pictures.current : pictures.previous).get();
-  const auto repeat = [&](Pixels how) {
-    go_back(start);
+  const auto repeat = [&](RenderMode how) {
+    rewind(start);
     board.begin_step(picture, other, log, how, latches.sought);
     interpret(board, kInstructionsPerStep);
   };
-  board.begin_step(picture, other, log, pixels, latches.sought);
+  board.begin_step(picture, other, log, mode, latches.sought);
   if (translator == nullptr) {
     interpret(board, kInstructionsPerStep);
   } else if (!translator->run(board, kInstructionsPerStep)) {
-    repeat(pixels);
+    repeat(mode);
   }
   board.end_step();
   if (translator != nullptr) translator->end_step();
   if (!board.needs_exact_step()) return true;
-  if (pixels == Pixels::kNone) return false;
-  repeat(Pixels::kExact);
+  if (mode == RenderMode::kNone) return false;
+  repeat(RenderMode::kExact);
   board.end_step();
   return true;
 }
 
-void Console::Impl::go_back(const FrameStart& start) {
+void Console::Impl::rewind(const FrameStart& start) {
   state() = start.state;
   board.cartridge_ram = start.cartridge_ram;
   board.sound = start.sound;
   board.map_memory();
 }
 
-// Gives a picture its pixels. The machine is the same afterwards.
+// Draws a picture whose pixels were deferred. The machine does not change.
 void Console::Impl::draw_now(std::shared_ptr<FrameBuffer>& picture) {
   if (!picture->is_undrawn && picture->rows() >= rows()) return;
   if (!is_own(picture)) picture = own_copy(*picture);
   picture->make_room(rows());
   if (!picture->is_undrawn) return;
-  const FrameStart now = here();
-  go_back(picture->undrawn);
-  run_step(*picture, picture->undrawn, Pixels::kDrawn);
+  const FrameStart now = frame_start();
+  rewind(picture->undrawn);
+  run_step(*picture, picture->undrawn, RenderMode::kDrawn);
   picture->is_undrawn = false;
-  go_back(now);
+  rewind(now);
 }
 
-// Has the step read latches that nobody has looked for? Then it is to be run again, from `start`.
+// Whether the step read latches that were not computed. It must then be run again, from `start`.
 bool Console::Impl::reads_unknown_latches(FrameStart& start, bool drew) {
   const Collisions unsought = board.tia.asked() & ~latches.sought;
   if (unsought == 0) return false;
   latches.sought |= unsought;
   if (drew && (latches.unknown & unsought) == 0) return false;
-  go_back(start);
+  rewind(start);
   settle_latches();
-  start = here();
+  start = frame_start();
   return true;
 }
 
-// After a step from `start` on in which these pairs were looked for.
+// Called after a step from `start`. looked_for: the pairs whose collisions were computed in it.
 void Console::Impl::note_latches(FrameStart& start, Collisions looked_for) {
-  const bool lived_on = latches.unknown != 0 && !board.tia.cleared();
-  if (lived_on) {
-    const FrameStart now = here();
-    go_back(start);
+  const bool persists = latches.unknown != 0 && !board.tia.cleared();
+  if (persists) {
+    const FrameStart now = frame_start();
+    rewind(start);
     settle_latches();
-    start = here();
-    go_back(now);
+    start = frame_start();
+    rewind(now);
     state().tia.collisions |= start.state.tia.collisions;
-    latches.sought = kAllPairs;  // a game that keeps them from frame to frame
+    latches.sought = kAllPairs;  // for a game that keeps collisions over frames
   }
   latches.unknown = kAllPairs & ~looked_for & ~state().tia.collisions;
   if (latches.unknown != 0) latches.step = start;
 }
 
-// Runs the last step again, with a look at all pairs.
+// Runs the last step again, and computes all pairs.
 void Console::Impl::settle_latches() {
   if (latches.unknown == 0) return;
-  const FrameStart now = here();
+  const FrameStart now = frame_start();
   const Collisions sought = std::exchange(latches.sought, kAllPairs);
-  go_back(latches.step);
-  run_step(*pictures.current, latches.step, Pixels::kNone);
+  rewind(latches.step);
+  run_step(*pictures.current, latches.step, RenderMode::kNone);
   const Collisions found = state().tia.collisions;
-  go_back(now);
+  rewind(now);
   state().tia.collisions = found;
   latches.sought = sought;
   latches.unknown = 0;
@@ -166,7 +167,7 @@ std::shared_ptr<FrameBuffer> Console::Impl::own_copy(const FrameBuffer& picture)
   return std::make_shared<FrameBuffer>(picture);
 }
 
-// The picture that is drawn on: the console's own, not one that a snapshot holds too.
+// The buffer to draw on: the console's own, not one that a saved state holds too.
 FrameBuffer& Console::Impl::canvas() {
   if (!is_own(pictures.current)) pictures.current = own_copy(*pictures.current);
   return *pictures.current;

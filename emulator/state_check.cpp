@@ -15,8 +15,7 @@ namespace {
 constexpr int kLastPosition = kLinePixels - 1, kLastMotion = 15;
 constexpr unsigned kUnusedOfNusiz = 0xC8, kUnusedOfCtrlpf = 0xC8, kUnusedCollision = 1U << 12;
 
-// Draws from the generator of the system at power-on and at resets: so many take a fraction of a second to
-// repeat.
+// The most draws from the system's generator. Repeating them takes a fraction of a second.
 constexpr std::uint32_t kMostDrawn = 1U << 27;
 
 void check_cpu(const CpuState& cpu) {
@@ -71,8 +70,8 @@ void check_registers(const TiaRegisters& tia) {
   check_zeros("a spare byte of the TIA", tia.spare);
 }
 
-// The beam's clock, what is left of its line, and the next pixel belong together. A picture is drawn from the
-// window's start on or, if a reset came upon an unfinished one, from clock 0 (docs/spec/tia.md, 2).
+// The beam's clock, the clocks left on its line and the next pixel must agree. A picture is drawn from the
+// window's start, or from clock 0 if a reset interrupted one (docs/spec/tia.md, 2).
 void check_beam(const TiaState& tia, const Video& video) {
   check_range("the frame's origin", tia.origin, 1 - kLineClocks, 0);
   check_range("the frame's origin modulo 3", tia.origin % 3, 0, 0);
@@ -80,7 +79,7 @@ void check_beam(const TiaState& tia, const Video& video) {
   const std::int32_t start = tia.origin + kLineClocks * video.ystart,
                      end = start + kLineClocks * video.height;
   check_range("the beam's clock", tia.cursor, std::min(start, 0), end);
-  const std::int32_t into = kLineClocks - tia.left;  // the line
+  const std::int32_t into = kLineClocks - tia.left;  // clocks since the line began
   const auto follows_from = [&](std::int32_t first) {
     const std::int32_t clocks = tia.cursor - into - first;
     return clocks >= 0 && clocks % kLineClocks == 0 &&
@@ -88,7 +87,7 @@ void check_beam(const TiaState& tia, const Video& video) {
   };
   if (follows_from(start) || (tia.origin == 0 && follows_from(0))) return;
   refuse_field("the next pixel", tia.pixel,
-               "where the beam's clock, " + std::to_string(tia.cursor) + ", says");
+               "the pixel of the beam's clock, " + std::to_string(tia.cursor));
 }
 
 void check_frame(const FrameState& frame) {
@@ -105,17 +104,17 @@ void check_inputs(const Inputs& inputs) {
   check_range("the paddles' buttons", inputs.paddle_fire, 0, 0x0F);
 }
 
-void check_cartridge(const CartridgeState& state, const Slot& slot) {
+void check_cartridge(const CartridgeState& state, const CartridgeSlot& slot) {
   if (!slot.scheme.admits(slot, state))
-    throw InvalidInput("the state is none that this machine can be in: a cartridge of scheme " +
-                                std::string(slot.scheme.name) + " has no such banks or registers");
+    throw InvalidInput("invalid state: a cartridge of scheme " + std::string(slot.scheme.name) +
+                       " has no such banks or registers");
   const std::size_t used = slot.scheme.ram > kRamInState ? 0 : slot.scheme.ram;
   check_zeros("a byte behind the cartridge's RAM", std::span(state.ram).subspan(used));
 }
 
 }  // namespace
 
-void check_state(const State& state, const Video& video, const Slot& slot) {
+void check_state(const State& state, const Video& video, const CartridgeSlot& slot) {
   check_range("the cycle", state.cycle, 0, kEndlessCycle - 1);
   check_range("the number of draws at power-on", state.drawn, 0, kMostDrawn);
   check_cpu(state.cpu);

@@ -1,5 +1,5 @@
-// Is this a state that a machine can be in? Asked of states that come from elsewhere: what passes may play
-// nonsense, but runs within bounds, like any other.
+// Checks a state from an untrusted source. A state that passes may be meaningless to the game, but runs
+// within bounds.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"
@@ -8,8 +8,8 @@
 
 namespace racebeam {
 
-// Throws InvalidInput, with a sentence that names the field, its value and what is accepted. `video`
-// and `slot` are those of the console that is to go on with `state`.
-void check_state(const State& state, const Video& video, const Slot& slot);
+// Throws InvalidInput, with the field, its value and what is accepted. `video` and `slot` are those of the
+// console that will be restored.
+void check_state(const State& state, const Video& video, const CartridgeSlot& slot);
 
 }  // namespace racebeam

@@ -9,7 +9,8 @@
 namespace racebeam {
 namespace {
 
-// What of EpisodeState decides the future, as words. -0.0 and 0.0 are told apart, which does no harm.
+// The part of EpisodeState that decides the future, as words. It distinguishes -0.0 and 0.0, which does no
+// harm.
 using PlayWords = std::array<std::uint32_t, 8>;
 PlayWords words_of(const EpisodeState& play) {
   const auto word = [](auto value) { return std::bit_cast<std::uint32_t>(value); };

@@ -1,4 +1,4 @@
-// When two machines will do the same from now on: Environment::state_hash() and same_state().
+// Whether two machines will behave the same from now on: Environment::state_hash() and same_state().
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace racebeam {
 
-// Where the parts are that count. Of `play` not all does.
+// The parts of a state that count. Only some members of `play` do.
 struct StateParts {
   const State& machine;
   const EpisodeState& play;

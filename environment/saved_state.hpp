@@ -1,4 +1,4 @@
-// What a saved state holds; see saved_state_format.hpp for its portable form.
+// The contents of a saved state; saved_state_format.hpp has its portable form.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace racebeam {
 
-// The image and the game that a state belongs to.
+// The image and the game of a state.
 struct Identity {
   std::array<char, 32> md5{};
   std::array<char, 64> game{};  // its name, padded with zeros
@@ -45,12 +45,12 @@ class Environment::Saved {
   Identity identity;
   Values values;
   std::vector<std::uint8_t> cartridge_ram;  // Console::cartridge_ram()
-  Properties properties;  // of the console
-  FrameBuffers pictures;  // shared with it until it draws again
-  int height = 0;         // rows of them that are shown
+  Properties properties;                    // of the console
+  FrameBuffers pictures;                    // shared with the console until it draws again
+  int height = 0;                           // visible rows of the pictures
   std::optional<MersenneTwister> random;
 
-  // As Environment::state_hash() and same_state(). A state of another image is never the same.
+  // As Environment::state_hash() and same_state(). States of different images are never the same.
   std::uint64_t state_hash() const { return racebeam::state_hash(parts()); }
   bool same_state(const Saved& other) const {
     return identity == other.identity && racebeam::same_state(parts(), other.parts());
@@ -62,7 +62,7 @@ class Environment::Saved {
 
 static_assert(std::is_trivially_copyable_v<Environment::Saved::Values>);
 
-// Throws InvalidInput when a state of `saved` is not one of `running`.
+// Throws InvalidInput if a state of `saved` does not belong to `running`.
 void check_identity(const Identity& saved, const Identity& running);
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-// A session of the classic protocol. The first byte is the options, the rest what a client sends.
+// A session of the classic protocol. The first byte selects options; the rest is the client's input.
 #include "fuzz/keep_code.hpp"
 #include "fuzz/target.hpp"
 #include "games/catalogue.hpp"
@@ -36,8 +36,8 @@ Environment make_machine(unsigned options) {
   return {cartridge.image, cartridge.game, settings};
 }
 
-// All that the session says to the text, in pieces of at most `piece` bytes; an error that ends it comes
-// last.
+// All output of the session for the text, which is sent in pieces of at most `piece` bytes. An error that
+// ends the session comes last.
 std::string conversation(unsigned options, std::string_view text, std::size_t piece) {
   Environment machine = make_machine(options);
   ClassicSession session(machine, {.run_length = (options & kRunLength) != 0,
@@ -47,7 +47,7 @@ std::string conversation(unsigned options, std::string_view text, std::size_t pi
     while (!session.ended()) {
       const auto reply = session.reply();
       if (!reply) return;
-      require(reply->ends_with('\n'), "what the server says is lines");
+      require(reply->ends_with('\n'), "the server's output consists of lines");
       require(is_printable(reply->substr(0, reply->size() - 1)), "lines are printable");
       said += *reply;
     }
@@ -67,7 +67,7 @@ std::string conversation(unsigned options, std::string_view text, std::size_t pi
       require(session.ended(), "a session whose input has ended ends");
     }
   } catch (const ClassicError& error) {
-    require(*error.what() != '\0' && is_printable(error.what()), "an error says something");
+    require(*error.what() != '\0' && is_printable(error.what()), "an error has a message");
     said += error.what();
   }
   return said;

@@ -1,5 +1,5 @@
-// A file of settings for `racebeam serve --config`: what is accepted is printed by `racebeam config`, and
-// that is read again as it was.
+// A file of settings for `racebeam serve --config`. If it is accepted, `racebeam config` prints it, and that
+// output must have the same meaning.
 #include "cli/commands/config.hpp"
 
 #include <sys/mman.h>
@@ -16,7 +16,7 @@
 namespace racebeam::fuzz {
 namespace {
 
-// A file without a name in any folder.
+// A file in memory, without a name in a folder.
 class MemoryFile {
  public:
   explicit MemoryFile(std::string_view text) : descriptor_(::memfd_create("config", MFD_CLOEXEC)) {
@@ -48,22 +48,23 @@ class CapturedOutput {
   std::streambuf* before_;
 };
 
-// What `racebeam config` prints for the file; nothing if it refuses it.
+// The output of `racebeam config` for the file; nothing if the file is refused.
 std::optional<std::string> printed(std::string_view file) {
   const MemoryFile config(file);
   const CapturedOutput output;
   CLI::App app;
   add_config(app);
   try {
-    app.parse(std::vector<std::string>{config.path(), "--config", "config"});  // CLI11 wants them backwards
+    // CLI11 expects them in reverse order
+    app.parse(std::vector<std::string>{config.path(), "--config", "config"});
   } catch (const CLI::Error& error) {
-    require(*error.what() != '\0', "an error says something");
+    require(*error.what() != '\0', "an error has a message");
     return std::nullopt;
   }
   return output.text();
 }
 
-// The settings without where they come from.
+// The settings without their sources.
 std::string settings_in(const std::string& text) {
   std::istringstream lines(text);
   std::string settings;
@@ -82,7 +83,7 @@ void run(Bytes input) {
   if (!first) return;
   const auto second = printed(*first);
   require(second.has_value(), "what `racebeam config` prints is accepted", *first);
-  require(settings_in(*first) == settings_in(*second), "what `racebeam config` prints is read as it was",
+  require(settings_in(*first) == settings_in(*second), "what `racebeam config` prints has the same meaning",
           *first + *second);
 }
 

@@ -1,4 +1,4 @@
-// Bytes as text and back, in every encoding of the wire; numbers, actions and lines out of text.
+// Bytes as text and back, in every encoding of the protocols; numbers, actions and lines from text.
 #include "protocol/encoding/encoding.hpp"
 
 #include <zlib.h>
@@ -106,13 +106,13 @@ void check_zlib(Bytes bytes) {
   }
 }
 
-// A reader of something that a client wrote either takes it or refuses it with a sentence.
+// A reader of client input either accepts it, or refuses it with a sentence.
 template <class Read>
 void may_refuse(Read read) {
   try {
     read();
   } catch (const Refusal& refusal) {
-    require(*refusal.what() != '\0', "a refusal says something");
+    require(*refusal.what() != '\0', "a refusal has a message");
   }
 }
 

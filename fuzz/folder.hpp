@@ -1,4 +1,4 @@
-// A folder that is there for one input.
+// A temporary folder for one input.
 #pragma once
 
 #include <stdlib.h>

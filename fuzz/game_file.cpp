@@ -1,4 +1,4 @@
-// A game file: read, and, if it is accepted, its rule and its modes tried on random memory.
+// A game file is read. If it is accepted, its rule and its modes are executed on random memory.
 #include "games/files/game_file.hpp"
 
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kFrames = 16, kModes = 4;
 
-// Memory that changes whenever time passes. It ends a program that does not end itself.
+// Memory that changes with each frame. It throws after some frames, to end programs that never end.
 class Host final : public ModeHost {
  public:
   Memory memory() override { return {ram_.data(), peek, this}; }
@@ -48,7 +48,7 @@ void play(const Game& game, Rule& rule, Host& host) {
     rule.reward_b();
     rule.terminal();
     rule.lives();
-    require(rule.tally() == before, "asking changes nothing");
+    require(rule.tally() == before, "queries change nothing");
   }
   require(game.has_second_reward() || rule.reward_b() == 0,
           "player B gets nothing where the rule has one player");
@@ -61,7 +61,7 @@ void try_modes(const Game& game, Rule& rule, Host& host) {
     try {
       run_mode_program(game, rule, mode, host);
     } catch (const std::invalid_argument& refusal) {
-      require(*refusal.what() != '\0', "a mode that does not come about says so");
+      require(*refusal.what() != '\0', "a mode that is not reached gives an error");
     }
   }
 }

@@ -38,7 +38,7 @@ class Codes {
 
 }  // namespace
 
-// As the specification GIF89a has it, appendix F.
+// As in the specification GIF89a, appendix F.
 Buffer unpack_lzw(Reader& reader) {
   constexpr std::size_t kLargest = 4096;
   const int root = reader.byte();
@@ -64,7 +64,7 @@ Buffer unpack_lzw(Reader& reader) {
       continue;
     }
     const bool is_new = code == table.size() && !before.empty();
-    require(code < table.size() || is_new, "an LZW code is one that there is");
+    require(code < table.size() || is_new, "an LZW code exists");
     Buffer sequence = is_new ? before : table[code];
     if (is_new) sequence.push_back(before.front());
     pixels.insert(pixels.end(), sequence.begin(), sequence.end());

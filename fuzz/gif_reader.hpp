@@ -1,4 +1,4 @@
-// A reader of GIF, so that what was written is read by something else.
+// An independent reader of GIF, to check what was written.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@ struct Gif {
   std::vector<std::vector<std::uint8_t>> frames;
 };
 
-// Aborts, through require(), when `file` is none.
+// Aborts, through require(), if `file` is not a GIF.
 Gif read_gif(Bytes file);
 
-// Image data: the size byte, blocks, and the empty one.
+// Reads image data: the size byte, blocks, and the empty block.
 std::vector<std::uint8_t> unpack_lzw(Reader& reader);
 
 }  // namespace racebeam::fuzz

@@ -1,5 +1,5 @@
 // A cartridge image on two machines, interpreted and translated. The first bytes are scheme, size, seed, and
-// eight steps of play, two bytes each; the rest is the image, repeated up to its size.
+// eight steps of play of two bytes each. The rest is the image, repeated up to its size.
 #include <array>
 #include <memory>
 #include <vector>
@@ -16,7 +16,7 @@ constexpr std::array<std::size_t, 10> kSizes = {2048,  4096,  8192,  8448,  1049
                                                 12288, 16384, 32768, 65536, 131072};
 constexpr int kSteps = 8;
 
-// A small picture: what the processor does is looked at.
+// A small picture, because the CPU is tested.
 Properties properties_of(std::uint8_t scheme) {
   const auto names = scheme_names();
   Properties properties;
@@ -28,7 +28,7 @@ Properties properties_of(std::uint8_t scheme) {
   return properties;
 }
 
-// `size`: a number of kSizes; beyond, the image is as large as `content`.
+// size: an index of kSizes; beyond them, the image has the size of `content`.
 Rom make_rom(std::uint8_t size, Bytes content) {
   Rom rom(content.begin(), content.end());
   const std::size_t wanted = size < kSizes.size() ? kSizes[size] : rom.size();
@@ -83,7 +83,7 @@ void run(Bytes input) {
     const std::string found = test::difference(interpreted.console, translated.console);
     require(found.empty(), "the translator does what the interpreter does", found);
   }
-  // A state of a run is one that the machine can be in.
+  // A state of a run must be accepted.
   const State state = interpreted.console.state();
   const auto ram = interpreted.console.cartridge_ram();
   translated.console.check(state, std::vector<std::uint8_t>(ram.begin(), ram.end()));

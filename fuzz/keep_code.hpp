@@ -1,4 +1,4 @@
-// What the translator makes of a cartridge goes with its last machine, and making it takes longer than most
+// Translated code of a cartridge is released with its last machine, and translating takes longer than most
 // inputs.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace racebeam::fuzz {
 
-// All machines of the cartridge share the code, from now on to the end of the process.
+// All machines of the cartridge share its code, from now until the process ends.
 inline void keep_code(const Cartridge& cartridge) {
   static std::vector<Environment> machines;
   machines.emplace_back(cartridge.image, cartridge.game, Settings{});

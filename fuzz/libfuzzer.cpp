@@ -1,5 +1,5 @@
-// A target under libFuzzer (preset `fuzz`). At the end it says how much it was given, which libFuzzer does
-// not.
+// Runs a target under libFuzzer (preset `fuzz`). At the end it reports the number and size of inputs, which
+// libFuzzer does not.
 #include <cstdio>
 #include <cstdlib>
 
@@ -13,7 +13,7 @@ void tell() { std::fprintf(stderr, "fuzz: %zu inputs, %zu bytes\n", inputs, byte
 
 }  // namespace
 
-// Names and types are libFuzzer's.
+// libFuzzer defines the name and the types.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (inputs++ == 0) std::atexit(tell);
   bytes += size;

@@ -1,4 +1,4 @@
-// A session of the line protocol: the input is what a client sends.
+// A session of the line protocol: the input is the client's.
 #include "protocol/line_session.hpp"
 
 #include <chrono>
@@ -21,7 +21,7 @@ std::shared_ptr<const Images> make_images() {
   return images;
 }
 
-// Small enough for an execution to be quick.
+// Small, so that an execution is quick.
 LineService make_service(const std::string& record_folder) {
   static const auto images = make_images();
   LineService service;
@@ -48,7 +48,7 @@ Lines lines_of(std::string_view text) {
   return lines;
 }
 
-// `load` without a seed, or with 0, draws one: the same input would not give the same replies.
+// `load` without a seed, or with 0, draws one: the same input would then give different replies.
 std::string with_seed(std::string line) {
   const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
   if (!std::string_view(line).substr(first).starts_with("load ")) return line;
@@ -62,11 +62,11 @@ std::string with_seed(std::string line) {
 
 class Client {
  public:
-  // Requests are carried out in slices of so long; however short, they change nothing.
+  // slice: duration of the slices of requests; it must not change the replies.
   explicit Client(std::chrono::microseconds slice)
       : slice_(slice), service_(make_service(folder_.path())), session_(service_) {}
 
-  // Sends the text in pieces of at most `piece` bytes; all replies, each ended by LF.
+  // Sends the text in pieces of at most `piece` bytes. Returns all replies, each ended by LF.
   std::string say(std::string_view text, std::size_t piece) {
     std::string replies;
     while (!text.empty() && !session_.finished()) {
@@ -87,7 +87,7 @@ class Client {
     return replies;
   }
 
-  // As much as there is space for, of which a part is carried out; then it has gone.
+  // Sends as much as there is space for, lets a part be executed, and disconnects.
   void say_and_leave(std::string_view text) {
     const std::span<char> space = session_.space();
     session_.received(text.copy(space.data(), space.size()));
@@ -115,7 +115,7 @@ class Client {
   LineSession session_;
 };
 
-// It has no reply.
+// A comment has no reply.
 bool is_comment(std::string_view line) {
   const std::size_t first = line.find_first_not_of(' ');
   return first != std::string_view::npos && line[first] == '#';
@@ -130,8 +130,8 @@ bool is_reply(std::string_view reply) {
   return begins && is_printable(reply);
 }
 
-// What counts requests differs when some are left out, and which reply is the first to know that a recording has
-// reached its limit depends on the thread that writes it.
+// Makes replies comparable. Counters of requests differ if requests are left out. The thread that writes a
+// recording decides which reply first reports that its limit is reached.
 std::string comparable(const std::string& request, std::string reply) {
   if (request.find("stats") != std::string::npos) return "";
   constexpr std::string_view kCut = " recording_ended=limit";
@@ -139,7 +139,7 @@ std::string comparable(const std::string& request, std::string reply) {
   return reply;
 }
 
-// What was refused has left no trace: without it, all others get the replies that they got.
+// A refused request leaves no trace: without it, all other requests get the same replies.
 void check_refusals(const Lines& requests, const Lines& replies) {
   Client client(LineSession::kSlice);
   for (std::size_t n = 0; n < replies.size(); ++n) {
@@ -176,7 +176,7 @@ void run(Bytes input) {
     require(has_quit, "every line gets a reply, until quit", text);
   }
   const bool half = !text.empty() && text.back() != '\n' && replies.size() == requests.size();
-  if (half) require(replies.back().starts_with("error "), "half a line is not carried out", replies.back());
+  if (half) require(replies.back().starts_with("error "), "half a line is not executed", replies.back());
   check_refusals(requests, replies);
   if (!text.empty()) Client(std::chrono::microseconds(1)).say_and_leave(text);
 }

@@ -1,5 +1,5 @@
-// Pictures, films and sound as files, read again. The first bytes are the kind, the format, the height and
-// the number of frames; the rest are the pixels, repeated as often as it takes, and the sound.
+// Pictures, films and sound as files, which are read again. The first bytes are the kind, the format, the
+// height and the number of frames. The rest are the pixels, repeated as often as necessary, and the sound.
 #include "recording/media.hpp"
 
 #include <png.h>
@@ -119,14 +119,14 @@ void check_wav(const Film& film, const std::string& path) {
         "a WAV has the sound that was recorded");
 }
 
-// Pictures of any size: codes grow, and the table starts again.
+// Pictures of any size: codes grow, and the table is reset.
 void check_lzw(Bytes pixels) {
   Buffer packed;
   Lzw lzw;
   lzw.append(packed, pixels);
   Reader reader(packed);
   require(std::ranges::equal(unpack_lzw(reader), pixels), "LZW gives back what it was made of");
-  require(reader.empty(), "nothing comes behind the last block");
+  require(reader.empty(), "nothing follows the last block");
 }
 
 }  // namespace
@@ -143,7 +143,7 @@ void run(Bytes input) {
     media->frame(frame);
     media->sound(film.sound);
   }
-  media->keep();
+  media->commit();
   const std::string path = folder.path() + "/" + file_name(film.kind, "film");
   switch (film.kind) {
     case MediaKind::kPng: return check_png(film, path);

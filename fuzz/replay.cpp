@@ -1,4 +1,4 @@
-// A target without libFuzzer: runs the files that are named, and those of folders.
+// Runs a target without libFuzzer, with the named files and those in named folders.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -31,7 +31,7 @@ bool run_file(const fs::path& path) {
     return false;
   }
   const std::vector<char> input{std::istreambuf_iterator<char>(file), {}};
-  std::printf("%s\n", path.c_str());  // the last one that is named is the one that failed
+  std::printf("%s\n", path.c_str());  // the last name printed is that of the input that failed
   std::fflush(stdout);
   racebeam::fuzz::run({reinterpret_cast<const std::uint8_t*>(input.data()), input.size()});
   return true;

@@ -1,6 +1,6 @@
-// The bytes of a state. The first byte chooses a machine, or says that the rest are the bytes themselves.
-// Otherwise the rest alters a state of that machine, four bytes each time: place (low byte first), what to do
-// there, value.
+// The bytes of a state. The first byte selects a machine, or says that the rest are the bytes themselves.
+// Otherwise the rest alters a state of that machine, four bytes at a time: offset (low byte first),
+// operation, value.
 #include <zlib.h>
 
 #include <cstring>
@@ -23,7 +23,7 @@ constexpr std::uint8_t kWhole = 0xFF;
 constexpr std::size_t kHeader = 24, kChecksum = 20;  // saved_state_format.cpp
 constexpr int kActs = 3;
 
-// Finding the format out would take a second of frames.
+// Detecting the format would take a second of frames.
 std::shared_ptr<const Game> random_game(std::string_view scheme) {
   Game game = *test::random_game(scheme);
   game.images.front().properties.format = Format::kNtsc;
@@ -58,7 +58,7 @@ void set_checksum(State& state) {
   std::memcpy(state.data() + kChecksum, &sum, sizeof sum);
 }
 
-// Pictures are any bytes; places are those before and behind them.
+// Any bytes are valid in pictures, so offsets are before or after them.
 std::size_t place_in(const State& state, const Environment& machine, std::size_t number) {
   const std::size_t pictures = 2U * static_cast<std::size_t>(machine.height()) * kScreenWidth;
   const std::size_t generator = (MersenneTwister::state_size + 1) * sizeof(std::uint32_t);
@@ -80,7 +80,7 @@ State altered(State state, const Environment& machine, Reader& changes) {
   return state;
 }
 
-// What a state has led to.
+// The state after some acts.
 State play(Environment& machine, const Environment::Saved& from) {
   machine.restore(from);
   const auto& legal = machine.game().legal_actions;

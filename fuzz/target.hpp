@@ -1,5 +1,5 @@
-// What a fuzz target is: one function, which may be given any bytes. libFuzzer calls it with inputs that it
-// makes (libfuzzer.cpp), the tests with those that are kept (replay.cpp).
+// A fuzz target is one function, which accepts any bytes. libFuzzer calls it with inputs that it generates
+// (libfuzzer.cpp), and tests call it with those of the corpora (replay.cpp).
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace racebeam::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
 
-// Each target defines it. It returns, whatever `input` is, and leaves nothing behind that another input could
-// meet.
+// Each target defines it. It must return for every `input`, and leave nothing behind that could affect
+// another input.
 void run(Bytes input);
 
-// A property that must hold. Otherwise says which does not, and aborts.
+// If `holds` is false, prints `property` and `detail`, and aborts.
 void require(bool holds, std::string_view property, std::string_view detail = {});
 
-// Takes an input apart from its beginning. What is no longer there reads as 0.
+// Reads an input from its beginning. Beyond its end, bytes are 0.
 class Reader {
  public:
   explicit Reader(Bytes input) : rest_(input) {}
@@ -51,7 +51,7 @@ inline std::string_view text_of(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// One line of printable ASCII, which all sentences for people are.
+// Whether the text is one line of printable ASCII, as all messages must be.
 inline bool is_printable(std::string_view text) {
   return std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
 }

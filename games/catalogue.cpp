@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMaxGameFile = 1 << 20;
 
-// The built-in image of a game is recognised by its MD5, which its file doesn't have to list.
+// The built-in image of a game is recognised by its MD5, which the game file need not list.
 std::shared_ptr<const Game> parsed(std::size_t number) {
   const CatalogueEntry& entry = catalogue()[number];
   Game game = parse_game(entry.text, std::string(entry.name), std::string(entry.name) + ".toml");
@@ -33,7 +33,7 @@ const CatalogueImage* known_image(std::string_view md5) {
 [[noreturn]] void refuse_name(const std::string& name) {
   const std::string near = did_you_mean(name, game_names());
   throw InvalidInput("there is no game '" + name + "';" +
-                              (near.empty() ? " `racebeam games` lists them" : near));
+                              (near.empty() ? " `racebeam games` lists all" : near));
 }
 
 bool describes(const Game& game, const Image& image) {
@@ -48,7 +48,7 @@ Game with_image(Game game, const GameImage& image) {
   return game;
 }
 
-// Whatever plays by the game's rule, the console is told what is known about the image
+// Whichever game's rule applies, the console gets the properties that are known for the image
 // (docs/spec/console.md).
 std::shared_ptr<const Game> with_properties_of(const Image& image, std::shared_ptr<const Game> game) {
   const CatalogueImage* const known = known_image(image.md5);
@@ -61,7 +61,7 @@ Recognition given(const std::shared_ptr<const Game>& game, RecognisedBy how, con
   return {with_properties_of(image, game), how, game->accepts(image.md5)};
 }
 
-// What clients of the line protocol say for something else than a game: `load inline`, `games all`, an MD5.
+// Words of the line protocol that cannot be names: `load inline`, `games all`, an MD5.
 bool is_taken(std::string_view name) {
   constexpr std::size_t kDigitsOfMd5 = 32;
   return name == "inline" || name == "all" ||
@@ -69,7 +69,7 @@ bool is_taken(std::string_view name) {
           name.find_first_not_of("0123456789abcdef") == std::string_view::npos);
 }
 
-// To clients of the line protocol it is a word, and one of a list.
+// Makes a word that the line protocol can use in lists.
 std::string as_name(std::string text) {
   const auto stays = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
@@ -78,7 +78,7 @@ std::string as_name(std::string text) {
   return is_taken(text) ? text + '_' : text;
 }
 
-// Nobody's game; but the image may be another dump of a known one, which needs the same controllers.
+// The image is of no known game. It may be another dump of one, which needs the same controllers.
 Recognition unknown(const Image& image) {
   auto game = std::make_shared<const Game>(game_without_rule(as_name(image.stem)));
   return {with_properties_of(image, std::move(game)), RecognisedBy::kNothing, true};

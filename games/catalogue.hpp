@@ -1,4 +1,4 @@
-// The games that are part of the program, and how an image is recognised as one of them.
+// The games that are part of the program, and the recognition of images.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,16 @@
 
 namespace racebeam {
 
-// A game file as it was built in; `text` is parsed when the game is asked for.
+// A built-in game file. `text` is parsed when the game is first used.
 struct CatalogueEntry {
   std::string_view name;
   std::string_view title;
   bool has_rule;
-  bool built_in;  // its image is part of the program: builtin:NAME
+  bool built_in;  // its image is part of the program, as builtin:NAME
   std::string_view text;
 };
 
-// An image by its MD5, with the number of its game in catalogue().
+// An image's MD5, with the number of its game in catalogue().
 struct CatalogueImage {
   std::string_view md5;
   std::size_t entry;
@@ -39,7 +39,7 @@ std::shared_ptr<const Game> find_game_by_md5(
 
 std::vector<std::string_view> game_names();  // of catalogue(), in its order
 
-// A game file of the user's. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
+// Loads a game file of the user. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 std::shared_ptr<const Game> load_game_file(const std::string& path);
 
 enum class RecognisedBy { kMd5, kGivenName, kGivenFile, kFileName, kNothing };
@@ -47,15 +47,15 @@ enum class RecognisedBy { kMd5, kGivenName, kGivenFile, kFileName, kNothing };
 struct Recognition {
   std::shared_ptr<const Game> game;  // never null; without a rule if the image is unknown
   RecognisedBy how = RecognisedBy::kNothing;
-  bool md5_matches = true;  // false: the game's rule was written for another image; worth a warning
+  bool md5_matches = true;  // false: the game's rule was written for another image; the caller should warn
 };
 
-// What was given explicitly wins; else the MD5 decides, else the file's name.
-// Throws InvalidInput for an unknown name (suggesting others) or a broken file.
+// An explicit name or file wins; else the MD5 decides, else the image's file name. Throws InvalidInput for an
+// unknown name (with suggestions) or an invalid file.
 Recognition recognise(const Image& image, const std::optional<std::string>& game_name = std::nullopt,
                       const std::optional<std::string>& game_file = std::nullopt);
 
-// An image and its game; both are const, so that any number of machines share them.
+// An image and its game. Both are const, so that any number of machines share them.
 struct Cartridge {
   std::shared_ptr<const Image> image;
   std::shared_ptr<const Game> game;

@@ -1,4 +1,5 @@
-// Run while building: checks all game files and writes them, with the built-in images, as one C++ source.
+// A tool of the build. It checks all game files, and writes them, with the built-in images, as one C++
+// source.
 //   embed_catalogue OUTPUT CATALOGUE-FOLDER HOMEBREW-FOLDER
 #include <algorithm>
 #include <filesystem>
@@ -9,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "games/digest.hpp"
 #include "games/files/game_file.hpp"
+#include "games/md5.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
@@ -31,7 +32,7 @@ Contents read_folder(const fs::path& folder, const std::string& ending) {
   return contents;
 }
 
-// A raw string literal; pieces, since compilers limit the length of one.
+// Raw string literals, several in a row, because compilers limit the length of one.
 std::string literal(std::string_view text) {
   constexpr std::size_t kPiece = 8000;
   std::string made;
@@ -96,7 +97,7 @@ class Catalogue {
     if (!image.md5.empty())
       md5s_.push_back({image.md5, names_.size(), image.accepted});
     else if (!is_built_in)
-      throw InvalidInput(path.string() + ":1: image.md5: an image that is not built in needs this");
+      throw InvalidInput(path.string() + ":1: image.md5: an image that is not built in must have this key");
   }
 
   static std::string md5_of_text(const std::string& bytes) {
@@ -112,7 +113,7 @@ class Catalogue {
     }
   }
 
-  // std::array, since a table may be empty.
+  // std::array, because a table may be empty.
   static void table(std::ostream& out, const std::string& type, const std::string& name,
                     const std::string& rows) {
     const std::string list = rows.empty() ? "std::span<const " + type + "> " + name + "{};\n\n"

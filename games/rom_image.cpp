@@ -6,7 +6,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "games/digest.hpp"
+#include "games/md5.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 
@@ -25,7 +25,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-// pong.bin, PONG.a26 and pong.bin.gz are all "pong".
+// The stem of pong.bin, PONG.a26 and pong.bin.gz is "pong".
 std::string stem_of(std::filesystem::path path) {
   if (path.extension() == ".gz") path = path.stem();
   return lower(path.stem().string());
@@ -58,7 +58,7 @@ struct Closer {
 };
 using GzipFile = std::unique_ptr<gzFile_s, Closer>;
 
-// At most one byte more than an image may have. zlib hands on files that aren't gzip as they are.
+// Reads one byte more than an image may have, at most. zlib passes files through that are not gzip.
 std::vector<std::uint8_t> read_file(const std::string& path) {
   const GzipFile file(gzdopen(open_input_file("image", path), "rb"));
   std::vector<std::uint8_t> bytes(kMaxImageSize + 1);
@@ -76,7 +76,7 @@ std::vector<std::uint8_t> read_file(const std::string& path) {
 std::shared_ptr<const Image> make_image(std::vector<std::uint8_t> bytes, const std::string& stem) {
   if (bytes.empty()) refuse(stem, "it is empty");
   if (bytes.size() > kMaxImageSize)
-    refuse(stem, "larger than an image can be, " + std::to_string(kMaxImageSize) + " bytes");
+    refuse(stem, "larger than the largest image, " + std::to_string(kMaxImageSize) + " bytes");
   return image_of(std::move(bytes), stem);
 }
 
@@ -85,11 +85,11 @@ std::vector<std::string> image_files(const std::string& folder) {
   std::error_code error;
   std::vector<std::string> files;
   for (fs::directory_iterator entry{folder, error}, end; !error && entry != end; entry.increment(error)) {
-    std::error_code unknown;  // a link to itself, or into a folder that is closed to us
+    std::error_code unknown;  // a link to itself, or into a folder without permission
     if (entry->is_regular_file(unknown) && looks_like_image(entry->path()))
       files.push_back(entry->path().string());
   }
-  if (error) throw InvalidInput("can't list the folder '" + folder + "': " + error.message());
+  if (error) throw InvalidInput("cannot list the folder '" + folder + "': " + error.message());
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -99,7 +99,7 @@ std::shared_ptr<const Image> load_image(const std::string& where) {
   std::vector<std::uint8_t> bytes = read_file(where);
   if (bytes.empty()) refuse(where, "the file is empty");
   if (bytes.size() > kMaxImageSize)
-    refuse(where, "larger than an image can be, " + std::to_string(kMaxImageSize) + " bytes");
+    refuse(where, "larger than the largest image, " + std::to_string(kMaxImageSize) + " bytes");
   return image_of(std::move(bytes), stem_of(where));
 }
 

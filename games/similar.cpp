@@ -9,7 +9,7 @@ namespace racebeam {
 namespace {
 
 constexpr std::size_t kSuggestions = 3;
-constexpr std::size_t kLongest = 64;  // of names that are compared: what is longer is like none
+constexpr std::size_t kLongest = 64;  // longer names are similar to none
 
 std::string in_small_letters(std::string_view text) {
   std::string small(text);
@@ -18,7 +18,7 @@ std::string in_small_letters(std::string_view text) {
   return small;
 }
 
-// Levenshtein's: how many letters to insert, delete or replace.
+// The Levenshtein distance: how many letters to insert, delete or replace.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);

@@ -1,4 +1,4 @@
-// What a person may have meant who wrote a name that is not there.
+// Suggestions for names that are not known.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace racebeam {
 
-// Those of `known` that are most like `name`, nearest first, three at most; none if nothing is near. Whether
-// letters are large or small does not count.
+// The names of `known` most similar to `name`: nearest first, at most three. Empty if none is similar. Case
+// does not matter.
 std::vector<std::string_view> similar_names(std::string_view name, std::span<const std::string_view> known);
 
-// For sentences: " did you mean A or B?", or "" if nothing is near.
+// For error messages: " did you mean A or B?", or "" if none is similar.
 std::string did_you_mean(std::string_view name, std::span<const std::string_view> known);
 
 }  // namespace racebeam

@@ -1,6 +1,6 @@
-// One session of the racebeam line protocol (protocol/PROTOCOL.md). It has never heard of files and sockets:
-// bytes go in, bytes come out, and in between run() works for as long as it is told, so that a thread can
-// serve many. Nothing here throws and nothing waits.
+// One session of the racebeam line protocol (protocol/PROTOCOL.md). It knows no files and no sockets: bytes
+// go in, and bytes come out. Between them, run() works for a limited time, so that a thread can serve many
+// sessions. No function throws or blocks.
 #pragma once
 
 #include <chrono>
@@ -19,41 +19,44 @@ class Session;
 
 class LineSession {
  public:
-  // Both outlive the session. It counts into `meter`, if there is one, on the thread that calls run().
+  // Both parameters must outlive the session. It counts into `meter`, if that is not null, on the thread that
+  // calls run().
   explicit LineSession(const LineService& service, Meter* meter = nullptr);
   ~LineSession();
   LineSession(const LineSession&) = delete;
   LineSession& operator=(const LineSession&) = delete;
 
-  // A person reads, on a terminal so wide: the replies of `help` have several lines. 0: a program does.
+  // columns: the width of the user's terminal, for which replies of `help` have several lines. 0: a program
+  // reads them.
   void set_columns(int columns);
 
   std::span<char> space();           // where input goes; do not read while it is empty
-  void received(std::size_t count);  // so much was put there; 0: the client has closed its end
+  void received(std::size_t count);  // this many bytes were added; 0: the client has closed its end
 
-  // Carries out requests, or a part of one, for about as long as `slice`, or until replies are worth sending.
-  // Returns true when there is more to do: send the output that waits, and call it again.
+  // Executes requests, or a part of one, for about `slice`, or until there are enough replies to send.
+  // Returns true if there is more to do: send the waiting output, and call it again.
   bool run(std::chrono::microseconds slice = kSlice);
-  static constexpr std::chrono::microseconds kSlice{2000};  // what other sessions have to wait
+  static constexpr std::chrono::microseconds kSlice{2000};  // how long other sessions may have to wait
 
-  std::chrono::steady_clock::duration worked() const;  // how long the last run() took
+  std::chrono::steady_clock::duration worked() const;  // duration of the last run()
 
-  // Replies to requests that were sent ahead are there, and few such requests are left: if more have come by
-  // now, hand them in and run() again; else send the output.
+  // Replies to requests that were sent ahead wait, and few such requests are left. If more have been
+  // received, hand them in and run() again; else send the output.
   bool wants_more() const;
 
-  // What it records has no room for another frame: run() does nothing until it has. Others have their turn.
+  // A recording has no room for another frame: run() does nothing until it has. Other sessions have their
+  // turn.
   bool waits() const;
 
-  std::string_view output() const;  // to be sent; good until run() or sent()
-  void sent(std::size_t count);     // so much of it is on its way
+  std::string_view output() const;  // to be sent; valid until run() or sent()
+  void sent(std::size_t count);     // this many bytes of it were sent
 
   bool admitted() const;     // it has given its token, or needs none
-  int wrong_tokens() const;  // that it has given so far
-  bool refused() const;      // ended by an error, as LineService::strict says
-  bool finished() const;     // nothing will come any more: send the output, then close
-  void cancel();             // the client has gone: what is under way is given up
-  void rest();               // nothing has come for a while: memory is given back that only saves time
+  int wrong_tokens() const;  // number of wrong tokens so far
+  bool refused() const;      // ended by an error, with LineService::strict
+  bool finished() const;     // there will be no more replies: send the output, then close
+  void cancel();             // the client has disconnected: the request in progress is cancelled
+  void rest();               // releases caches; called when no request has come for a while
 
   std::string summary() const;  // for the log: what was played
  private:

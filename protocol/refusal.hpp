@@ -1,4 +1,4 @@
-// How the line protocol says no: `error CODE sentence`. protocol/PROTOCOL.md lists the codes; a test
+// The errors of the line protocol: `error CODE sentence`. protocol/PROTOCOL.md lists the codes; a test
 // compares.
 #pragma once
 
@@ -41,7 +41,7 @@ struct CodeRow {
 std::span<const CodeRow> codes();  // in the order of Code
 std::string_view name_of(Code code);
 
-// Ends a request; the session goes on.
+// Ends a request with an error; the session continues.
 class Refusal : public std::runtime_error {
  public:
   Refusal(Code code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}

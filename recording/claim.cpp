@@ -13,7 +13,8 @@ bool Claims::empty() const {
 void Claims::add(const std::vector<std::string>& names) {
   const std::lock_guard lock(mutex_);
   for (const std::string& name : names) {
-    if (names_.contains(name)) throw std::runtime_error(name + " is being recorded; choose another name");
+    if (names_.contains(name))
+      throw std::runtime_error(name + " is being recorded already; choose another name");
   }
   names_.insert(names.begin(), names.end());
 }

@@ -1,5 +1,5 @@
-// Names under which something is being recorded. Two recordings of one name would both go on until the end,
-// when the second could not be kept.
+// Names that recordings use. Of two recordings with one name, the second could not be committed at its end;
+// it is refused at its start instead.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,11 @@
 
 namespace racebeam {
 
-// From any thread.
+// Thread-safe.
 class Claims {
  public:
   bool empty() const;
-  void add(
-      const std::vector<std::string>& names);  // all or none; throws std::runtime_error when one is taken
+  void add(const std::vector<std::string>& names);  // all or none; throws std::runtime_error if one is taken
   void drop(const std::vector<std::string>& names);
 
  private:
@@ -23,7 +22,7 @@ class Claims {
   std::set<std::string> names_;
 };
 
-// Holds its names as long as it lives.
+// Holds its names during its lifetime.
 class Claim {
  public:
   Claim(std::shared_ptr<Claims> claims, std::vector<std::string> names);

@@ -1,4 +1,4 @@
-// An animated GIF: every second frame, since its clock ticks in hundredths of a second.
+// An animated GIF. It has every second frame, because its clock ticks in hundredths of a second.
 #include <initializer_list>
 #include <vector>
 
@@ -15,7 +15,7 @@ void put_word(Bytes& out, std::size_t number) {
   out.push_back(static_cast<std::uint8_t>(number >> 8));
 }
 
-// What `insert` would do, but g++ 12 warns of it without cause.
+// Replaces `insert`, about which g++ 12 warns without cause.
 void put(Bytes& out, std::initializer_list<int> bytes) {
   for (const int byte : bytes) out.push_back(static_cast<std::uint8_t>(byte));
 }
@@ -35,7 +35,7 @@ class Gif final : public Media {
     put(head, {0xF7, 0, 0});  // a palette of 256 colours, 8 bits each
     for (const Rgb& color : footage.palette) put(head, {color.r, color.g, color.b});
     put_text(head, "\x21\xFF\x0BNETSCAPE2.0");
-    put(head, {3, 1, 0, 0, 0});  // for ever
+    put(head, {3, 1, 0, 0, 0});  // repeats for ever
     file_.write(head);
   }
 
@@ -44,7 +44,7 @@ class Gif final : public Media {
     wide_.clear();
     for (const std::uint8_t pixel : pixels) wide_.insert(wide_.end(), 2, pixel);
     block_.clear();
-    put(block_, {0x21, 0xF9, 4, 0});  // what follows is shown so long:
+    put(block_, {0x21, 0xF9, 4, 0});  // the next image is shown for:
     put_word(block_, delay());
     put(block_, {0, 0, 0x2C, 0, 0, 0, 0});
     put_word(block_, kPictureWidth);
@@ -56,19 +56,19 @@ class Gif final : public Media {
 
   void sound(std::span<const std::uint8_t>) override {}
 
-  void keep() override { file_.keep(); }
+  void commit() override { file_.commit(); }
 
  private:
   static constexpr int kEvery = 2;
 
-  // Rounded so that nothing adds up.
+  // Rounded so that errors do not add up.
   std::size_t delay() {
     const auto time = [this](int shown) { return (shown * kEvery * 100 + rate_ / 2) / rate_; };
     const int number = shown_++;
     return static_cast<std::size_t>(time(number + 1) - time(number));
   }
 
-  KeptFile file_;
+  AtomicFile file_;
   std::size_t height_;
   int rate_;
   Lzw lzw_;

@@ -10,7 +10,7 @@ namespace racebeam {
 
 class Lzw {
  public:
-  // Appends image data with the size byte before it and the empty block behind it.
+  // Appends image data, with the size byte before it and the empty block after it.
   void append(std::vector<std::uint8_t>& out, std::span<const std::uint8_t> pixels);
 
  private:

@@ -10,13 +10,13 @@
 #include <string_view>
 
 #include "emulator/tia/palette.hpp"
-#include "recording/kept.hpp"
+#include "recording/atomic_file.hpp"
 
 namespace racebeam {
 
-constexpr std::size_t kPictureWidth = 320;  // every pixel is doubled: those of the console are wide
+constexpr std::size_t kPictureWidth = 320;  // every pixel is doubled, since the console's pixels are wide
 
-// What is recorded.
+// The format of what is recorded.
 struct Footage {
   std::size_t height;      // rows of 160 pixels
   const Palette& palette;  // what their bytes mean
@@ -27,22 +27,22 @@ class Media {
  public:
   virtual ~Media() = default;
 
-  // Both throw BudgetSpent, or std::runtime_error when the disk refuses; then nothing of this frame is there,
-  // and what came before it can still be kept.
+  // Both throw BudgetSpent, or std::runtime_error if the system refuses to write. Nothing of this frame is
+  // then recorded, and the frames before it can still be committed.
   virtual void frame(std::span<const std::uint8_t> pixels) = 0;  // height x 160 palette indices
   virtual void sound(std::span<const std::uint8_t> samples) = 0;
 
-  // The end: makes it visible under its name. Throws std::runtime_error.
-  virtual void keep() = 0;
+  // Ends the recording: makes it visible under its name. Throws std::runtime_error.
+  virtual void commit() = 0;
 };
 
 enum class MediaKind { kPng, kGif, kY4m, kWav };
 std::optional<MediaKind> media_kind(std::string_view name);  // png gif y4m wav
 
-// What the file, or the folder of PNGs, is called: NAME/, NAME.gif, NAME.y4m, NAME.wav.
+// The name of the file, or of the folder of PNGs: NAME/, NAME.gif, NAME.y4m, NAME.wav.
 std::string file_name(MediaKind kind, const std::string& name);
 
-// `folder` exists.
+// `folder` must exist.
 std::unique_ptr<Media> make_media(MediaKind kind, const std::string& folder, const std::string& name,
                                   const Footage& footage, DiskBudget& budget);
 

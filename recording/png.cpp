@@ -61,10 +61,10 @@ class Pngs final : public Media {
   }
 
   void sound(std::span<const std::uint8_t>) override {}
-  void keep() override { folder_.keep(); }
+  void commit() override { folder_.commit(); }
 
  private:
-  KeptFolder folder_;
+  AtomicFolder folder_;
   std::size_t height_;
   Bytes head_, rows_, packed_, file_;
   int number_ = 0;

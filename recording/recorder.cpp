@@ -13,8 +13,8 @@ namespace {
 namespace net = boost::asio;
 using namespace std::chrono_literals;
 
-constexpr std::size_t kThreads = 2;  // so that a file that is being synced does not hold up all others
-constexpr auto kLastMoment = 100ms;  // to remove what was given up
+constexpr std::size_t kThreads = 2;  // so that one file's sync does not hold up all others
+constexpr auto kLastMoment = 100ms;  // to remove recordings that were aborted
 
 int frame_rate(Format format) { return format == Format::kPal || format == Format::kSecam ? 50 : 60; }
 
@@ -29,7 +29,7 @@ class Recorder::Threads : public net::thread_pool {
  public:
   Threads() : net::thread_pool(kThreads) {}
 
-  Recording::Post strand() {  // jobs in their order
+  Recording::Post strand() {  // runs jobs in their order
     return
         [strand = net::make_strand(*this)](std::function<void()> job) { net::post(strand, std::move(job)); };
   }
@@ -37,7 +37,7 @@ class Recorder::Threads : public net::thread_pool {
 
 Recorder::Recorder(std::string folder) : folder_(std::move(folder)), threads_(std::make_unique<Threads>()) {}
 
-// A thread that hangs in the disk can't be ended, nor waited for: it is left to the end of the process.
+// A thread that hangs in a system call can neither be ended nor joined: it remains until the process ends.
 Recorder::~Recorder() {
   if (*given_up_ && !idle()) {
     static_cast<void>(threads_.release());

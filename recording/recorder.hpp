@@ -1,4 +1,4 @@
-// The threads that encode and write what is recorded: for a whole server, or for any number of sessions.
+// The threads that encode and write recordings, for a whole server or any number of sessions.
 #pragma once
 
 #include <atomic>
@@ -13,28 +13,30 @@ namespace racebeam {
 
 class Recorder {
  public:
-  explicit Recorder(std::string folder);  // which exists
-  ~Recorder();  // as many as there are are finished, however long it takes, unless end() gave them up
+  explicit Recorder(std::string folder);  // the folder must exist
+  ~Recorder();  // finishes all recordings, however long it takes, unless end() aborted them
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  // Begins to record `machine` under `name`, a file for each kind. The caller waits while it is_behind();
-  // when it has finished() by then, the disk refused. Letting go of it, before the Recorder goes, is as good
-  // as finish(). Its memory is charged with `charge`, if there is one, until all is written. Never waits for
-  // the disk; throws std::runtime_error when a recording of that name is under way. From any thread.
+  // Begins to record `machine` under `name`, a file for each kind.
+  // The caller waits while is_behind(). If the recording has then finished(), the system refused to write.
+  // Releasing it is the same as finish(); the Recorder must outlive it. `charge`, if not null, is charged for
+  // its memory until all is written.
+  // Never waits for the disk. Throws std::runtime_error if a recording of that name runs already.
+  // Thread-safe.
   std::shared_ptr<Recording> begin(std::vector<MediaKind> kinds, const std::string& name,
                                    std::size_t most_bytes, const Environment& machine,
                                    const Charge& charge = {});
 
-  bool idle() const;  // all recordings have finished; from any thread
+  bool idle() const;  // all recordings have finished; thread-safe
 
-  // Waits so long for all recordings to finish; then it gives them up: what has not been kept is removed, or
-  // left where the disk hangs. No more are begun.
+  // Waits up to `patience` for all recordings to finish, then aborts them. Files that were not committed are
+  // removed, or remain where the system hangs. No more recordings are begun.
   void end(std::chrono::milliseconds patience);
 
  private:
   class Threads;
-  bool wait(std::chrono::milliseconds patience) const;  // until it is idle; false: it is not
+  bool wait(std::chrono::milliseconds patience) const;  // until it is idle; false: the time is over
 
   const std::string folder_;
   const std::shared_ptr<Claims> claims_ = std::make_shared<Claims>();

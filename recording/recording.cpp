@@ -10,8 +10,7 @@ namespace {
 // Some milliseconds of the encoders' work. A frame of sound alone has six bytes.
 constexpr std::size_t kMostPictures = 16, kMostSounds = 1024;
 
-// What encoders need at most: buffers of six bytes a pixel and what they are made into, and zlib's own
-// memory.
+// The most memory that encoders need: buffers of six bytes a pixel, their output, and zlib's own memory.
 constexpr std::size_t kEncoderBytesAPixel = 12, kEncoderBytes = 1 << 19;
 
 constexpr const char* kStopping = "the server stops";
@@ -152,16 +151,16 @@ void Recording::close() {
   if (*given_up_) {
     result_.failure = kStopping;
   } else {
-    keep();
+    commit();
   }
   end();
 }
 
-void Recording::keep() {
+void Recording::commit() {
   std::vector<std::string> kept;
   for (std::size_t i = 0; i < media_.size(); ++i) {
     try {
-      media_[i]->keep();
+      media_[i]->commit();
       kept.push_back(order_.file_names()[i]);
     } catch (const std::exception& error) {
       result_.failure = error.what();
@@ -173,7 +172,7 @@ void Recording::keep() {
 }
 
 void Recording::end() {
-  media_.clear();  // what was not kept goes
+  media_.clear();  // files that were not committed are removed
   claim_.reset();
   change([this] { ended_ = true; });
 }

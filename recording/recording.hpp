@@ -1,5 +1,5 @@
-// Frames on their way to the disk. The thread that plays copies each frame into a short queue; a thread of
-// the Recorder encodes and writes it. So neither zlib nor a disk that hangs holds up those who play.
+// Frames on their way to the disk. The playing thread copies each frame into a short queue. A thread of the
+// Recorder encodes and writes it. So neither zlib nor a hanging disk delays the playing thread.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@
 namespace racebeam {
 
 struct RecordedFrame {
-  std::vector<std::uint8_t> pixels;  // none where only sound is recorded
+  std::vector<std::uint8_t> pixels;  // none if only sound is recorded
   std::array<std::uint8_t, 6> sound;
 };
 
@@ -32,61 +32,62 @@ struct Order {
   std::string folder, name;
   std::size_t most_bytes;  // of all files together
   Footage footage;
-  std::shared_ptr<const void> charge = nullptr;  // let go of when the recording's memory is
+  std::shared_ptr<const void> charge = nullptr;  // released with the recording's memory
 
   std::vector<std::string> file_names() const;  // one for each kind
   std::size_t memory() const;                   // bytes of the queue and the encoders, at most
 };
 
-// Charges so many bytes of memory to an account, for as long as what it returns is held; throws if there are
-// not so many.
+// Charges bytes of memory to an account, until the returned object is released. Throws if the account has too
+// few.
 using Charge = std::function<std::shared_ptr<const void>(std::size_t bytes)>;
 
 class Recording : public std::enable_shared_from_this<Recording> {
  public:
-  // Why it ended before it was told to. What was written before is kept.
+  // Why it ended early. What was written before is committed.
   enum class Cut { kLimit, kDisk };
 
   struct Result {
-    std::string names;  // of the files that were kept, such as "a.gif" or "a.y4m,a.wav"; empty: none were
+    std::string names;  // of the committed files, such as "a.gif" or "a.y4m,a.wav"; empty: none
     std::int64_t frames = 0;
     std::size_t bytes = 0;
-    std::string failure;  // what the disk refused; a sentence
+    std::string failure;  // the system's error, as a sentence
   };
 
-  // Runs its jobs one after the other, in their order, on another thread.
+  // Runs jobs one after the other, in their order, on another thread.
   using Post = std::function<void(std::function<void()>)>;
 
-  // Recorder::begin() makes one. `given_up`: nothing more is written, and nothing kept.
+  // Recorder::begin() calls it. `given_up`: nothing more is written or committed.
   Recording(Order order, std::unique_ptr<Claim> claim, Post post,
             std::shared_ptr<const std::atomic<bool>> given_up);
   void begin();
 
-  // Whether it has yet to begin, to make room for a frame, or to finish, whichever was asked for last. The
-  // caller waits until it is not. From any thread.
+  // Whether the last call has not been completed: begin, add or finish. The caller waits until it has.
+  // Thread-safe.
   bool is_behind() const;
 
-  // One frame: a copy of its screen. Not while it is behind; one thread at a time. Does nothing after a cut.
+  // Adds one frame: a copy of the machine's screen and sound. Not while is_behind(); by one thread at a time.
+  // Does nothing after a cut.
   void add(const Environment& machine);
 
-  void finish();                                       // there are no more frames: keeps what there is
-  bool finished() const;                               // nothing happens any more; from any thread
-  std::optional<Cut> cut() const;                      // from any thread
+  void finish();                                       // there are no more frames: commits the files
+  bool finished() const;                               // nothing happens any more; thread-safe
+  std::optional<Cut> cut() const;                      // thread-safe
   const Result& result() const { return result_; }     // once it has finished
   const std::string& names() const { return names_; }  // of its files: "a.gif", "a.y4m,a.wav"
 
  private:
-  // On the recorder's threads.
+  // On the recorder's threads:
   void open();
   void write_next();
   void write(const RecordedFrame& frame);
   void cut_off(Cut why);
   void close();
-  void keep();
+  void commit();
   void end();
 
   void post(void (Recording::*job)());
-  bool is_over() const;  // no frame is taken any more
+  bool is_over() const;  // no frame is accepted any more
   template <typename Change>
   void change(Change change);  // under the mutex
 
@@ -96,13 +97,14 @@ class Recording : public std::enable_shared_from_this<Recording> {
   const Post post_;
   const std::shared_ptr<const std::atomic<bool>> given_up_;
 
-  std::vector<RecordedFrame> queue_;  // a ring; a frame belongs to the recorder's thread while it waits
-  std::size_t added_ = 0;             // of the thread that plays
+  std::vector<RecordedFrame> queue_;  // a ring; a waiting frame belongs to the recorder's thread
+  std::size_t added_ = 0;             // by the playing thread
 
-  // Of the recorder's threads.
+  // Used by the recorder's threads:
   DiskBudget budget_;
-  std::vector<std::unique_ptr<Media>> media_;  // as order_.kinds; empty when nothing is written any more
-  Sound sound_;                                // of its own: what is recorded must not change what is played
+  std::vector<std::unique_ptr<Media>>
+      media_;    // in the order of order_.kinds; empty when nothing more is written
+  Sound sound_;  // a copy: recording must not change what is played
   std::unique_ptr<Claim> claim_;
   std::size_t written_ = 0;
   Result result_;

@@ -24,7 +24,7 @@ Bytes header(std::size_t rate, std::size_t samples) {
   put_text(out, "RIFF");
   put_number(out, kHeaderSize - 8 + samples, 4);
   put_text(out, "WAVEfmt ");
-  put_number(out, 16, 4);    // of this part
+  put_number(out, 16, 4);    // size of this chunk
   put_number(out, 1, 2);     // PCM
   put_number(out, 1, 2);     // channels
   put_number(out, rate, 4);  // samples a second
@@ -50,13 +50,13 @@ class Wav final : public Media {
     samples_ += samples.size();
   }
 
-  void keep() override {
+  void commit() override {
     file_.overwrite(0, header(rate_, samples_));
-    file_.keep();
+    file_.commit();
   }
 
  private:
-  KeptFile file_;
+  AtomicFile file_;
   std::size_t rate_, samples_ = 0;
 };
 

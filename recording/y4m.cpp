@@ -37,10 +37,10 @@ class Y4m final : public Media {
   }
 
   void sound(std::span<const std::uint8_t>) override {}
-  void keep() override { file_.keep(); }
+  void commit() override { file_.commit(); }
 
  private:
-  KeptFile file_;
+  AtomicFile file_;
   std::array<Yuv, 256> colors_;
   std::vector<std::uint8_t> planes_;  // of a frame, with its head
 };

@@ -22,11 +22,11 @@ using boost::system::error_code;
 using net::use_awaitable;
 using namespace std::chrono_literals;
 
-// After the grace: to take leave, to send what is under way, to keep what is recorded. With the last moment
-// of the Recorder no more than a second.
+// Times after the grace period: to say farewell, to send pending bytes, to finish recordings. With the
+// Recorder's own limit, no more than a second in total.
 constexpr auto kFarewell = 700ms, kLastBytes = 100ms, kLastFrames = 50ms;
 
-// A descriptor a session: as many as we may have.
+// A session takes a descriptor, so the limit is raised as far as permitted.
 void raise_descriptor_limit() {
   rlimit limit{};
   if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -50,8 +50,8 @@ class Server {
 
  private:
   void announce();
-  net::awaitable<void> obey();       // signals
-  net::awaitable<void> wind_down();  // grace, then the end
+  net::awaitable<void> obey();       // handles signals
+  net::awaitable<void> wind_down();  // waits for the grace period, then ends all
   net::awaitable<void> end_with_recordings();
   bool sessions_ended() const;
   bool all_ended() const;
@@ -67,7 +67,7 @@ class Server {
   IdleMonitor idle_monitor_;
   std::optional<ReadyFile> ready_file_;
   ConnectionAcceptor acceptor_;
-  std::shared_ptr<Recorder> recorder_;  // null: nothing is recorded
+  std::shared_ptr<Recorder> recorder_;  // null: recording is off
   std::list<StreamSession> streams_;
   std::unique_ptr<Http> http_;
   bool told_to_stop_ = false, patient_ = true;
@@ -95,8 +95,7 @@ Server::Server(const ServerSettings& settings, const Services& services)
 
 void Server::announce() {
   if (!acceptor_.empty()) {
-    log("threads that serve: " + std::to_string(settings_.threads) + ", limited by " +
-            settings_.threads_limited_by,
+    log("threads: " + std::to_string(settings_.threads) + ", limited by " + settings_.threads_limited_by,
         {{"event", "threads"}});
   }
   acceptor_.open();
@@ -139,16 +138,16 @@ net::awaitable<void> Server::obey() {
   }
 }
 
-// Without an order to stop they have as long as they need.
+// Unless the server is told to stop, recordings take as long as they need.
 net::awaitable<void> Server::end_with_recordings() {
   while (!all_ended()) co_await pause();
   if (!told_to_stop_) loops_.stop();
 }
 
-// Sessions on streams have no grace: who stops the server is the one who talks to it.
+// Sessions on streams have no grace period: their client is the one that stops the server.
 net::awaitable<void> Server::wind_down() {
   ready_ = false;
-  ready_file_.reset();  // its addresses are dead from now on
+  ready_file_.reset();  // its addresses are no longer valid
   notify_manager("STOPPING=1");
   acceptor_.close();
   log("told to stop: " + std::to_string(metrics_.sessions_open) + " sessions have " +
@@ -159,7 +158,7 @@ net::awaitable<void> Server::wind_down() {
   idle_monitor_.end_all();
   const auto farewell = Clock::now() + kFarewell;
   for (; !all_ended() && Clock::now() < farewell; co_await pause()) stop_streams(true);
-  // Connections that are being closed: what was sent last is on its way.
+  // Waits for connections that are being closed while their last bytes are sent.
   const auto last = Clock::now() + kLastBytes;
   while (loops_.sessions() > 0 && Clock::now() < last) co_await pause();
   loops_.stop();
@@ -191,10 +190,10 @@ int Server::status() const {
 
 int serve(const ServerSettings& settings, const Services& services) {
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of who writes it
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer
   raise_descriptor_limit();
   const int status = Server(settings, services).run();
-  // Sessions that did not end in time are gone by now, but what they recorded is not yet kept.
+  // Sessions that did not end in time are gone. Their recordings are finished here.
   if (const auto recorder = recorder_of(services)) recorder->end(kLastFrames);
   return status;
 }

@@ -1,4 +1,4 @@
-// A server: sessions for all who come to its endpoints, until it is told to stop.
+// Runs a server: serves sessions on its endpoints until it is told to stop.
 #pragma once
 
 #include "server/connections/service.hpp"
@@ -6,12 +6,12 @@
 
 namespace racebeam {
 
-// Returns the exit status of the process, once SIGTERM or SIGINT came (0), or every endpoint has ended: those
-// of one session, standard streams and pipes, end with it (their status), sockets never do. Every session has
-// a machine of its own and shares nothing with the others: one that is slow, or makes no sense, only harms
-// itself. SIGHUP reads tokens and certificate again; a second SIGTERM or SIGINT ends the grace period.
+// Returns the exit status of the process after SIGTERM or SIGINT (0), or when every endpoint has ended. An
+// endpoint of one session, standard streams or pipes, ends with it, with its status. Sockets never end. Every
+// session has its own machine, and shares nothing with others that a slow or faulty client could affect.
+// SIGHUP reads tokens and certificate again. A second SIGTERM or SIGINT ends the grace period.
 //
-// Throws std::runtime_error or std::invalid_argument when the start fails; nothing is left behind then.
+// Throws std::runtime_error or std::invalid_argument if the start fails, and undoes it.
 int serve(const ServerSettings& settings, const Services& services);
 
 }  // namespace racebeam

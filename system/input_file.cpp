@@ -11,7 +11,7 @@
 namespace racebeam {
 namespace {
 
-// Where a file was named, and for what.
+// A file that the user named, and what it is for.
 struct Named {
   const std::string& what;
   const std::string& path;
@@ -62,8 +62,8 @@ class Descriptor {
 
 }  // namespace
 
-// Opening a device may already do something, so it is looked at first. What the name stands for may change
-// meanwhile, so it is opened without waiting, and looked at again.
+// Opening a device may have an effect, so the file's kind is checked before. The name may be changed
+// meanwhile, so the file is opened without blocking, and checked again.
 int open_input_file(const std::string& what, const std::string& path) {
   const Named named{what, path};
   struct stat found {};
@@ -75,7 +75,7 @@ int open_input_file(const std::string& what, const std::string& path) {
   return file.release();
 }
 
-// The size that the system tells is not asked for: files of /proc have none.
+// The size that the system reports is not used: files of /proc report none.
 std::string read_input_file(const std::string& what, const std::string& path, std::size_t most) {
   const Named named{what, path};
   const Descriptor file(open_input_file(what, path));

@@ -1,5 +1,5 @@
-// Files that the user names: an image, a game file, tokens, a configuration. Only a regular file is read.
-// Pipes, devices, sockets and directories are refused at once: reading one may wait for ever, or never end.
+// Files that the user names: an image, a game file, tokens, a configuration. Only regular files are read.
+// Pipes, devices, sockets and directories are refused at once, because reading one might block or never end.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,17 @@
 
 namespace racebeam {
 
-// The sentence is "WHAT PATH: REASON", such as "image pong.bin: there is no such file".
+// The message is "WHAT PATH: REASON", such as "image pong.bin: there is no such file".
 class InputFileError : public InvalidInput {
  public:
   using InvalidInput::InvalidInput;
 };
 
-// Open for reading; the caller closes the descriptor. `what` begins the sentence of an error. Throws
+// Opens a file for reading. The caller closes the descriptor. `what` begins the message of an error. Throws
 // InputFileError.
 int open_input_file(const std::string& what, const std::string& path);
 
-// The whole contents. Throws InputFileError, also for more than `most` bytes.
+// Returns the whole contents. Throws InputFileError, also if there are more than `most` bytes.
 std::string read_input_file(const std::string& what, const std::string& path, std::size_t most);
 
 }  // namespace racebeam

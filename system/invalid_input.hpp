@@ -1,12 +1,12 @@
-// What is wrong with what the program was given: an option, a file, an image, a state, a value in a request.
+// An invalid input of the program: an option, a file, an image, a state, a value in a request.
 #pragma once
 
 #include <stdexcept>
 
 namespace racebeam {
 
-// what() is one sentence for the user or the client: what was wrong, and what is accepted. Any other exception,
-// std::invalid_argument itself included, is a fault of the program.
+// what() is one sentence for the user or the client: what is wrong, and what is accepted. Any other
+// exception, std::invalid_argument itself included, is a fault of the program.
 class InvalidInput : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;

@@ -9,7 +9,7 @@ namespace {
 
 struct Form {
   unsigned char mask, lead;  // of the first byte
-  std::uint32_t least;       // that needs so many bytes
+  std::uint32_t least;       // the least code point that needs so many bytes
 };
 constexpr std::array<Form, 4> kForms = {
     {{0x80, 0x00, 0}, {0xE0, 0xC0, 0x80}, {0xF0, 0xE0, 0x800}, {0xF8, 0xF0, 0x10000}}};
@@ -22,7 +22,7 @@ bool is_character(std::uint32_t number) {
   return number <= 0x10FFFF && !(number >= 0xD800 && number <= 0xDFFF) && !is_control(number);
 }
 
-// The bytes of the character that the text begins with; 0: none that may be shown. The text is not empty.
+// Bytes of the first character of the text, which is not empty. Returns 0 if that must not be printed.
 std::size_t shown_at_front(std::string_view text) {
   const auto first = static_cast<unsigned char>(text.front());
   for (std::size_t more = 0; more < kForms.size(); ++more) {

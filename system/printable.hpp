@@ -1,4 +1,4 @@
-// Text of others, such as the name of a file, for a terminal.
+// Makes untrusted text, such as the name of a file, safe for a terminal.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace racebeam {
 
-// Control characters, which a terminal would obey, and bytes that are no UTF-8 become \xNN, a byte each. All
-// other characters stay as they are.
+// Replaces control characters, which a terminal would execute, and bytes that are not UTF-8, each by \xNN.
+// All other characters stay unchanged.
 std::string printable(std::string_view text);
 
 }  // namespace racebeam

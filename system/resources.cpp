@@ -25,7 +25,7 @@ constexpr auto kMachine = "the machine";
 constexpr auto kAffinity = "the affinity";
 constexpr auto kControlGroup = "the control group";
 
-// A directory of the hierarchy, and whose files it has.
+// A directory of the cgroup hierarchy, and its version.
 struct Group {
   fs::path path;
   bool unified;  // version 2
@@ -45,8 +45,8 @@ bool lists(std::string_view list, std::string_view name) {
   }
 }
 
-// cgroups(7): NUMBER:CONTROLLERS:PATH, of which version 2 has no controllers; the path of the group that we
-// are in.
+// The path of this process's group. A line of cgroups(7) is NUMBER:CONTROLLERS:PATH; version 2 has no
+// controllers.
 std::optional<std::string> path_in(const std::string& root, std::string_view controller) {
   std::ifstream file(root + "/proc/self/cgroup");
   for (std::string line; std::getline(file, line);) {
@@ -59,9 +59,9 @@ std::optional<std::string> path_in(const std::string& root, std::string_view con
   return std::nullopt;
 }
 
-// The directory for `path`, and those above it as far as they are mounted. proc(5): mountinfo has the group
-// at the mount's root in the 4th field, the mount point in the 5th and, after a "-", the type, the source and
-// the options.
+// The directory for `path`, and those above it as far as they are mounted. A line of mountinfo (proc(5)) has
+// the group at the mount's root in the 4th field, and the mount point in the 5th. After a "-" come the type,
+// the source and the options.
 std::vector<Group> groups_of(const std::string& root, const std::string& path, std::string_view controller) {
   std::ifstream file(root + "/proc/self/mountinfo");
   for (std::string line; std::getline(file, line);) {
@@ -80,7 +80,7 @@ std::vector<Group> groups_of(const std::string& root, const std::string& path, s
   return {};
 }
 
-// Of version 1 and of version 2: a system may have both.
+// Groups of version 1 and of version 2, since a system may have both.
 std::vector<Group> all_groups(const std::string& root, std::string_view controller) {
   std::vector<Group> all;
   for (const std::string_view hierarchy : {controller, std::string_view()}) {
@@ -92,7 +92,7 @@ std::vector<Group> all_groups(const std::string& root, std::string_view controll
   return all;
 }
 
-// The numbers of a file of a group; none for "max" and -1.
+// The numbers in a file of a group; none for "max" and -1.
 std::vector<std::uint64_t> numbers_in(const fs::path& path) {
   std::ifstream file(path);
   std::vector<std::uint64_t> numbers;
@@ -129,7 +129,7 @@ void limit(Allowance& allowance, std::uint64_t amount, const char* by) {
   if (amount < allowance.amount) allowance = {amount, by};
 }
 
-// 0: unknown. A set for too few processors is refused, so larger ones are tried.
+// 0: unknown. The system refuses a set for too few processors, so larger ones are tried.
 std::uint64_t processors_of_affinity() {
   for (std::size_t most = CPU_SETSIZE; most <= 1 << 20; most *= 2) {
     const auto free_set = [](cpu_set_t* set) { CPU_FREE(set); };

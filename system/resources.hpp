@@ -1,5 +1,4 @@
-// What this process may use of the computer. That is less than there is where it was pinned, or runs in a
-// container.
+// How much of the computer this process may use. Affinity and control groups (containers) can limit it.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +6,15 @@
 
 namespace racebeam {
 
-// An amount, and what limits it: "the affinity", "the control group" or "the machine".
+// An amount, and its limit: "the affinity", "the control group" or "the machine".
 struct Allowance {
   std::uint64_t amount;
   std::string limited_by;
 };
 
 // Control groups (cgroups) of version 1 and 2 are found by ROOT/proc/self/cgroup and
-// ROOT/proc/self/mountinfo. The limits of a group hold for all groups below it, so the whole path up the
-// hierarchy counts. What can't be read is no limit. `root` is for tests.
+// ROOT/proc/self/mountinfo. A group's limits hold for all groups below it, so that the whole path up the
+// hierarchy counts. Files that cannot be read set no limit. `root` is for tests.
 
 // Processors: the least of those that the process may run on (sched_getaffinity) and the CPU quota, rounded
 // up. At least 1.
@@ -24,7 +23,7 @@ Allowance usable_processors(const std::string& root = "");
 // Bytes: the least of the physical memory and the control groups' limits.
 Allowance usable_memory(const std::string& root = "");
 
-// Bytes of memory that the process has now.
+// Bytes of memory that the process uses now.
 std::uint64_t resident_memory();
 
 }  // namespace racebeam

@@ -19,18 +19,18 @@ namespace racebeam {
 namespace {
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw std::invalid_argument("can't read actions from '" + path + "': " + why);
+  throw std::invalid_argument("cannot read actions from '" + path + "': " + why);
 }
 
-// zlib hands plain bytes on as they are.
+// zlib passes files through that are not gzip.
 std::string contents(const std::string& path) {
   const auto close = [](gzFile file) { gzclose(file); };
   const std::unique_ptr<gzFile_s, decltype(close)> file{
-      gzdopen(path == "-" ? dup(STDIN_FILENO) : open_input_file("can't read actions from", path), "rb"),
+      gzdopen(path == "-" ? dup(STDIN_FILENO) : open_input_file("cannot read actions from", path), "rb"),
       close};
   if (!file) refuse(path, std::strerror(errno));
 
-  constexpr std::size_t kLargest = 1 << 28;  // inflated
+  constexpr std::size_t kLargest = 1 << 28;  // bytes, inflated
   std::string text;
   std::array<char, 65536> chunk;
   int count = 0;
@@ -45,7 +45,7 @@ std::string contents(const std::string& path) {
   return text;
 }
 
-// The beginning of a word, fit for a message.
+// The beginning of a word, shortened for a message.
 std::string quoted(std::string word) {
   word.resize(std::min<std::size_t>(word.size(), 40));
   std::replace_if(
@@ -61,7 +61,7 @@ std::optional<Number> parse(const std::string& word) {
   return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
 }
 
-// One file that is being read: errors name it and the line.
+// A file that is being read. Errors name it and the line.
 class Script {
  public:
   explicit Script(const std::string& path) : path_(path), text_(contents(path)) {}
@@ -108,17 +108,19 @@ class Script {
 
   float strength(const std::string& word) const {
     const auto value = parse<float>(word);
-    const bool accepted = value && std::abs(*value) <= kMostStrength;  // which no NaN is
+    const bool accepted = value && std::abs(*value) <= kMostStrength;  // false for NaN
     if (!accepted) refuse_line(line_, quoted(word) + " is not a strength from -1000 to 1000");
     return *value;
   }
 
   void add_write(std::istringstream& words) {
     std::string index, value;
-    if (!(words >> index >> value)) refuse_line(line_, "'M' takes an index and a value");
+    if (!(words >> index >> value)) refuse_line(line_, "'M' requires an index and a value");
     const RamWrite write{number(index), static_cast<std::uint8_t>(number(value))};
-    if (write.index < 0 || write.index > 127) refuse_line(line_, "RAM has the bytes 0 to 127, not " + index);
-    if (number(value) != write.value) refuse_line(line_, "a byte is 0 to 255, not " + value);
+    if (write.index < 0 || write.index > 127)
+      refuse_line(line_, "the index of a byte of RAM must be 0 to 127, not " + index);
+    if (number(value) != write.value)
+      refuse_line(line_, "the value of a byte must be 0 to 255, not " + value);
     steps_.push_back({.line = line_, .write = write});
   }
 
@@ -138,7 +140,7 @@ std::vector<int> read_actions(const std::string& path) {
   Script script(path);
   std::vector<int> actions;
   for (const ScriptedStep& step : script.steps()) {
-    if (step.write || step.strength != 1) script.refuse_line(step.line, "only actions are played here");
+    if (step.write || step.strength != 1) script.refuse_line(step.line, "only actions are accepted here");
     actions.push_back(step.action);
   }
   return actions;

@@ -1,4 +1,4 @@
-// What to play, read from a trace or from a list of numbers.
+// Reads the actions to play from a trace or a list of numbers.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@ struct RamWrite {
 };
 
 struct ScriptedStep {
-  int line;                            // where it stands, for messages
+  int line;                            // in the file, for messages
   int action = 0;                      // player A's
   float strength = 1;                  // how far a paddle turns
   std::optional<RamWrite> write = {};  // instead of an action
 };
 
-// `path`: a file, plain or gzip, or - for standard input. An action is a number, or NUMBER@STRENGTH. Lines
-// `A ACTION ...` give one action each, lines `M INDEX VALUE ...` a byte of RAM to write; lines that begin
-// with #, R or S (the rest of a trace) give nothing; all other lines are actions, any count of them.
-// Throws std::invalid_argument, naming the line, for anything else, and when the file can't be read.
+// Reads `path`: a file, plain or gzip, or - for standard input. An action is a number, or NUMBER@STRENGTH. A
+// line `A ACTION ...` is one action, and a line `M INDEX VALUE ...` writes a byte of RAM. Lines that begin
+// with #, R or S (the rest of a trace) are skipped. Other lines hold any number of actions. Throws
+// std::invalid_argument, with the line, for anything else, and if the file cannot be read.
 std::vector<ScriptedStep> read_script(const std::string& path);
 
-// The same for who plays actions alone: writes and strengths are refused.
+// The same for actions alone: writes and strengths are refused.
 std::vector<int> read_actions(const std::string& path);
 
 }  // namespace racebeam

@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
 
-// CLI::Range lets "nan" through.
+// CLI::Range accepts "nan".
 CLI::Validator probability() {
   const auto check = [](const std::string& text) {
     const auto value = parse_number<double>(text);
@@ -28,7 +28,8 @@ CLI::Validator probability() {
 
 CLI::Validator one_of(const std::map<std::string, Rules>& rules) {
   const auto check = [rules](const std::string& text) {
-    return rules.contains(text) ? std::string{} : "'" + text + "' is not known; there are ale-0.12 and fixed";
+    return rules.contains(text) ? std::string{}
+                                : "'" + text + "' is not known; accepted are ale-0.12 and fixed";
   };
   return CLI::Validator(check, "");
 }
@@ -36,11 +37,12 @@ CLI::Validator one_of(const std::map<std::string, Rules>& rules) {
 void warn_about(const Recognition& recognition, const Image& image, const Tell& tell) {
   const Game& game = *recognition.game;
   if (recognition.how == RecognisedBy::kNothing) {
-    tell("'" + image.stem + "' (MD5 " + image.md5 +
-         ") is not in the catalogue: it runs without a score; --game NAME or --game-file FILE gives it one");
+    tell(
+        "'" + image.stem + "' (MD5 " + image.md5 +
+        ") is not in the catalogue: it runs without a score; --game NAME or --game-file FILE selects a rule");
   } else if (!recognition.md5_matches) {
-    tell("the MD5 of this image, " + image.md5 + ", is not the one that the rule of '" + game.name +
-         "' was written for; score and end may be wrong");
+    tell("the MD5 of this image, " + image.md5 + ", is not that of the image which the rule of '" +
+         game.name + "' was written for; score and end may be wrong");
   }
 }
 
@@ -49,7 +51,7 @@ const std::map<std::string, CpuKind> kCpuKinds = {
 
 }  // namespace
 
-// Checks the text, before CLI11 converts it: its own sentence would not say what is accepted.
+// Checks the text before CLI11 converts it, because CLI11's message does not say what is accepted.
 CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
   const auto check = [least, most](const std::string& text) {
     const auto number = parse_number<std::int64_t>(text);
@@ -70,28 +72,30 @@ void add_machine_options(CLI::App& app, MachineOptions& options) {
   Settings& settings = options.settings;
   app.add_option("--rom", options.rom, "The cartridge image: a file, or builtin:NAME")->required();
   CLI::Option* game =
-      app.add_option("--game", options.game, "Score it as this game of the catalogue (racebeam games)");
-  app.add_option("--game-file", options.game_file, "Score it as this game file says")->excludes(game);
+      app.add_option("--game", options.game, "Use the rule of this game of the catalogue (racebeam games)");
+  app.add_option("--game-file", options.game_file, "Use the rule of this game file")->excludes(game);
   const auto add_seed = [&app](const std::string& name, std::uint32_t& seed, const std::string& help) {
     app.add_option(name, seed, help)->check(whole_number(0, kMostSeed))->capture_default_str();
   };
-  add_seed("--seed", settings.random_seed, "Seed of all that is random in play; 0: from the clock");
-  add_seed("--system-seed", settings.system_seed, "Seed of what is in memory at power-on");
-  add_count(app, "--frame-skip", settings.frame_skip, 1, "Frames that an action lasts");
-  app.add_option("--sticky", settings.sticky, "Probability that a frame repeats the action before it")
+  add_seed("--seed", settings.random_seed, "Seed of the sticky actions; 0: from the clock");
+  add_seed("--system-seed", settings.system_seed, "Seed of the memory's contents at power-on");
+  add_count(app, "--frame-skip", settings.frame_skip, 1, "Frames of an action");
+  app.add_option("--sticky", settings.sticky, "Probability that a frame repeats the previous action")
       ->check(probability())
       ->capture_default_str();
-  app.add_flag("--color-averaging", settings.color_averaging, "Blend each picture with the one before it");
+  app.add_flag("--color-averaging", settings.color_averaging, "Blend each picture with the previous one");
   const std::map<std::string, Rules> rules = {{"ale-0.12", Rules::kAle012}, {"fixed", Rules::kFixed}};
   app.add_option_function<std::string>(
          "--rules", [&settings, rules](const std::string& name) { settings.rules = rules.at(name); },
-         "Whose rewards, lives and end: ale-0.12, or fixed, which corrects them (racebeam games --rules)")
+         "Rules for rewards, lives and end: ale-0.12, or fixed, with corrections (racebeam games --rules)")
       ->check(one_of(rules))
       ->default_str("ale-0.12")
       ->type_name("NAME");
   const auto set_cpu = [&settings](const std::string& name) { settings.cpu = kCpuKinds.at(name); };
   app.add_option_function<std::string>(
-         "--cpu", set_cpu, "What runs the instructions; auto: the translator where the system allows it")
+         "--cpu", set_cpu,
+         "How instructions are executed; auto: translated where that saves time and the system permits it; "
+         "translator: all code is translated at once, whatever that costs; interpreter: no code is")
       ->check(CLI::IsMember(kCpuKinds))
       ->default_str("auto");
   app.add_option("--mode", options.mode, "Game variation (racebeam games lists them)")

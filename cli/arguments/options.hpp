@@ -1,4 +1,4 @@
-// The options that every subcommand with a machine takes, and the machine they describe.
+// The options of every subcommand with a machine, and the machine that they describe.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,41 +12,41 @@
 
 namespace racebeam {
 
-constexpr int kExitFailure = 1;  // what was asked for could not be done
-constexpr int kExitUsage = 2;    // the command line makes no sense
+constexpr int kExitFailure = 1;  // a failure of the command
+constexpr int kExitUsage = 2;    // a usage error
 
 struct MachineOptions {
   std::string rom;                       // a file, or builtin:NAME
   std::optional<std::string> game;       // the rule to use, by name
-  std::optional<std::string> game_file;  // the rule to use, from a file of the user's
+  std::optional<std::string> game_file;  // the rule to use, from the user's file
   Settings settings;
   std::optional<int> mode, difficulty;  // the game's defaults if not given
 };
 
-// Adds --rom --game --game-file --seed --system-seed --frame-skip --sticky --color-averaging --rules
+// Adds --rom --game --game-file --seed --system-seed --frame-skip --sticky --color-averaging --rules --cpu
 // --mode --difficulty. Set `options` to the subcommand's defaults first; it must outlive the parsing.
 void add_machine_options(CLI::App& app, MachineOptions& options);
 
-// Accepts such a number; else says what is accepted.
+// Accepts whole numbers in this range. Its message says what is accepted.
 CLI::Validator whole_number(std::int64_t least, std::int64_t most);
 
-// A whole number of at least `least`: frames, and so on.
+// A whole number of at least `least`, such as a number of frames.
 CLI::Option* add_count(CLI::App& app, const std::string& name, int& value, int least,
                        const std::string& help);
 
 using Tell = std::function<void(const std::string& sentence)>;
 void tell_on_standard_error(const std::string& sentence);
 
-// Loads the image, recognises the game and makes sure that a machine runs with them; then tells of doubts
-// about the game.
+// Loads the image, recognises the game, and checks that a machine runs with them. Then `tell` gets the
+// warnings about the game.
 Cartridge open_cartridge(const MachineOptions& options, const Tell& tell = tell_on_standard_error);
 
-// A machine that is switched on, with mode and difficulty in place.
+// A machine that is switched on, in the mode and difficulty of the options.
 Environment power_on(const Cartridge& cartridge, const MachineOptions& options, Pace* pace = nullptr);
 
 Environment open_environment(const MachineOptions& options);
 
-// The seed itself; a seed from the clock, which is never 0, for 0.
+// Returns the seed, or, for 0, a seed from the clock, which is never 0.
 std::uint32_t resolve_seed(std::uint32_t seed);
 
 }  // namespace racebeam

@@ -25,7 +25,7 @@ struct FromFile {
 bool is_list(const CLI::Option& option) { return option.get_items_expected_max() > 1; }
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
-// Settings, and not what acts at once.
+// The options that are settings, without those that act at once, such as --help.
 std::vector<CLI::Option*> settings_of(CLI::App& command) {
   auto options = command.get_options();
   std::erase_if(options, [&](const CLI::Option* option) {
@@ -39,10 +39,10 @@ std::string text_of(const toml::node& node, const std::string& where) {
   if (const auto* number = node.as_integer()) return std::to_string(number->get());
   if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
   if (const auto* real = node.as_floating_point()) {
-    std::array<char, 64> digits;  // as few as make the same number again
+    std::array<char, 64> digits;  // the fewest that give the same number again
     return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), real->get()).ptr};
   }
-  throw CLI::ValidationError(where, "takes a text, a number, true or false, or a list of them");
+  throw CLI::ValidationError(where, "must be a text, a number, true or false, or a list of them");
 }
 
 Values values_of(const toml::node& node, const std::string& where) {
@@ -79,13 +79,13 @@ FromFile read_file(const std::string& path, const std::vector<CLI::Option*>& opt
     const std::string name(key.str());
     const auto is_named = [&name](const CLI::Option* option) { return key_of(*option) == name; };
     if (std::ranges::none_of(options, is_named))
-      throw CLI::ValidationError(path, "there is no setting '" + name + "'; there are " + names_of(options));
+      throw CLI::ValidationError(path, "unknown setting '" + name + "'; there are " + names_of(options));
     file.values[name] = values_of(node, path + ": " + name);
   }
   return file;
 }
 
-// Words of a list are separated by blanks.
+// The words of a list are separated by blanks.
 Values in_environment(const CLI::Option& option) {
   const char* const text = std::getenv(variable_of(option).c_str());
   if (text == nullptr || *text == '\0') return {};
@@ -95,11 +95,11 @@ Values in_environment(const CLI::Option& option) {
 }
 
 void give(CLI::Option& option, const Values& values, const std::string& where) {
-  if (values.size() > 1 && !is_list(option)) throw CLI::ValidationError(where, "takes one value");
+  if (values.size() > 1 && !is_list(option)) throw CLI::ValidationError(where, "must be one value");
   for (const std::string& value : values) {
     const bool truth = value == "true" || value == "false" || value == "1" || value == "0";
     if (is_flag(option) && !truth)
-      throw CLI::ValidationError(where, "takes true or false, not '" + value + "'");
+      throw CLI::ValidationError(where, "must be true or false, not '" + value + "'");
     option.add_result(value);
   }
   try {
@@ -123,7 +123,7 @@ Setting complete(CLI::Option& option, const FromFile& file) {
   return {&option, Source::kDefault, usual.empty() ? Values{} : Values{usual}};
 }
 
-// The option, which is bound to nothing, or its variable.
+// The value of the option --config, or of its environment variable.
 std::string config_file(const CLI::Option& option) {
   if (option.count() > 0) return option.results().back();
   const char* const path = std::getenv(variable_of(option).c_str());

@@ -65,7 +65,7 @@ struct BenchOptions {
   bool commands = false;
   BatchBenchOptions batch;
   bool search = false;
-  int resets = 0;  // 0: they are not timed apart
+  int resets = 0;  // 0: resets are not measured on their own
 };
 
 struct Tally {
@@ -73,7 +73,7 @@ struct Tally {
   double play_seconds = 0, reset_seconds = 0;
 };
 
-// Like a player's: an action is held for some frames, here four on average.
+// Like those of a player: each action is held for some frames, four on average.
 std::vector<int> random_actions(const std::vector<int>& legal, int count) {
   std::mt19937 generator{1};
   std::vector<int> actions;
@@ -115,7 +115,7 @@ class Bench {
   const Environment& environment() const { return environment_; }
 
  private:
-  // To see every frame of a skip is to act once a frame.
+  // To observe every frame of a skip, the machine acts once a frame.
   static MachineOptions frame_by_frame(MachineOptions machine, Screen screen) {
     if (screen == Screen::kEvery) machine.settings.frame_skip = 1;
     return machine;
@@ -142,7 +142,7 @@ class Bench {
     const double start = cpu_seconds();
     environment_.reset_game();
     if (environment_.game_over())
-      throw std::runtime_error("the game is over right after its reset; nothing to measure");
+      throw std::runtime_error("the game is over right after its reset: there is nothing to measure");
     tally_.reset_seconds += cpu_seconds() - start;
     ++tally_.resets;
   }
@@ -211,7 +211,7 @@ void print(const nlohmann::ordered_json& figures) {
 void run_commands(const BenchOptions& options, const Cartridge& cartridge) {
   if (options.screen == "every" && options.machine.settings.frame_skip > 1)
     throw std::invalid_argument(
-        "--commands looks once a frame skip; --screen last or none goes with --frame-skip " +
+        "--commands observes one screen a frame skip: give --screen last or none with --frame-skip " +
         std::to_string(options.machine.settings.frame_skip));
   run_bench_session(cartridge, options.machine, options.screen != "none", std::cin, std::cout);
 }
@@ -250,21 +250,21 @@ void add_bench(CLI::App& app) {
 
   CLI::App& command = *app.add_subcommand("bench", "Measure how fast a game runs");
   add_machine_options(command, options->machine);
-  command.get_option("--seed")->description("Seed of all that is random in play");
+  command.get_option("--seed")->description("Seed of the actions and of the sticky actions");
   command.add_option("--actions", options->actions,
-                     "Play these, over and over (as racebeam trace reads them)");
+                     "Repeat the actions of this file (in the format of racebeam trace)");
   add_count(command, "--frames", options->frames, 1, "Frames to play");
   command.add_option("--screen", options->screen, "Which screens to produce")
       ->check(CLI::IsMember({"every", "last", "none"}))
       ->capture_default_str();
-  command.add_flag("--audio", settings.sound, "Produce sound too");
-  command.add_flag("--save-restore", options->save_restore, "Time snapshots too");
-  command.add_flag("--commands", options->commands, "Do what standard input says, line by line");
-  add_count(command, "--batch", options->batch.machines, 1, "Time a batch of so many machines instead");
-  add_count(command, "--threads", options->batch.threads, 1, "Threads of the batch; one for each processor if not given");
+  command.add_flag("--audio", settings.sound, "Also produce sound");
+  command.add_flag("--save-restore", options->save_restore, "Also measure saving and restoring");
+  command.add_flag("--commands", options->commands, "Execute the commands on standard input, line by line");
+  add_count(command, "--batch", options->batch.machines, 1, "Measure a batch of this many machines instead");
+  add_count(command, "--threads", options->batch.threads, 1, "Threads of the batch (default: one for each processor)");
   command.add_flag("--same-step", options->batch.same_step, "Machines of the batch reset in the step that ends an episode");
-  command.add_flag("--search", options->search, "Time a planner's work instead: 500 random branches of 300 frames from one state");
-  add_count(command, "--resets", options->resets, 1, "Time so many resets instead, in milliseconds");
+  command.add_flag("--search", options->search, "Measure a planner's work instead: 500 random branches of 300 frames from one state");
+  add_count(command, "--resets", options->resets, 1, "Measure this many resets instead, in milliseconds");
   command.add_flag("--json", options->json, "Print the figures as one JSON object");
   command.footer(kFooter);
   command.callback([options] { run(*options); });

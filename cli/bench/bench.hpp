@@ -1,4 +1,4 @@
-// racebeam bench: how fast a game runs, and what was produced meanwhile.
+// racebeam bench: measures how fast a game runs.
 #pragma once
 
 namespace CLI {

@@ -19,7 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The machine's state is copied so many times as often as a client's is: a hundred copies take no time.
+// The machine's state is copied this many times for each copy of a client's state: a hundred copies take no
+// time.
 constexpr int kMachineTimes = 50;
 constexpr int kMostTimes = 1'000'000;
 
@@ -74,8 +75,8 @@ class BenchSession {
   }
 
  private:
-  // The only function of `play` whose instructions are counted (scripts/measure/callgrind.py names it): a function of
-  // its own therefore.
+  // The only function of `play` whose instructions are counted: scripts/measure/callgrind.py names it, so it
+  // must not be inlined.
   [[gnu::noinline]] void measured_act(int action) {
     reward_ += environment_.act(action);
     seen_ += look_ ? environment_.screen()[0] : environment_.ram()[0];
@@ -87,14 +88,14 @@ class BenchSession {
     first_frame_ = environment_.frame_number();
   }
 
-  // Frames of the reset itself don't count.
+  // The frames of a reset do not count.
   void reset() {
     const double start = cpu_seconds();
     frames_ += environment_.frame_number() - first_frame_;
     environment_.reset_game();
     first_frame_ = environment_.frame_number();
     if (environment_.game_over())
-      throw std::runtime_error("the game is over right after its reset; nothing to measure");
+      throw std::runtime_error("the game is over right after its reset: there is nothing to measure");
     ++resets_;
     reset_seconds_ += cpu_seconds() - start;
   }
@@ -131,8 +132,8 @@ class BenchSession {
 };
 
 [[noreturn]] void refuse(const std::string& line) {
-  throw std::invalid_argument("not understood: '" + line.substr(0, 60) +
-                              "'; play A..., check A..., reset N and save N are");
+  throw std::invalid_argument("unknown command '" + line.substr(0, 60) +
+                              "'; accepted are play A..., check A..., reset N and save N");
 }
 
 std::vector<int> read_numbers(std::istringstream& words, const std::string& line) {

@@ -1,5 +1,5 @@
-// racebeam bench --commands: a measurement that another program conducts, chunk by chunk, so that it can let
-// the reference play the same acts in between (scripts/measure/bench_core.py).
+// racebeam bench --commands: a measurement in parts that another program controls. Between them, that program
+// can let the reference play the same acts (scripts/measure/bench_core.py).
 #pragma once
 
 #include <iosfwd>
@@ -8,15 +8,15 @@
 
 namespace racebeam {
 
-// Answers each line of `commands` with one of JSON, and ends with the input:
+// Answers each line of `commands` with a line of JSON, until the input ends:
 //
 //   play A A ...    plays these actions, one act each, timed; a game that is over is reset
-//   check A A ...   the same, not timed, with a checksum of all that the acts led to
+//   check A A ...   the same, not timed, with a checksum of the results of all acts
 //   reset N         times N resets
-//   save N          times N snapshots, each taken and restored at once
+//   save N          times N saves, each followed by a restore
 //
-// `look`: the screen is looked at after each act, and is in the checksums; else RAM and rewards alone.
-// Throws std::invalid_argument for a line that is none of these.
+// look: the screen is observed after each act, and part of the checksums; else only RAM and rewards are.
+// Throws std::invalid_argument for any other line.
 void run_bench_session(const Cartridge& cartridge, const MachineOptions& options, bool look,
                        std::istream& commands, std::ostream& answers);
 

@@ -1,4 +1,4 @@
-// Processor time of this process: what a measurement counts, because a busy machine does not change it much.
+// The processor time of this process. Measurements use it because other processes do not change it much.
 #pragma once
 
 #include <time.h>

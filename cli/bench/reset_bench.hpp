@@ -1,4 +1,4 @@
-// What a reset costs, and whether it is a copy.
+// Measures resets, and whether they are copies.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 namespace racebeam {
 
-// Plays 50 random frames before each of `resets` resets, after as many that are not timed.
+// Plays 50 random frames before each of `resets` resets. Before them, it runs as many that are not timed.
 nlohmann::ordered_json time_resets(const Cartridge& cartridge, const MachineOptions& options, int resets);
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-// How long a planner waits: environment/vector/branch.hpp.
+// Measures the work of a planner: environment/vector/branch.hpp.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 namespace racebeam {
 
 // Plays 500 random branches of 300 frames from one state in the middle of a game, with the frame skip of
-// `options`, looking at rewards and ends alone.
+// `options`. Only rewards and ends are observed.
 nlohmann::ordered_json time_search(const Cartridge& cartridge, const MachineOptions& options);
 
 }  // namespace racebeam

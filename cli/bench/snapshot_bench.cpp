@@ -40,7 +40,7 @@ void time_client(const Cartridge& cartridge, const MachineOptions& options, Snap
 
 }  // namespace
 
-// The copies go to different places, so that it is memory that is measured and not a value kept in registers.
+// The copies go to different places in memory, so that no value stays in registers.
 double time_machine_snapshots(const Cartridge& cartridge, const MachineOptions& options, int times) {
   SystemGenerator generator{options.settings.system_seed};
   Console console{cartridge.image->bytes, cartridge.game->properties_for(cartridge.image->md5), generator};

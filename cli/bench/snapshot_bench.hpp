@@ -1,4 +1,4 @@
-// What saving and restoring costs.
+// Measures saving and restoring.
 #pragma once
 
 #include "cli/arguments/options.hpp"
@@ -7,21 +7,21 @@ namespace racebeam {
 
 struct SnapshotTimes {
   std::size_t machine_bytes = 0;  // the machine's state
-  double machine_ns = 0;          // to copy it out and put it back
+  double machine_ns = 0;          // to copy it out and back
   double hash_ns = 0;             // Environment::state_hash
-  double compare_ns = 0;          // Environment::same_state, of two that are
+  double compare_ns = 0;          // Environment::same_state, of two equal states
   double client_ns = 0;           // Environment::save and restore, with the pictures
-  double round_ns = 0;  // save, one frame, restore: the frame has to make room for a picture of its own
-  double frame_ns = 0;  // such a frame without a snapshot
+  double round_ns = 0;            // save, one frame, restore: the frame allocates a picture of its own
+  double frame_ns = 0;            // such a frame without a saved state
 };
 
-// Plays some frames of the cartridge first, so that the state is one from the middle of a game.
+// Plays some frames first, so that the state is one from the middle of a game.
 SnapshotTimes time_snapshots(const Cartridge& cartridge, const MachineOptions& options);
 
-// Nanoseconds to copy the state of a machine in the middle of a game out and back, in the mean of `times`.
+// Nanoseconds to copy the state of a machine in the middle of a game out and back: the mean of `times`.
 double time_machine_snapshots(const Cartridge& cartridge, const MachineOptions& options, int times);
 
-// The same of Environment::save and restore.
+// The same for Environment::save and restore.
 double time_client_snapshots(Environment& environment, int times);
 
 }  // namespace racebeam

@@ -15,25 +15,26 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kAbout = "Serve as ALE 0.4 to 0.6 did, given its command line: for old launchers";
+constexpr auto kAbout = "Serve with the command line of ALE 0.4 to 0.6, for old launchers";
 
 constexpr auto kUsage = R"(racebeam classic -game_controller fifo|fifo_named [-key value]... IMAGE
 
   -game_controller NAME                  fifo: standard streams; fifo_named: ale_fifo_out and ale_fifo_in
   -random_seed N                         0 or time: from the clock
-  -run_length_encoding true|false        how a screen is written (true)
-  -frame_skip N                          frames that an action lasts (1)
-  -repeat_action_probability P           that a frame repeats the action before it (0.25)
-  -max_num_frames N                      frames after which the session ends (0: none)
-  -max_num_frames_per_episode N          frames after which an episode ends (0: none)
-  -color_averaging true|false            blend each picture with the one before it (false)
-  -record_screen_dir FOLDER              write 000000.png and on there: the screen before each frame
-  -config FILE                           lines of key = value, which win over the command line
+  -run_length_encoding true|false        whether screens are written in run lengths (true)
+  -frame_skip N                          frames of an action (1)
+  -repeat_action_probability P           probability that a frame repeats the previous action (0.25)
+  -max_num_frames N                      frames after which the session ends (0: no limit)
+  -max_num_frames_per_episode N          frames after which an episode ends (0: no limit)
+  -color_averaging true|false            blend each picture with the previous one (false)
+  -record_screen_dir FOLDER              write the screen before each frame to 000000.png and so on
+  -config FILE                           lines of key = value, which override the command line
 
-Other keys are ignored. ale.cfg in the working directory is read first. The image's name tells the game, such
-as pong.bin; an image under another name is known by its MD5. A program called ale or racebeam-ale is this one.)";
+Other keys are ignored. ale.cfg in the working directory is read first. The image's file name selects the game,
+such as pong.bin; an image with another name is recognised by its MD5. A program that is called as ale or
+racebeam-ale behaves as racebeam classic.)";
 
-// What these did needs a window or a sound card.
+// Keys that need a window or a sound card.
 constexpr const char* kIgnored[] = {"display_screen", "sound", "record_sound_filename"};
 
 void mention_ignored(const ClassicSettings& settings) {
@@ -55,33 +56,33 @@ MachineOptions machine_options(const ClassicSettings& settings) {
   return options;
 }
 
-// By the file's stem, whatever the image; where no game is called so, by the image's MD5.
+// The game of the file's stem, whatever the image; if there is none, that of the image's MD5.
 Cartridge open_by_name(const MachineOptions& machine) {
   const auto image = load_image(machine.rom);
   auto game = find_game(image->stem);
   if (!game) game = find_game_by_md5(image->md5);
   if (!game)
-    throw std::invalid_argument("no game is called '" + image->stem + "', as " + machine.rom +
-                                " is, and its MD5, " + image->md5 +
-                                ", is not known; name the file as its game");
+    throw std::invalid_argument("there is no game with the name '" + image->stem + "'' of the file " + machine.rom +
+                                ", nor one with its MD5, " + image->md5 +
+                                "; give the file the name of its game");
   const Cartridge cartridge{image, game};
-  power_on(cartridge, machine);  // what does not work should show before anything else is said
+  power_on(cartridge, machine);  // invalid settings must fail before any other output
   if (!game->accepts(image->md5)) log("the MD5 of " + machine.rom + " is not one known for " + game->name);
   return cartridge;
 }
 
-// Whether the pipes are named.
+// Whether the controller is the one over named pipes.
 bool check_controller(const std::string& name) {
   if (name == "rlglue")
-    throw std::invalid_argument("-game_controller rlglue is not built yet, fifo and fifo_named are");
+    throw std::invalid_argument("-game_controller rlglue is not supported; accepted are fifo and fifo_named");
   if (name != "fifo" && name != "fifo_named") {
-    throw std::invalid_argument("-game_controller '" + name + "' is neither fifo nor fifo_named");
+    throw std::invalid_argument("-game_controller '" + name + "' is not supported; accepted are fifo and fifo_named");
   }
   return name == "fifo_named";
 }
 
-// The screens of one session, numbered from 000000.png on, as ALE 0.6 writes them: a file that is there is
-// written over, and a folder that cannot be written to costs the pictures, but not the session.
+// The screens of one session, numbered from 000000.png on, as ALE 0.6 writes them. An existing file is
+// overwritten. If the folder cannot be written to, the pictures are lost, but the session continues.
 class ScreenFolder {
  public:
   explicit ScreenFolder(std::string path) : path_(std::move(path)) {}
@@ -122,7 +123,7 @@ int run(const std::vector<std::string>& words) {
     std::cout << kUsage << "\n";
     return 0;
   }
-  if (ClassicSettings::asks_for("-help", words)) {  // as the classic server
+  if (ClassicSettings::asks_for("-help", words)) {  // as the classic server does
     std::cerr << kUsage << "\n";
     return kExitFailure;
   }
@@ -145,7 +146,7 @@ int run(const std::vector<std::string>& words) {
 void add_classic(CLI::App& app) {
   CLI::App* command = app.add_subcommand("classic", kAbout);
   command->set_help_flag();
-  command->prefix_command();  // the words are not CLI11's to understand
+  command->prefix_command();  // CLI11 must not parse the words
   command->callback([command] { throw CLI::RuntimeError(run(command->remaining())); });
 }
 

@@ -1,5 +1,5 @@
-// racebeam classic: takes the command line of ALE 0.4-0.6, so that an old launcher works when pointed at our
-// binary.
+// racebeam classic: accepts the command line of ALE 0.4 to 0.6, so that an old launcher works with this
+// program.
 #pragma once
 
 namespace CLI {

@@ -26,7 +26,7 @@ bool is_key(const std::string& word) { return word.starts_with('-'); }
   throw std::invalid_argument("-" + key + " is '" + value + "'; it takes " + accepted);
 }
 
-// `more`: what is accepted beside a whole number.
+// more: what is accepted besides a whole number.
 template <typename Number>
 Number whole_number(const std::string& key, const std::string& value, const std::string& more) {
   using Limits = std::numeric_limits<Number>;
@@ -52,8 +52,8 @@ bool ClassicSettings::asks_for(const std::string& word, const std::vector<std::s
   return false;
 }
 
-// A key takes the next word, whatever it is; the first word that is no key is the image, and nothing counts
-// after it.
+// A key takes the next word, whatever it is. The first word that is not a key is the image; later words are
+// ignored.
 void ClassicSettings::read_words(const std::vector<std::string>& words) {
   std::size_t at = 0;
   for (; at < words.size() && is_key(words[at]); at += 2) {
@@ -61,7 +61,7 @@ void ClassicSettings::read_words(const std::vector<std::string>& words) {
     values_[words[at].substr(1)] = words[at + 1];
   }
   if (at >= words.size())
-    throw std::invalid_argument("no image is given; it comes after all keys and their values");
+    throw std::invalid_argument("the image is missing; it comes after all keys and their values");
   image_ = words[at];
 }
 
@@ -74,7 +74,7 @@ void ClassicSettings::read_file(const std::string& path) try {
     values_[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
   }
 } catch (const InputFileError& error) {
-  log(std::string(error.what()) + "; going on without it");
+  log(std::string(error.what()) + "; it is ignored");
 }
 
 std::string ClassicSettings::text(const std::string& key) const {

@@ -10,19 +10,19 @@ namespace racebeam {
 
 class ClassicSettings {
  public:
-  // Reads ale.cfg, then the words, then the file that `config` names; what is read later wins. Throws
-  // std::invalid_argument if there is no image.
+  // Reads ale.cfg, then the words, then the file of the key `config`; later values override earlier ones.
+  // Throws std::invalid_argument if there is no image.
   explicit ClassicSettings(const std::vector<std::string>& words);
 
-  // `word` among the keys: -help or --help.
+  // Whether `word`, -help or --help, is among the keys.
   static bool asks_for(const std::string& word, const std::vector<std::string>& words);
 
   const std::string& image() const { return image_; }
 
   std::string text(const std::string& key) const;  // empty if it is not set
-  // Throw std::invalid_argument, naming the key and what it takes.
+  // Throw std::invalid_argument, with the key and what it accepts.
   int number(const std::string& key, int otherwise) const;
-  std::uint32_t seed(const std::string& key) const;  // 0 if it is not set, or the word time
+  std::uint32_t seed(const std::string& key) const;  // 0 if it is not set, or is the word time
   float real(const std::string& key, float otherwise) const;
   bool truth(const std::string& key, bool otherwise) const;
 

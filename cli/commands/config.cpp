@@ -12,15 +12,16 @@ namespace racebeam {
 namespace {
 
 constexpr auto kFooter =
-    R"(Takes what racebeam serve takes, and serves nothing: it prints each setting with its value and where that
-comes from, as a TOML file that racebeam serve --config reads. The command line wins over the environment
-(RACEBEAM_MAX_STATES for --max-states), that over the file (max_states), that over the default.)";
+    R"(Takes the options of racebeam serve, but does not serve. It prints each setting with its value and its source,
+as a TOML file that racebeam serve --config reads. The command line takes precedence over the environment
+(RACEBEAM_MAX_STATES for --max-states), the environment over the file (max_states), and the file over the
+default.)";
 
-constexpr int kColumn = 44;  // of the comments
+constexpr int kColumn = 44;  // where comments begin
 
-// As both TOML and we write it, so that reading it again gives the same text; anything else is quoted.
+// Whether TOML and this program write the number in the same way. Anything else is quoted.
 bool is_number(const std::string& text) {
-  constexpr std::size_t kMostDigits = 15;  // that a real number keeps
+  constexpr std::size_t kMostDigits = 15;  // that a double represents exactly
   const auto all_digits = [](std::string_view part) {
     return !part.empty() && std::ranges::all_of(part, [](char c) { return c >= '0' && c <= '9'; });
   };
@@ -30,7 +31,7 @@ bool is_number(const std::string& text) {
   return point == std::string::npos || (all_digits(text.substr(point + 1)) && text.back() != '0');
 }
 
-// The control characters U+0080 to U+009F, whose second byte has their number.
+// The control characters U+0080 to U+009F, whose second byte equals their number.
 bool begins_control_pair(std::string_view text) {
   return text.size() > 1 && text[0] == '\xC2' && (text[1] & 0xE0) == 0x80;
 }

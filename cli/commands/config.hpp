@@ -1,4 +1,4 @@
-// racebeam config: the settings of a server, and where each comes from.
+// racebeam config: shows the settings of a server, and their sources.
 #pragma once
 
 namespace CLI {

@@ -14,20 +14,21 @@ namespace racebeam {
 namespace {
 
 constexpr auto kFooter =
-    R"(The name is what --game takes; an image is recognised by its MD5, else by the name of its file.
+    R"(NAME is the name for --game. An image is recognised by its MD5, else by the name of its file.
 * marks a game whose image is part of this program: --rom builtin:NAME plays it.
-SCORE says whether there is a rule that finds score and end in the game's memory; ACT. how many actions
-the minimal and the legal set have. MODES are those of one player; --rules shows those of two.
+SCORE says whether there is a rule that computes score and end from the game's memory. ACT. is the number of
+actions in the minimal and in the legal set. MODES are those of one player; --rules lists those of two.
 
-With --rules, RULE says whose rule it is, B whether player B gets rewards too, 2P MODES the game variations
-in which both play, and FIXED what --rules fixed does otherwise than ALE 0.12; docs/rules.md says why.
+With --rules, RULE is the origin of the rule, B says whether player B gets rewards, and 2P MODES are the game
+variations in which both play. FIXED is what --rules fixed corrects in the rule of ALE 0.12; docs/rules.md
+gives the reasons.
 
 Examples:
   racebeam games | grep -i pong
   racebeam games --rules | grep -i wrap
   racebeam games --json | jq '.[] | select(.name == "pong").modes')";
 
-// 0 1 2 3 8 as 0-3 8
+// Writes 0 1 2 3 8 as 0-3 8.
 std::string ranges(const std::vector<int>& numbers) {
   std::string text;
   for (std::size_t first = 0, last = 0; first < numbers.size(); first = last + 1) {
@@ -137,7 +138,7 @@ void add_games(CLI::App& app) {
   const auto json = std::make_shared<bool>(false), rules = std::make_shared<bool>(false);
   CLI::App& command = *app.add_subcommand("games", "List the games of the catalogue");
   CLI::Option* as_array = command.add_flag("--json", *json, "Print a JSON array instead of a table");
-  command.add_flag("--rules", *rules, "Print whose rules there are and what --rules fixed corrects")->excludes(as_array);
+  command.add_flag("--rules", *rules, "Print the origin of each rule, and what --rules fixed corrects")->excludes(as_array);
   command.footer(kFooter);
   command.callback([json, rules] { *json ? print_json() : *rules ? print_rules() : print_table(); });
 }

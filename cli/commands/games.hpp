@@ -1,4 +1,4 @@
-// racebeam games: what the catalogue holds.
+// racebeam games: lists the catalogue.
 #pragma once
 
 namespace CLI {

@@ -18,9 +18,9 @@ namespace racebeam {
 namespace {
 
 constexpr auto kFooter =
-    R"(Reads one line of the classic protocol from standard input, or just its field with the screen, and writes
-the picture: 320 pixels wide, as every pixel is doubled. The line does not say what it is: choose --full
-when the server was told not to use run lengths, and the palette by the game's television standard.
+    R"(Reads one line of the classic protocol from standard input, or only its field with the screen, and writes the
+picture: 320 pixels wide, because every pixel is doubled. The line does not contain its format: give --full if
+the server was started with --full-screen, and --palette for the game's television standard.
 
 Example:
   printf '1,0,0,1\n3,18\n' | racebeam serve --classic --stdio --rom builtin:beamfall |
@@ -33,12 +33,12 @@ constexpr std::size_t kMostPixels = kWidth * 1024;
 struct PngOptions {
   std::string path;
   Format format = Format::kNtsc;
-  bool run_lengths = false;  // the default; the flag is there to say so
+  bool run_lengths = false;  // the default; the flag makes it explicit
   bool full = false;
 };
 
-// Of the fields of a line, each with a colon after it, RAM is the one of 256 digits (a screen is never that
-// short), and the episode is the one with a comma.
+// Each field of a line has a colon after it. RAM is the field of 256 digits (a screen is never that short),
+// and the episode is the one with a comma.
 std::string_view screen_field(std::string_view line) {
   while (!line.empty()) {
     const std::string_view field = line.substr(0, line.find(':'));
@@ -46,12 +46,12 @@ std::string_view screen_field(std::string_view line) {
     line.remove_prefix(std::min(line.size(), field.size() + 1));
   }
   throw std::invalid_argument(
-      "there is no screen in the line on standard input; ask for it with the flags 1,0,0,1");
+      "the line on standard input contains no screen; request it with the flags 1,0,0,1");
 }
 
 std::vector<std::uint8_t> bytes_of(std::string_view digits) {
   if (digits.size() % 2 != 0)
-    throw std::invalid_argument("the screen has an odd number of digits; is the line cut?");
+    throw std::invalid_argument("the screen has an odd number of digits; the line may be truncated");
   std::vector<std::uint8_t> bytes(digits.size() / 2);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const char* pair = digits.data() + 2 * i;
@@ -65,7 +65,7 @@ std::vector<std::uint8_t> bytes_of(std::string_view digits) {
 
 std::vector<std::uint8_t> expand(const std::vector<std::uint8_t>& runs) {
   if (runs.size() % 2 != 0)
-    throw std::invalid_argument("the last run of the screen has no length; is the line cut?");
+    throw std::invalid_argument("the last run of the screen has no length; the line may be truncated");
   std::vector<std::uint8_t> pixels;
   for (std::size_t i = 0; i < runs.size(); i += 2) pixels.insert(pixels.end(), runs[i + 1], runs[i]);
   return pixels;
@@ -76,8 +76,8 @@ std::vector<std::uint8_t> decode(std::string_view line, bool full) {
   if (!full) pixels = expand(pixels);
   if (pixels.empty() || pixels.size() % kWidth != 0 || pixels.size() > kMostPixels) {
     throw std::invalid_argument("the screen has " + std::to_string(pixels.size()) +
-                                " pixels, which is no number of rows of 160; is it " +
-                                (full ? "in run lengths (without --full)?" : "a full one (--full)?"));
+                                " pixels, not whole rows of 160; it may be " +
+                                (full ? "in run lengths (without --full)" : "a full screen (--full)"));
   }
   return pixels;
 }
@@ -103,7 +103,7 @@ void add_png(CLI::App& app) {
   const std::map<std::string, Format> formats{
       {"ntsc", Format::kNtsc}, {"pal", Format::kPal}, {"secam", Format::kSecam}};
   const auto options = std::make_shared<PngOptions>();
-  CLI::App& command = *app.add_subcommand("png", "Make a picture of a screen that a client received");
+  CLI::App& command = *app.add_subcommand("png", "Convert a screen that a client received to a PNG file");
   command.add_option("OUT.png", options->path, "The file to write")->required();
   command.add_option("--palette", options->format, "ntsc (the default), pal or secam")
       ->transform(CLI::CheckedTransformer(formats).description(""));

@@ -1,4 +1,4 @@
-// racebeam png: a screen as a client received it, turned into a picture.
+// racebeam png: converts a screen, as a client received it, to a picture.
 #pragma once
 
 namespace CLI {

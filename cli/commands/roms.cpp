@@ -20,13 +20,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kFooter =
-    R"(Looked at are the files of the folder itself that end in .bin, .a26 or .rom, also with .gz after it.
-Each is one of:
+    R"(Examines the files in the folder (not in its subfolders) that end in .bin, .a26 or .rom, also with .gz after it.
+Each file is one of:
   known     its MD5 is in the catalogue: it plays as this game
-  by-name   another image, but the file is called like a game: it plays as that game, with a warning
-  unknown   it plays without a score; --game NAME or --game-file FILE gives it one
-  unusable  it can't be read, or is no cartridge image
-After them come the games of the catalogue that no image of the folder was recognised as.
+  by-name   another image, but the file is named like a game: it plays as that game, with a warning
+  unknown   it plays without a score; --game NAME or --game-file FILE selects a rule
+  unusable  it cannot be read, or is not a cartridge image
+Then the command lists the games of the catalogue that the folder has no image of.
 
 Example:
   racebeam roms ~/atari)";
@@ -39,7 +39,7 @@ struct Finding {
   std::string note;
 };
 
-// The game that lists this MD5, though it is not recognised by it; "" if there is none.
+// The game that lists this MD5 as another dump, which it is not recognised by; "" if there is none.
 std::string other_dump_of(const std::string& md5) {
   for (const CatalogueImage& image : catalogue_images()) {
     if (image.md5 == md5) return std::string{catalogue()[image.entry].name};
@@ -52,7 +52,7 @@ Finding judge(const Image& image) {
   const std::string& name = recognition.game->name;
   if (recognition.how == RecognisedBy::kMd5) return {"", "known", name, image.md5, ""};
   if (recognition.how == RecognisedBy::kFileName)
-    return {"", "by-name", name, image.md5, "not the image its rule is for"};
+    return {"", "by-name", name, image.md5, "not the image that its rule was written for"};
   const std::string dump = other_dump_of(image.md5);
   return {"", "unknown", "", image.md5,
           dump.empty() ? "needs --game" : "another dump of " + dump + ": try --game " + dump};
@@ -100,7 +100,8 @@ void print_json(const std::vector<Finding>& findings, const std::vector<std::str
                     {"md5", finding.md5},
                     {"note", finding.note}});
   }
-  // A file's name need not be UTF-8. Beyond ASCII all is escaped: some characters are control characters.
+  // A file's name may be invalid UTF-8. Everything beyond ASCII is escaped, because it includes control
+  // characters.
   constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
   std::cout << nlohmann::ordered_json{{"images", rows}, {"missing", missing}}.dump(1, ' ', true, kReplace)
             << '\n';
@@ -122,7 +123,7 @@ void add_roms(CLI::App& app) {
   };
   const auto options = std::make_shared<Options>();
   CLI::App& command =
-      *app.add_subcommand("roms", "Say which images of a folder are known, and which games lack one");
+      *app.add_subcommand("roms", "List which images in a folder are known, and which games lack one");
   command.add_option("DIR", options->folder, "The folder with the images")->required();
   command.add_flag("--json", options->json, "Print a JSON object instead of text");
   command.footer(kFooter);

@@ -1,4 +1,4 @@
-// racebeam roms: which images in a folder are known.
+// racebeam roms: lists which images in a folder are known.
 #pragma once
 
 namespace CLI {

@@ -22,13 +22,14 @@ namespace racebeam {
 namespace {
 
 constexpr auto kFooter =
-    R"(Without --classic it speaks the racebeam line protocol (protocol/PROTOCOL.md): a line of text asks, a
-line of text answers, and every client loads the game that it wants. By hand: racebeam serve --stdio, then
-type help.
+    R"(Without --classic, the server speaks the racebeam line protocol (protocol/PROTOCOL.md): a request is a line of
+text, and so is the reply. Each client loads a game of its choice. By hand: racebeam serve --stdio, then type
+help.
 
---classic is the text protocol of ALE 0.4 to 0.6 (protocol/CLASSIC.md): the server says 160-210; the client
-answers with four flags, 1,1,0,1 for screen, RAM and reward; from then on it sends actions, 3,18, and gets a
-line for each. The game and its settings are those of the command line, the same for all.
+With --classic, it speaks the text protocol of ALE 0.4 to 0.6 (protocol/CLASSIC.md): the server sends 160-210,
+and the client answers with four flags, such as 1,1,0,1 for screen, RAM and reward. Then the client sends
+actions, such as 3,18, and gets a line for each. All clients play the game of the command line, with its
+settings.
 
 Examples:
   racebeam serve --stdio
@@ -36,29 +37,30 @@ Examples:
   racebeam serve --stdio --strict <requests >replies
       for scripts: ends with status 1 after the first error, which is the last reply
   racebeam serve --listen tcp://127.0.0.1:0 --listen unix:racebeam.sock --roms ~/atari
-      until it is told to stop (SIGTERM), a session for everyone who connects
+      a session for each client, until the server is stopped (SIGTERM)
   racebeam serve --classic --stdio --rom tetris.bin --seed 1
       one session; try printf '0,0,0,1\n3,18\n' | racebeam serve ...
   racebeam serve --classic --pipes /run/user/1000/tetris --rom tetris.bin
       one session over the named pipes tetris_out and tetris_in; open tetris_out first, for reading
   racebeam serve --listen tcp://127.0.0.1:0 --listen classic+unix:tetris.sock --rom tetris.bin
-      both protocols at once; a machine of its own for everyone who connects
+      both protocols at once; each client has a machine of its own
   racebeam serve --listen tls://0.0.0.0:7800 --token-file tokens --tls-cert cert.pem --tls-key key.pem
-      for other machines; server/README.md is for those who run it
+      for clients on other machines; server/README.md is the manual for operators
 
-Each option --some-name is also the environment variable RACEBEAM_SOME_NAME and the key some_name of the TOML
-file of --config, in this order; racebeam config shows what is in effect.
+Each option --some-name is also the environment variable RACEBEAM_SOME_NAME, and the key some_name of the TOML
+file of --config, in this order of precedence. racebeam config shows the settings in effect.
 
-With --classic one generator serves the machine and what is random in play, as it did then: --system-seed is
-not used. The seed of each session is in the log, on standard error.
+With --classic, one random generator serves the machine and the sticky actions, as in ALE 0.4 to 0.6;
+--system-seed is not used. The log, on standard error, has the seed of each session.
 
-Standard output carries the protocol and nothing else. SIGTERM and SIGINT stop the server: nobody comes in any
-more, sessions on sockets have --grace seconds to end, requests are finished; a second one ends it at once.
-SIGHUP reads tokens and certificate again. A server without sockets ends with its sessions.
+Only the protocol is written to standard output. SIGTERM and SIGINT stop the server: it accepts no more
+connections, finishes requests, and gives sessions on sockets --grace seconds to end. A second signal ends it
+at once. SIGHUP makes it read tokens and certificate again. A server without sockets ends with its sessions.
 
-Exit status: 0 the sessions ended, or SIGTERM or SIGINT came; 1 the start failed, or the client of --stdio or
---pipes stopped reading, was refused with --strict or, with --classic, sent what makes no sense; 2 the command line or the configuration
-makes no sense; 255 a classic client asked for an action that does not exist.)";
+Exit status: 0 the sessions ended, or SIGTERM or SIGINT stopped the server; 1 the start failed, or the client of
+--stdio or --pipes stopped reading, caused an error with --strict, or sent an invalid line with --classic;
+2 usage error in the command line or the configuration; 255 a classic client requested an action that does not
+exist.)";
 
 ClassicService classic_service(const ServeOptions& options) {
   const auto tell = [](const std::string& sentence) { log_warning(sentence); };
@@ -93,36 +95,36 @@ LineService line_service(const ServeOptions& options, Workers& workers) {
   return service;
 }
 
-// Said once, since it is the same for all machines.
+// Logged once, because it applies to all machines.
 void tell_obstacle(CpuKind cpu) {
   const std::string obstacle = Translator::obstacle();
   if (cpu == CpuKind::kAuto && !obstacle.empty())
     log("instructions are interpreted, not translated: " + obstacle);
 }
 
-// What decided how many threads there are, for the log.
+// What limits the number of threads, for the log.
 std::string limit_of_threads(const std::vector<Setting>& settings) {
   const auto is_threads = [](const Setting& setting) { return key_of(*setting.option) == "threads"; };
   const bool given = std::ranges::find_if(settings, is_threads)->source != Source::kDefault;
   return given ? "--threads" : usable_processors().limited_by;
 }
 
-// Blocks as large as a picture or the records of its lines go back to the system as soon as they are let go;
-// else a server would stay as large as its sessions ever were together.
+// Returns large blocks to the system at once: those as large as a picture, or as the records of its lines.
+// Otherwise a server would keep the memory of its largest load.
 void return_large_blocks() {
-#if defined(M_MMAP_THRESHOLD)  // the C library is GNU's
+#if defined(M_MMAP_THRESHOLD)  // the GNU C library
   mallopt(M_MMAP_THRESHOLD, 32 << 10);
 #endif
 }
 
-// What the server holds without a session counts, and so does room for what sessions share: resets that were kept, code.
+// Charges the memory of the server itself, and of what sessions share: cached resets and translated code.
 void limit_memory(Services& services, std::uint64_t most) {
   if (most == 0) return;
   constexpr std::uint64_t kShared = 24 << 20;
   const auto budget = std::make_shared<MemoryBudget>(most);
   budget->take_anyway(resident_memory() + kShared);
   if (budget->taken() >= most) {
-    throw std::invalid_argument("--max-memory " + std::to_string(most) + " is too little: the server itself takes " +
+    throw std::invalid_argument("--max-memory " + std::to_string(most) + " is too little: the server itself uses " +
                                 std::to_string(budget->taken()) + " bytes");
   }
   if (services.classic) std::get<ClassicService>(*services.classic).memory = budget;
@@ -142,7 +144,8 @@ int serve(const ServeOptions& options) {
 int serve(ServeOptions& options, CLI::App& command) {
   return_large_blocks();
   const std::vector<Setting> settings = complete(command);
-  remove_stale_ready_file(options.server.ready_file);  // before anything that may be slow, or fail
+  // Before anything slow, and before anything that may fail.
+  remove_stale_ready_file(options.server.ready_file);
   finish(options, settings);
   set_up_log(options.log_level, options.log_format);
   options.server.threads_limited_by = limit_of_threads(settings);

@@ -1,4 +1,4 @@
-// racebeam serve: a machine for every client that asks.
+// racebeam serve: a machine for each client.
 #pragma once
 
 namespace CLI {

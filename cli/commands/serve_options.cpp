@@ -10,7 +10,7 @@
 namespace racebeam {
 namespace {
 
-// What the client of a line protocol says itself, when it loads a game.
+// Settings that a client of the line protocol chooses itself, when it loads a game.
 constexpr const char* kClassicOnly[] = {"seed",        "system_seed",    "frame_skip",         "sticky",
                                         "mode",        "difficulty",     "max_episode_frames", "max_frames",
                                         "full_screen", "color_averaging"};
@@ -51,7 +51,7 @@ void add_choice(CLI::App& app, const std::string& name, Value& value,
   const auto check = [choices](const std::string& text) {
     std::string names;
     for (const auto& [choice, ignored] : choices) names += (names.empty() ? "" : ", ") + choice;
-    return choices.contains(text) ? std::string{} : "'" + text + "' is not known; there are " + names;
+    return choices.contains(text) ? std::string{} : "'" + text + "' is not known; accepted are " + names;
   };
   app.add_option_function<std::string>(
          name, [&value, choices](const std::string& text) { value = choices.at(text); }, help)
@@ -67,19 +67,19 @@ void add_transports(CLI::App& command, ServeOptions& options) {
       ->group(group);
   command
       .add_option("--pipes", options.pipes,
-                  "One session on the named pipes PREFIX_out and PREFIX_in, made if missing")
+                  "One session on the named pipes PREFIX_out and PREFIX_in, created if missing")
       ->type_name("PREFIX")
       ->group(group);
   command
       .add_option(
           "--listen", options.addresses,
           "Sessions on tcp://127.0.0.1:PORT (0 picks one), tls://HOST:PORT, unix:PATH, systemd[:NAME], "
-          "stdio or pipes:PREFIX, with classic+ before it in the classic protocol; repeatable")
+          "stdio or pipes:PREFIX, with classic+ before it for the classic protocol; repeatable")
       ->type_name("ADDRESS")
       ->check(CLI::Validator(check_endpoint, ""))
       ->allow_extra_args(false)
       ->group(group);
-  command.add_flag("--classic", options.classic, "Speak the text protocol of ALE 0.4 to 0.6 everywhere")
+  command.add_flag("--classic", options.classic, "Use the text protocol of ALE 0.4 to 0.6 on all addresses")
       ->group(group);
   command
       .add_flag("--strict", options.strict,
@@ -89,38 +89,38 @@ void add_transports(CLI::App& command, ServeOptions& options) {
     command.add_option(name, value, help)->type_name("FILE")->group(group);
   };
   add_file("--token-file", options.server.token_file,
-           "Tokens, one a line: clients over TCP have to give one; needed beyond this machine");
-  add_file("--tls-cert", options.server.tls_certificate, "Chain of certificates for tls://, in PEM");
-  add_file("--tls-key", options.server.tls_key, "Its key, in PEM");
+           "File of tokens, one a line, that clients over TCP must send; required beyond this machine");
+  add_file("--tls-cert", options.server.tls_certificate, "Certificate chain for tls://, in PEM");
+  add_file("--tls-key", options.server.tls_key, "Key of the certificate, in PEM");
 }
 
 void add_limits(CLI::App& command, ServeOptions& options) {
   LineLimits& limits = options.limits;
   ServerSettings& server = options.server;
-  add_number(command, "--max-sessions", server.max_sessions, 1, "Sessions on sockets at a time");
+  add_number(command, "--max-sessions", server.max_sessions, 1, "Sessions on sockets at the same time");
   add_number(command, "--max-machines", limits.machines, 1, "Machines that a session may open");
   add_number(command, "--max-states", limits.states, 1, "States that a session may keep");
   add_number(command, "--max-line", limits.line, 256, "Bytes of a request");
   add_number(command, "--max-output", limits.output, 1024,
-             "Bytes that wait for a slow reader, above which its requests wait too");
+             "Buffered bytes for a slow reader; above them, its requests wait, too");
   add_number(command, "--max-reply", limits.reply, 1 << 20,
-             "Bytes of a reply that a request may ask for, counted as in PROTOCOL.md");
-  add_number(command, "--max-request-frames", limits.request_frames, 1, "Frames that a request may ask for");
+             "Bytes of a reply, counted as in PROTOCOL.md");
+  add_number(command, "--max-request-frames", limits.request_frames, 1, "Frames of a request");
   add_number(command, "--record-limit", limits.recording, 1, "Bytes of a recording");
   add_number(command, "--idle", server.idle_seconds, 0,
              "Seconds without a byte after which a session on a socket is closed; 0: never");
   add_number(command, "--handshake", server.handshake_seconds, 1,
-             "Seconds that a client has for TLS and its token");
+             "Seconds for TLS and the client's token");
   add_number(command, "--grace", server.grace_seconds, 0,
-             "Seconds that sessions have to end once the server is told to stop");
+             "Seconds that sessions have to end after the server was told to stop");
 }
 
 void add_memory(CLI::App& command, ServerSettings& server) {
   server.max_memory = usable_memory().amount / 4 * 3;
   command
       .add_option("--max-memory", server.max_memory,
-                  "Bytes that the server may hold for its sessions, also as 512M or 2G (default: three quarters of what "
-                  "it may use); 0: no limit")
+                  "Bytes of memory for all sessions, also as 512M or 2G (default: three quarters of what the "
+                  "process may use); 0: no limit")
       ->transform(CLI::AsSizeValue(false))
       ->capture_default_str()
       ->group("Limits");
@@ -133,7 +133,7 @@ void add_operation(CLI::App& command, ServeOptions& options) {
   server.threads = static_cast<int>(std::min(usable_processors().amount, kMostThreads));
   command
       .add_option("--threads", server.threads,
-                  "Threads that serve; as many help with open and step (default: the processors it may use)")
+                  "Threads of event loops; as many others help with open and step (default: the usable processors)")
       ->check(whole_number(1, kMostThreads))
       ->capture_default_str()
       ->group(group);
@@ -141,13 +141,13 @@ void add_operation(CLI::App& command, ServeOptions& options) {
       .add_option_function<std::int64_t>(
           "--busy-poll",
           [&server](std::int64_t given) { server.busy_poll = std::chrono::microseconds(given); },
-          "Microseconds that a thread waits awake for a client that asked again at once; 0: never")
+          "Microseconds that a thread polls for a client whose requests follow at once; 0: never")
       ->check(whole_number(0, 1'000'000))
       ->default_val(server.busy_poll.count())
       ->group(group);
   command
       .add_option("--ready-file", server.ready_file,
-                  "Gets the addresses, one a line after # lines, once all are served; removed at the end")
+                  "File for the addresses, one a line after # lines, written when all are served, removed at the end")
       ->type_name("FILE")
       ->group(group);
   command.add_option("--http", server.http, "Health and metrics: /healthz, /readyz, /metrics")
@@ -160,10 +160,10 @@ void add_operation(CLI::App& command, ServeOptions& options) {
                         {"warning", LogLevel::kWarning},
                         {"error", LogLevel::kError},
                         {"off", LogLevel::kOff}},
-                       "info", "The least that is logged: debug, info, warning, error or off");
+                       "info", "Lowest level that is logged: debug, info, warning, error or off");
   add_choice<LogFormat>(command, "--log-format", options.log_format,
                         {{"text", LogFormat::kText}, {"json", LogFormat::kJson}}, "text",
-                        "A line of text an event, or of JSON");
+                        "Format of the log: one line of text, or of JSON, for each event");
   command.add_option("--config", "A TOML file with settings")->type_name("FILE")->group(group);
 }
 
@@ -171,7 +171,7 @@ void add_games(CLI::App& command, ServeOptions& options) {
   add_machine_options(command, options.machine);
   command.get_option("--rom")->required(false);
   add_count(command, "--max-episode-frames", options.machine.settings.max_episode_frames, 0,
-            "Frames after which an episode is cut short; 0: no limit");
+            "Frames after which an episode is truncated; 0: no limit");
   add_count(command, "--max-frames", options.protocol.max_num_frames, 0,
             "Frames after which the session ends with DIE; 0: no limit");
   command.add_flag("--full-screen", options.full_screen, "Write every pixel of a screen instead of runs");
@@ -200,22 +200,22 @@ void collect_endpoints(ServeOptions& options) {
     options.server.endpoints.push_back(std::move(endpoint));
   }
   if (addresses.empty())
-    throw CLI::ValidationError("serve", "give at least one of --stdio, --pipes PREFIX and --listen ADDRESS");
+    throw CLI::ValidationError("serve", "no address to serve: give --stdio, --pipes PREFIX or --listen ADDRESS");
   const auto is_stdio = [](const Endpoint& endpoint) {
     return std::holds_alternative<StandardStreams>(endpoint.address);
   };
   if (std::ranges::count_if(options.server.endpoints, is_stdio) > 1)
-    throw CLI::ValidationError("serve", "there is only one pair of standard streams");
+    throw CLI::ValidationError("serve", "the standard streams can serve only one session: give --stdio once");
 }
 
-// One client's errors must not end the server of others.
+// An error of one client must not end a server with other clients.
 void check_strict(const ServeOptions& options) {
   if (!options.strict) return;
   const bool fits = std::ranges::all_of(options.server.endpoints, [](const Endpoint& endpoint) {
     return is_stream(endpoint.address) && !endpoint.classic;
   });
   if (!fits)
-    throw CLI::ValidationError("--strict", "goes with --stdio and --pipes alone, in the line protocol");
+    throw CLI::ValidationError("--strict", "requires --stdio or --pipes, and the line protocol");
 }
 
 }  // namespace
@@ -238,14 +238,14 @@ void finish(ServeOptions& options, const std::vector<Setting>& settings) {
   if (serves(options, true)) {
     if (options.machine.rom.empty()) throw CLI::ValidationError("serve", "--rom is required with --classic");
   } else {
-    refuse_any_of(settings, kClassicOnly, "goes with --classic; in the line protocol, load sets it");
+    refuse_any_of(settings, kClassicOnly, "requires --classic; in the line protocol, load sets it");
   }
-  if (!serves(options, false)) refuse_any_of(settings, kLineOnly, "does not go with --classic");
+  if (!serves(options, false)) refuse_any_of(settings, kLineOnly, "excludes --classic");
   check_strict(options);
   if (options.machine.game && options.machine.game_file)
     throw CLI::ValidationError("--game-file", "excludes --game");
   if (options.server.tls_certificate.empty() != options.server.tls_key.empty())
-    throw CLI::ValidationError("serve", "--tls-cert and --tls-key go together");
+    throw CLI::ValidationError("serve", "--tls-cert and --tls-key must be given together");
   options.limits.idle_seconds = options.server.idle_seconds;
   options.protocol.run_length = !options.full_screen;
 }

@@ -1,4 +1,4 @@
-// What `racebeam serve` can be told, on the command line, in the environment and in a file.
+// The settings of `racebeam serve`: on the command line, in the environment and in a file.
 #pragma once
 
 #include <memory>
@@ -26,11 +26,12 @@ struct ServeOptions {
   LogFormat log_format = LogFormat::kText;
 };
 
-void add_serve_options(CLI::App& command, ServeOptions& options);  // which outlives the parsing
+void add_serve_options(CLI::App& command, ServeOptions& options);  // `options` must outlive the parsing
 
-// After complete(): works out the endpoints, and checks that all goes together. Throws CLI::ValidationError.
+// Call it after complete(). Computes the endpoints, and checks that all settings fit together. Throws
+// CLI::ValidationError.
 void finish(ServeOptions& options, const std::vector<Setting>& settings);
 
-bool serves(const ServeOptions& options, bool classic);  // on some endpoint
+bool serves(const ServeOptions& options, bool classic);  // on any endpoint
 
 }  // namespace racebeam

@@ -15,31 +15,31 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter = R"(Lines printed, each after what it names:
+constexpr auto kFooter = R"(The output has these lines:
   R OBSERVATION                        a reset: the first, and one after each end
   A ACTION REWARD OVER OBSERVATION     one act; ACTION is a number, or NUMBER@STRENGTH
   M INDEX VALUE OBSERVATION            a write to RAM
   S LINE SCREEN RGB                    with --screen-of LINE: the line's screen in full, hexadecimal
 
-OBSERVATION is LIVES RAM SCREEN, then what was asked for, in this order: AUDIO (--audio), TRUNCATED FRAME
+OBSERVATION is LIVES RAM SCREEN, then the fields of the options, in this order: AUDIO (--audio), TRUNCATED FRAME
 EPISODEFRAME (--counters), RGB GREY (--colors; - - in the lines between), RAMHEX (--ram).
-RAM, SCREEN, AUDIO, RGB and GREY are CRC-32 (as in zlib) of the 128 bytes of RAM, of the palette indices of the
-screen, of the 512 samples, and of the screen in colours and in grey. With --mode or --difficulty the game is
-reset once more before the first line. What is printed can be given as actions again.
+RAM, SCREEN, AUDIO, RGB and GREY are CRC-32 checksums (as in zlib): of the 128 bytes of RAM, of the palette
+indices of the screen, of the 512 samples, and of the screen in colours and in grey. With --mode or
+--difficulty, the game is reset once more before the first line. The output is valid input of --actions.
 
 Examples:
   echo 1 3 3 3 4 | racebeam trace --rom pong.bin --actions -
   racebeam trace --rom pong.bin --actions pong.trace.gz --audio --ram | grep -c '^A'
 
-What can't be played ends the program with status 1 and one line that names it.)";
+At an invalid action, the program ends with status 1 and one line that names it.)";
 
 struct TraceOptions {
   MachineOptions machine;
   std::string actions;
   bool counters = false;
-  int colors = 0;  // every so many lines; 0: never
+  int colors = 0;  // every N lines; 0: never
   bool ram = false;
-  int screen_of = -1;  // a line, from 0
+  int screen_of = -1;  // a line's number, from 0
 };
 
 void append_hex(std::string& out, std::span<const std::uint8_t> bytes) {
@@ -58,7 +58,7 @@ void append_crc(std::string& out, std::span<const std::uint8_t> bytes) {
 
 void append_number(std::string& out, int number) { out += ' ' + std::to_string(number); }
 
-// What was played, and the line that says so.
+// Plays the steps, and prints a line for each.
 class Tracer {
  public:
   Tracer(const TraceOptions& options, Environment& environment)
@@ -89,7 +89,7 @@ class Tracer {
 
   static std::string name(const ScriptedStep& step) {
     if (step.strength == 1) return std::to_string(step.action);
-    std::array<char, 32> text;  // the shortest that gives the same strength again
+    std::array<char, 32> text;  // the shortest text that gives the same strength again
     const auto end = std::to_chars(text.begin(), text.end(), step.strength).ptr;
     return std::to_string(step.action) + '@' + std::string(text.begin(), end);
   }
@@ -147,7 +147,7 @@ class Tracer {
 
 void write_out(std::string& out) {
   if (std::fwrite(out.data(), 1, out.size(), stdout) != out.size() || std::fflush(stdout) != 0) {
-    throw std::runtime_error("can't write to standard output");
+    throw std::runtime_error("cannot write to standard output");
   }
   out.clear();
 }
@@ -162,7 +162,7 @@ void run(const TraceOptions& options) {
     try {
       tracer.play(step);
     } catch (...) {
-      write_out(tracer.out());  // what came before the fault is true
+      write_out(tracer.out());  // output before the error is valid
       throw;
     }
     if (tracer.out().size() >= kEnough) write_out(tracer.out());
@@ -178,27 +178,26 @@ void add_trace(CLI::App& app) {
   settings.random_seed = 123;
   settings.sticky = 0;
 
-  CLI::App& command = *app.add_subcommand("trace", "Play a list of actions and print what each led to");
+  CLI::App& command = *app.add_subcommand("trace", "Play a list of actions and print the result of each");
   add_machine_options(command, options->machine);
-  command.get_option("--seed")->description("Seed of all that is random in play");
+  command.get_option("--seed")->description("Seed of the sticky actions");
   command
       .add_option("--actions", options->actions,
-                  "A trace, or numbers of actions; plain or gzip; -: standard input")
+                  "A file with a trace, or with numbers of actions; plain or gzip; -: standard input")
       ->required();
   add_count(command, "--max-frames", settings.max_episode_frames, 0,
             "Frames after which an episode is over; 0: no limit");
   command.add_flag("--truncate-on-life-loss", settings.truncate_on_life_loss,
                    "An episode is over when a life is lost");
-  command.add_flag("--audio", settings.sound, "Print the checksum of the sound too");
+  command.add_flag("--audio", settings.sound, "Also print the checksum of the sound");
   command.add_flag("--counters", options->counters,
-                   "Print too: truncated, frames since loading, frames of the episode");
-  add_count(
-      command, "--colors", options->colors, 0,
-      "Print the checksums of the screen in colours and in grey too, in every so manieth line; 0: never");
+                   "Also print: truncated, frames since loading, frames of the episode");
+  add_count(command, "--colors", options->colors, 0,
+            "Also print the checksums of the screen in colours and in grey, every N lines; 0: never");
   add_count(command, "--screen-of", options->screen_of, 0,
-            "Print the screen of this line too; the first is 0")
+            "Also print the screen of this line; the first is 0")
       ->default_str("");
-  command.add_flag("--ram", options->ram, "Print the RAM in full too");
+  command.add_flag("--ram", options->ram, "Also print the RAM in full");
   command.footer(kFooter);
   command.callback([options] { run(*options); });
 }

@@ -1,4 +1,4 @@
-// racebeam trace: what a list of actions leads to, act by act, as checksums that can be compared.
+// racebeam trace: prints the results of a list of actions, act by act, as checksums that can be compared.
 #pragma once
 
 namespace CLI {

@@ -1,5 +1,5 @@
-// For functions that are written apart to be read, and must be one when they run. Not where everything is instrumented:
-// the preset `fuzz` says so, since such a function would have so many parts that compiling it takes an hour.
+// RACEBEAM_INLINE is for functions that are separate for the reader, and must be one in the machine code. The
+// preset `fuzz` disables it: with instrumentation, compiling the combined function takes an hour.
 #pragma once
 
 #ifndef RACEBEAM_INLINE

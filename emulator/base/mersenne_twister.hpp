@@ -1,4 +1,5 @@
-// std::mt19937 with words of 32 bits, where the library's have 64: the same numbers in half the memory.
+// std::mt19937 with words of 32 bits: the same numbers in half the memory, because the library's words have
+// 64 bits.
 #pragma once
 
 #include <cstdint>

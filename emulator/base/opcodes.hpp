@@ -1,4 +1,4 @@
-// How long each instruction is, in bytes that are fetched in order and in cycles without penalties.
+// The length of each instruction: in bytes that are fetched in order, and in cycles without penalties.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ struct Opcode {
   std::uint8_t cycles;
 };
 
-// JSR counts two: it reads its high operand byte after it has pushed.
+// JSR counts two bytes: it reads the high byte of its operand after its pushes.
 constexpr std::uint8_t opcode_length(std::string_view operation, std::string_view mode) {
   if (operation == "jsr") return 2;
   if (mode == "implied" || mode == "accumulator") return 1;

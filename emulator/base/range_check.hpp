@@ -1,4 +1,4 @@
-// Sentences about fields of a state that comes from elsewhere.
+// Checks of the fields of a state from an untrusted source. Each throws InvalidInput.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace racebeam {
 
 [[noreturn]] inline void refuse_field(const char* what, std::int64_t value, const std::string& accepted) {
-  throw InvalidInput("the state is none that this machine can be in: " + std::string(what) + " is " +
+  throw InvalidInput("invalid state: " + std::string(what) + " is " +
                               std::to_string(value) + "; it must be " + accepted);
 }
 
@@ -24,12 +24,12 @@ inline void check_range(const char* what, std::int64_t value, std::int64_t least
 
 inline void check_flag(const char* what, std::int64_t value) { check_range(what, value, 0, 1); }
 
-// Bits that nothing ever sets.
+// unused: bits that no machine ever sets.
 inline void check_clear(const char* what, unsigned value, unsigned unused) {
   if ((value & unused) != 0) refuse_field(what, value, "without the bits " + std::to_string(unused));
 }
 
-// Bytes that are only there to fill.
+// For bytes that are only padding.
 template <class Bytes>
 void check_zeros(const char* what, const Bytes& bytes) {
   for (const std::uint8_t byte : bytes) check_range(what, byte, 0, 0);

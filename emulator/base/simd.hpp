@@ -1,4 +1,4 @@
-// Which form of a function that comes in several is to run on this processor.
+// Selects the variant of a vectorised function for this processor.
 #pragma once
 
 #if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
@@ -9,13 +9,13 @@
 
 namespace racebeam {
 
-enum class Simd { kPlain, kAvx2, kAvx512 };  // the last: with byte masks (AVX512BW)
+enum class Simd { kPlain, kAvx2, kAvx512 };  // kAvx512: with byte masks (AVX512BW)
 
-// The best that the processor can do; the environment variable RACEBEAM_SIMD (plain, avx2, avx512) sets a limit to it.
-// Found once; the same for the whole process.
+// The best variant that the processor supports. The environment variable RACEBEAM_SIMD (plain, avx2, avx512)
+// limits it. Determined once per process.
 Simd simd();
 
-// Whatever the variable says.
+// The same, without the limit.
 Simd best_simd();
 
 }  // namespace racebeam

@@ -1,5 +1,5 @@
-// Sixteen bytes at a time, as every x86-64 and most other processors have instructions for: vectors of the compiler, not
-// of a processor.
+// Vectors of sixteen bytes, by an extension of the compiler. They work on every processor, with x86-64's
+// baseline instructions or similar ones.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace racebeam {
 using TwoWords [[gnu::vector_size(16)]] = std::uint64_t;
 using FourWords [[gnu::vector_size(16)]] = std::uint32_t;
 
-// From anywhere in memory.
+// Loads from any address.
 template <class Vector>
 RACEBEAM_INLINE Vector load(const void* from) {
   Vector vector;
@@ -22,7 +22,7 @@ RACEBEAM_INLINE Vector load(const void* from) {
 
 RACEBEAM_INLINE bool is_zero(TwoWords words) { return (words[0] | words[1]) == 0; }
 
-// The uppermost bit of each byte.
+// The uppermost bit of each byte, as a mask.
 RACEBEAM_INLINE std::uint32_t top_bits(TwoWords words) {
 #ifdef __SSE2__
   using Bytes [[gnu::vector_size(16)]] = char;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t bit(unsigned reg) { return std::uint64_t{1} << reg; }
 
-// Of those that draw: with an effect on more than the picture, or on other registers.
+// Drawing registers with other effects than on the picture, or on other registers.
 constexpr std::uint64_t kSpecialRegisters = bit(VBLANK) | bit(HMCLR);
 
 std::size_t ram_beside_state(const Scheme& scheme) { return scheme.ram > kRamInState ? scheme.ram : 0; }
@@ -36,7 +36,7 @@ Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
   map_memory();
 }
 
-// RAM shows wherever bits 12, 9 and 7 say so; the cartridge maps itself.
+// RAM is visible wherever bits 12, 9 and 7 select it. The cartridge maps its own pages.
 void Board::map_memory() {
   for (std::size_t page = 0; page < map.page.size(); ++page) {
     const std::size_t address = page * MemoryMap::kPageSize;
@@ -49,7 +49,7 @@ void Board::map_memory() {
   set_format_limits();
 }
 
-// What a cartridge shows depends on its banks alone, and they are mostly the same. RAM is always where it was.
+// The memory map depends on the cartridge's banks alone, so that it is rebuilt only if they differ.
 void Board::restore(const State& other) {
   const bool same_banks = state.cartridge.bank == other.cartridge.bank;
   state = other;
@@ -78,7 +78,7 @@ void Board::open_frame() {
   set_format_limits();
 }
 
-// All that is counted from the frame's start, but its origin.
+// Subtracts `cycles` from all clocks that count from the frame's start, except its origin.
 void Board::turn_back_clocks(std::int32_t cycles) {
   const auto passed = static_cast<std::uint32_t>(cycles);
   state.riot.timer_set -= passed;
@@ -90,38 +90,38 @@ void Board::turn_back_clocks(std::int32_t cycles) {
   state.cycle -= cycles;
 }
 
-void Board::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& scratch, Pixels pixels,
+void Board::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& scratch, RenderMode mode,
                        Collisions sought) {
   log = &scratch;
   log->begin(state.cycle);
   last_access_ = kNever;
-  exact_ = pixels == Pixels::kExact;
+  exact_mode_ = mode == RenderMode::kExact;
   fetched_latches_ = false;
-  plain_registers_ = exact_ ? 0 : plain_registers();
-  tia.begin_step(picture, other, scratch, pixels, sought);
+  plain_registers_ = exact_mode_ ? 0 : plain_registers();
+  tia.begin_step(picture, other, scratch, mode, sought);
 }
 
-// Writes that repeat what a register holds leave no trace in the log, but they end a span of drawing, up to 5 clocks
-// ahead (docs/spec/tia.md, 4), and that is seen where the picture stops in the window. An access that closes
-// the frame is at least 9 clocks later.
+// Ends the step. A write that repeats what a register holds is not in the log, but it ends a span of drawing,
+// up to 5 clocks ahead (docs/spec/tia.md, 4). That is visible if the picture stops inside the window. An
+// access that closes the frame is at least 9 clocks later.
 void Board::end_step() {
   const bool closed = !state.frame.open && last_access_ == state.cycle;
-  if (closed && !exact_) {
-    is_exact_ = tia.end_picture(last_access_);
+  if (closed && !exact_mode_) {
+    picture_is_exact_ = tia.end_picture(last_access_);
   } else {
     tia.catch_up(last_access_);
-    is_exact_ = exact_ || !tia.stopped_inside(state.cycle);
+    picture_is_exact_ = exact_mode_ || !tia.stopped_inside(state.cycle);
   }
 }
 
-// An opcode that is fetched from a collision register sees what a write in the same cycle drew ahead.
+// An opcode that was fetched from a collision register depends on what a write in the same cycle drew ahead.
 bool Board::needs_exact_step() const {
   const bool untouched = last_access_ == kNever && log->size() == 0;
-  return !exact_ && (fetched_latches_ || (!untouched && !is_exact_));
+  return !exact_mode_ && (fetched_latches_ || (!untouched && !picture_is_exact_));
 }
 
-// What the map shows depends on the banks alone, so that a window that was found once is found again by them; there is
-// mostly one window for a 1K slice of memory.
+// What the map shows depends on the banks alone. Windows are therefore cached by the banks, and by the 1K
+// slice of the address: most slices have one window.
 bool Board::find_code(std::uint16_t pc) {
   const std::uint64_t banks = selected_banks();
   const unsigned slice = pc >> 10;
@@ -141,7 +141,7 @@ const std::uint8_t* Board::locate_code(std::uint16_t pc, std::uint8_t latch, std
   return find_code(pc) ? code.memory + static_cast<std::uint16_t>(pc - code.first) : fetch_slowly(pc, latch, cycle);
 }
 
-// The opcode is read before its cycles are counted, the operand after (docs/spec/cpu.md, 3).
+// The opcode is read before its cycles are counted, the operand after that (docs/spec/cpu.md, 3).
 const std::uint8_t* Board::fetch_slowly(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
   fetched_latches_ |= (pc & 0x1088) == 0;
   const std::uint8_t opcode = fetched_[0] = read(pc, latch, cycle);
@@ -157,7 +157,7 @@ std::uint8_t Board::read(std::uint16_t address, std::uint8_t latch, std::int32_t
   return page != nullptr ? page[address & 0x3F] : read_device(address, latch, cycle);
 }
 
-// The CPU must look for its code again if a cartridge's access has changed what it sees.
+// Closes the code window if the access has changed the map, so that the CPU locates its code again.
 std::uint8_t Board::read_cartridge(std::uint16_t address, std::int32_t cycle) {
   const std::uint64_t banks = selected_banks();
   const std::uint8_t value = slot.scheme.read(slot, address, cycle);
@@ -179,7 +179,7 @@ std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::
   return read_tia(address, latch, cycle);
 }
 
-// WSYNC, which most lines have, goes the shortest way.
+// WSYNC comes first, because most lines have one.
 std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
   const bool plain = address == WSYNC && cycle < overlong_cycle_ && !slot.scheme.watches_tia;
   return plain ? write_wsync(cycle, after_read) : write_anywhere(address, value, cycle, after_read);
@@ -208,16 +208,16 @@ std::uint8_t Board::read_riot(std::uint16_t address, std::int32_t cycle) {
   }
 }
 
-// The ports come first and ignore A4 (docs/spec/riot.md, 1).
+// The ports come first, and ignore A4 (docs/spec/riot.md, 1).
 void Board::write_riot(std::uint16_t address, std::uint8_t value, std::int32_t cycle) {
   if ((address & 7) == 1) state.riot.swacnt = value;
   else if ((address & 0x14) == 0x14) Timer(state.riot, cycle).set(value, kTimerShift[address & 3]);
 }
 
-// An access that draws up to its clock and changes nothing.
+// An access that draws up to its clock, and changes no register.
 void Board::touch_tia(std::int32_t cycle) {
   last_access_ = cycle;
-  if (exact_) tia.catch_up(cycle);
+  if (exact_mode_) tia.catch_up(cycle);
 }
 
 void Board::make_room(std::int32_t cycle) {
@@ -242,7 +242,7 @@ std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int
   return static_cast<std::uint8_t>(driven | (latch & 0x3F));
 }
 
-// The only reads that need the picture: the log is played up to now.
+// These are the only reads that depend on the picture: the log is played up to `cycle`.
 std::uint8_t Board::collision_bits(unsigned reg, std::int32_t cycle) {
   last_access_ = cycle;
   tia.find_collisions(cycle, static_cast<Collisions>(3U << (2 * reg)));
@@ -267,11 +267,11 @@ std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::in
   last_access_ = cycle;
   make_room(cycle);
   log->append(cycle, reg, value);
-  if (exact_) tia.play_log(cycle);
+  if (exact_mode_) tia.play_log(cycle);
   return cycle;
 }
 
-// The CPU stands still until the next line starts, if it was about to read.
+// The CPU stops until the next line starts, if its next access is a read.
 std::int32_t Board::write_wsync(std::int32_t cycle, bool after_read) {
   touch_tia(cycle);
   make_room(cycle);

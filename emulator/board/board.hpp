@@ -1,4 +1,4 @@
-// The board as the CPU sees it: decodes addresses and owns the chips (docs/spec/cpu.md, 2;
+// The board as the CPU sees it. It decodes addresses and owns the chips (docs/spec/cpu.md, 2;
 // docs/spec/riot.md; docs/spec/tia.md).
 #pragma once
 
@@ -32,31 +32,32 @@ class Board {
   Video video;
   Tia tia;
   Sound sound;
-  Slot slot;
-  std::vector<std::uint8_t> cartridge_ram;  // what doesn't fit into the state; mostly none
-  WriteLog* log = nullptr;  // of the step that runs
-  CodeWindow code;    // where the CPU fetches; nowhere after the map has changed, and when the frame has closed
-  bool stop = false;  // the frame has closed: the CPU ends after this instruction
+  CartridgeSlot slot;
+  std::vector<std::uint8_t> cartridge_ram;  // what does not fit into the state; empty for most schemes
+  WriteLog* log = nullptr;                  // of the step that runs
+  CodeWindow code;                          // where the CPU fetches; empty after the map has changed or the frame has closed
+  bool stop = false;                        // the frame has closed: the CPU stops after this instruction
 
-  // What the CPU does where there is no plain memory. `latch` is the data bus before the access.
+  // Accesses of the CPU where there is no plain memory. `latch` is the data bus before the access.
   std::uint8_t read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);  // plain memory or a device
   std::uint8_t read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
 
-  // The bytes of the instruction at `pc`: moves the code window there, or, where there is no plain memory or too little
-  // of it, reads them over the bus.
+  // Returns the bytes of the instruction at `pc`. Moves the code window there if plain memory holds them,
+  // else reads them over the bus.
   const std::uint8_t* locate_code(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle);
 
-  // Returns the cycle after the write: WSYNC waits for the end of the line when the access before it was a read.
+  // Returns the cycle after the write. WSYNC waits for the end of the line if the access before it was a read
+  // (`after_read`).
   std::int32_t write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read);
 
-  // A TIA write that only concerns the picture: the log is all it needs. There is none in an exact step.
+  // Whether a TIA write goes to the log and has no other effect. Never true in an exact step.
   bool is_plain_write(std::uint16_t address, std::int32_t cycle) const {
     if (cycle >= overlong_cycle_) [[unlikely]] return false;
     return (plain_registers_ >> (address & 0x3F) & 1) != 0;
   }
 
-  // WSYNC, when the access before was a read: the CPU stands still until the next line starts. False, and nothing is done,
-  // if that takes write_device().
+  // WSYNC after a read: the CPU stops until the next line starts. Returns false, and does nothing, if
+  // write_device() must handle it.
   RACEBEAM_INLINE bool wait_for_line(std::uint16_t address, std::int32_t& cycle) {
     if ((address & 0x3F) != WSYNC || plain_registers_ == 0 || cycle >= overlong_cycle_) return false;
     if (log->is_short_of_room(cycle)) [[unlikely]] return false;
@@ -65,27 +66,29 @@ class Board {
     return true;
   }
 
-  // Moves the code window to `pc`. False where there is no plain memory, or less than an instruction needs.
+  // Moves the code window to `pc`. Returns false if there is no plain memory, or too little for an
+  // instruction.
   bool find_code(std::uint16_t pc);
 
-  // For the translator: TIA writes that only go to the log, and the cycle from which on they close the frame.
+  // For the translator: the TIA registers whose writes only go to the log, and the cycle from which a write
+  // closes the frame.
   std::uint64_t plain_registers() const;
   std::int32_t overlong_cycle() const { return overlong_cycle_; }
   translator::Context translated;
 
-  void open_frame();  // docs/spec/tia.md, 2: action 1 of a step, with the pictures exchanged already
+  void open_frame();  // docs/spec/tia.md, 2: action 1 of a step; the pictures have been exchanged already
   void turn_back_clocks(std::int32_t cycles);
-  // A step: begin_step(), then what the CPU does, then end_step(), which leaves the picture drawn as far as the
-  // reference has drawn it. If needs_exact_step(), what the reference draws ahead of the beam can be seen: then the
-  // same is to be done again, from the state before the step, with Pixels::kExact.
+  // A step is begin_step(), then the CPU, then end_step(), which draws as far as the reference does. If
+  // needs_exact_step(), pixels are visible that the reference draws ahead of the beam. The caller must then
+  // repeat the step from the state before it, with RenderMode::kExact.
   void begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& scratch,
-                  Pixels pixels = Pixels::kDrawn, Collisions sought = kAllPairs);
+                  RenderMode mode = RenderMode::kDrawn, Collisions sought = kAllPairs);
   void end_step();
   bool needs_exact_step() const;
-  void set_format_limits();  // after `video` or the frame's origin have changed
+  void set_format_limits();  // after `video` or the frame's origin has changed
 
-  void map_memory();               // everything that is derived from the state: after a reset
-  void restore(const State& other);  // goes on from there
+  void map_memory();                 // rebuilds everything that is derived from the state, after a reset
+  void restore(const State& other);  // replaces the state
 
  private:
   friend translator::Layout;
@@ -120,12 +123,13 @@ class Board {
   std::array<KnownWindow, 64> known_windows_{};
   Ports ports_;
   std::uint64_t plain_registers_ = 0;
-  std::int32_t overlong_cycle_ = 0;  // from this cycle on, which starts a line, a TIA write closes the frame
+  // The first cycle, at a line's start, from which a TIA write closes the frame.
+  std::int32_t overlong_cycle_ = 0;
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
-  std::int32_t last_access_ = 0;     // cycle of the last TIA access but plain writes: how far the picture is drawn
-  bool exact_ = false;               // each access is played on its own
-  bool is_exact_ = true;             // the picture of the step that has ended is as if it had been
-  bool fetched_latches_ = false;     // an opcode was read from a collision register
+  std::int32_t last_access_ = 0;           // cycle of the last TIA access that was no plain write: the picture is drawn so far
+  bool exact_mode_ = false;                // each access is played on its own
+  bool picture_is_exact_ = true;           // of the last step, even if it ran in another mode
+  bool fetched_latches_ = false;           // an opcode was read from a collision register
 };
 
 }  // namespace racebeam

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::uint8_t kDirections = kStickUp | kStickDown | kStickLeft | kStickRight;
 
-// Cycles until the capacitor behind a pot of `ohms` is charged.
+// Cycles until the capacitor behind a paddle of `ohms` is charged.
 std::uint32_t charge_cycles(std::int32_t ohms) {
   return static_cast<std::uint32_t>(((1.6 * ohms) * 0.01e-6) * 1.19e6);
 }
@@ -23,7 +23,7 @@ std::uint8_t Ports::swcha(const Inputs& inputs) const {
   return static_cast<std::uint8_t>(nibble(inputs, side_[0]) << 4 | nibble(inputs, side_[1]));
 }
 
-// Pins 4 to 1: right, left, down, up of a stick; of paddles only the two buttons.
+// Pins 4 to 1: a stick's right, left, down and up; for paddles, only the two buttons.
 std::uint8_t Ports::nibble(const Inputs& inputs, const Port& port) const {
   if (port.controller == Controller::kJoystick) {
     const std::uint8_t pressed = inputs.joystick[static_cast<std::size_t>(port.player)] & kDirections;
@@ -45,8 +45,8 @@ bool Ports::pot(const Inputs& inputs, int number, std::uint32_t cycle, std::uint
   if (port.controller == Controller::kJoystick) return false;
   const std::int32_t ohms = inputs.paddle[static_cast<std::size_t>(paddle(port, number % 2))];
   if (ohms == 0) return true;
-  // Unsigned on purpose: a release in an earlier frame is a huge number and never reached (docs/spec/tia.md,
-  // 11).
+  // Unsigned on purpose: a release in an earlier frame becomes a huge number, which is never reached
+  // (docs/spec/tia.md, 11).
   return !dumping && cycle > release + charge_cycles(ohms);
 }
 

@@ -17,7 +17,7 @@ class Ports {
   std::uint8_t swcha(const Inputs& inputs) const;
   bool fire_pin(const Inputs& inputs, int side) const;  // INPT4, INPT5: true is released
 
-  // INPT0-3: is the capacitor charged at `cycle`, when it was let go at `release`?
+  // INPT0-3: whether the capacitor is charged at `cycle`, if it was released at `release`.
   bool pot(const Inputs& inputs, int number, std::uint32_t cycle, std::uint32_t release, bool dumping) const;
 
  private:

@@ -1,4 +1,4 @@
-// The 6532: RAM, timer and ports (docs/spec/riot.md). Nothing ticks: the timer is arithmetic on the cycle
+// The 6532: RAM, timer and ports (docs/spec/riot.md). The timer is not stepped: it is computed from the cycle
 // counter.
 #pragma once
 

@@ -1,5 +1,6 @@
-// What the CPU sees at each address, as far as it is plain memory: 256 pages of 64 bytes, for address bits 13 to 6.
-// (Bit 13 counts because FE cartridges decode it.) A page without memory is a device: TIA, RIOT or a hot spot.
+// What the CPU sees at each address, as far as it is plain memory: 256 pages of 64 bytes, for address bits 13
+// to 6. (Bit 13 counts because FE cartridges decode it.) A page without memory is a device: TIA, RIOT or a
+// hot spot.
 #pragma once
 
 #include <array>
@@ -7,14 +8,15 @@
 
 namespace racebeam {
 
-// Where the instructions are: `memory` shows the addresses from `first` on, and for `span` of them two more bytes follow.
+// Memory with instructions: `memory` shows the addresses from `first` on. `span` addresses can start an
+// instruction, because two more bytes follow them.
 struct CodeWindow {
   const std::uint8_t* memory = nullptr;
   std::uint16_t first = 0;
   std::uint16_t span = 0;
   const std::uint8_t* end = memory + span;
 
-  // What it shows is no longer known; where it is, is.
+  // Forgets what the window shows, but not where it is.
   void close() {
     span = 0;
     end = nullptr;
@@ -23,16 +25,16 @@ struct CodeWindow {
 
 struct MemoryMap {
   static constexpr int kPageSize = 64;
-  static constexpr unsigned kLastPage = 0x7F;  // of the cartridge; bit 13 makes another one of it
+  static constexpr unsigned kLastPage = 0x7F;  // of the cartridge; bit 13 selects a second one
 
   std::array<const std::uint8_t*, 256> page{};
 
-  // Bytes of the cartridge's last page that come before its first hot spot: code may run there, too.
+  // Bytes of the cartridge's last page before its first hot spot. They may hold code, too.
   std::uint16_t quiet_tail = 0;
 
   const std::uint8_t* page_of(std::uint16_t address) const { return page[address >> 6 & 0xFF]; }
 
-  // The longest run of memory around an address that may hold code.
+  // The longest run of contiguous memory around an address that may hold code.
   CodeWindow window_around(std::uint16_t address) const {
     unsigned low = address >> 6 & 0xFF;
     if (page[low] == nullptr) --low;
@@ -44,14 +46,15 @@ struct MemoryMap {
     return {page[low], first, static_cast<std::uint16_t>((high - low + 1) * kPageSize + tail - 2)};
   }
 
-  // Plain memory or the quiet tail after it: where instructions can be.
+  // Whether the address is in plain memory, or in the quiet tail after it.
   bool may_hold_code(std::uint16_t address) const {
     if (page_of(address) != nullptr) return true;
     const bool last = (address >> 6 & 0x7F) == kLastPage;
     return last && (address & 0x3F) < quiet_tail && page_of(static_cast<std::uint16_t>(address - kPageSize)) != nullptr;
   }
 
-  // Shows `memory` from cartridge address `from` (0-$FFF) on, for `size` bytes, whatever bits 13 and 15-14 are.
+  // Maps `memory`, `size` bytes of it, from cartridge address `from` (0-$FFF) on, for all values of bits 13,
+  // 14 and 15.
   void show(unsigned from, const std::uint8_t* memory, unsigned size) {
     for (unsigned offset = 0; offset < size; offset += kPageSize) {
       page[(0x1000 + from + offset) >> 6] = memory + offset;
@@ -59,8 +62,8 @@ struct MemoryMap {
     }
   }
 
-  // Addresses of the cartridge that do something when they are touched. If it is the last page, `quiet` of its bytes
-  // do not, and the image goes on in them.
+  // Hides pages whose addresses have an effect when they are accessed. In the last page, the first `quiet`
+  // bytes have no effect, and continue the image.
   void hide(unsigned from, unsigned size, unsigned quiet = 0) {
     quiet_tail = static_cast<std::uint16_t>(quiet);
     for (unsigned offset = 0; offset < size; offset += kPageSize)

@@ -1,5 +1,5 @@
-// Addressing modes: each makes its own bus reads and returns the effective address (docs/spec/cpu.md, 4).
-// kPenalty: the instruction only reads, so that crossing a page costs a cycle.
+// Addressing modes. Each makes its own bus reads, and returns the effective address (docs/spec/cpu.md, 4).
+// kPenalty: the instruction only reads, so that a crossed page costs a cycle.
 #pragma once
 
 #include "emulator/cpu/core.hpp"
@@ -14,7 +14,7 @@ RACEBEAM_INLINE Address indexed(Core& cpu, Address base, std::uint8_t index) {
   return static_cast<Address>(base + index);
 }
 
-// A pointer in the zero page; its high byte is read from p+1, which is $0100 when p is $FF.
+// A pointer in the zero page. Its high byte is read from p+1, which is $0100 if p is $FF.
 RACEBEAM_INLINE Address pointer(Core& cpu, std::uint8_t p) {
   if (p >= 0x80 && p != 0xFF) [[likely]] return cpu.read_word_of_ram(p);
   const std::uint8_t low = cpu.read(ZeroPage{p});
@@ -22,7 +22,7 @@ RACEBEAM_INLINE Address pointer(Core& cpu, std::uint8_t p) {
   return static_cast<Address>(low | cpu.read(ZeroPage{static_cast<std::uint8_t>(p + 1)}) << 8);
 }
 
-// These have no address; the names are there for the table.
+// These have no address. opcodes.inc needs their names.
 template <bool> RACEBEAM_INLINE Address implied(Core&) { return 0; }
 template <bool> RACEBEAM_INLINE Address accumulator(Core&) { return 0; }
 template <bool> RACEBEAM_INLINE Address relative(Core&) { return 0; }
@@ -48,7 +48,7 @@ template <bool> RACEBEAM_INLINE Address indirect_x(Core& cpu) {
 template <bool kPenalty> RACEBEAM_INLINE Address indirect_y(Core& cpu) {
   return indexed<kPenalty>(cpu, pointer(cpu, cpu.fetch()), cpu.Y);
 }
-// JMP (q): the high byte comes from the same page as the low one.
+// JMP (q): both bytes come from the same page.
 template <bool> RACEBEAM_INLINE Address indirect(Core& cpu) {
   const Address q = cpu.fetch_word();
   const std::uint8_t low = cpu.read(q);

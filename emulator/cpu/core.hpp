@@ -1,5 +1,5 @@
-// The 6507's registers while instructions run, and its way to the bus. Everything is inlined into interpret() in cpu.cpp,
-// so that the registers are locals of one function.
+// The 6507's registers while instructions run, and its access to the bus. Everything is inlined into
+// interpret() in cpu.cpp, so that the registers are locals of one function.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace racebeam {
 
-// An address below $0100: RAM from $80 on, registers of the TIA before it.
+// An address below $0100: the TIA's registers, and RAM from $80 on.
 struct ZeroPage {
   std::uint8_t at;
 
@@ -20,23 +20,23 @@ struct ZeroPage {
 
 struct Core {
   Board& board;
-  std::int64_t clock;      // cycle() and executed() in one number: an instruction counts both with one addition
-  std::uintptr_t at;       // PC, as the place in the host's memory that the code window shows there
-  std::uintptr_t start, end;  // of the window; end is 0 if locate() must be asked for the next instruction
-  std::uintptr_t origin;   // where address 0 would be
-  std::int32_t budget;     // instructions that may be executed
-  std::int32_t enough;     // from so many on, it ends where they are counted
-  std::uint32_t nz;        // N is bit 15 or bit 7; Z is set when bits 7-0 are 0
+  std::int64_t clock;         // cycle() and executed() in one number, so that an instruction counts both with one addition
+  std::uintptr_t at;          // PC, as an address in the host's memory
+  std::uintptr_t start, end;  // of the code window; end is 0 if locate() must find the next instruction
+  std::uintptr_t origin;      // the host's address of address 0
+  std::int32_t budget;        // instructions that may be executed
+  std::int32_t enough;        // from this count on, it stops at the next instruction that checks
+  std::uint32_t nz;           // N is bit 15 or bit 7; Z is set when bits 7-0 are 0
   std::uint8_t A, X, Y, SP;
-  std::uint8_t C, V, D, I; // 0 or 1
-  std::uint8_t latch;      // the data bus after the last access
-  bool counted = false;    // the alarm has been seen
+  std::uint8_t C, V, D, I;  // 0 or 1
+  std::uint8_t latch;       // the data bus after the last access
+  bool counted = false;     // the alarm bit has been seen
 
   static constexpr int kCycleBit = 24;
   static constexpr std::int64_t kCycle = 1 << kCycleBit;
 
-  // This bit of the clock is set when the budget is so short that it might end in a row of instructions without a jump;
-  // no row is longer than a window. From there on locate() counts; before, only jumps and branches look at the bit.
+  // The alarm bit of the clock is set when the budget might end before the next jump; no run without a jump
+  // is longer than a window. From then on, locate() counts. Before, only jumps and branches test the bit.
   static constexpr std::int64_t kAlarm = 1 << (kCycleBit - 1);
   static constexpr std::int32_t kLongestRow = 4096;
 
@@ -50,10 +50,10 @@ struct Core {
     set_status(on.state.cpu.P);
   }
 
-  // T: at the end of the instruction from its second bus access on (docs/spec/cpu.md, 3).
+  // T. At the end of an instruction, from its second bus access on (docs/spec/cpu.md, 3).
   RACEBEAM_INLINE std::int32_t cycle() const { return static_cast<std::int32_t>(clock >> kCycleBit); }
 
-  // A cycle more if bit 8 of `carry` is set.
+  // Adds a cycle if bit 8 of `carry` is set.
   RACEBEAM_INLINE void add_penalty(std::uint32_t carry) { clock += (carry & 0x100) * (kCycle >> 8); }
   RACEBEAM_INLINE void set_cycle(std::int32_t cycle) { clock = (clock & (kCycle - 1)) + cycle * kCycle; }
   RACEBEAM_INLINE std::int32_t executed() const {
@@ -77,7 +77,7 @@ struct Core {
     look_at_budget();
   }
 
-  // Answers the cycles that it takes beyond those of a branch that is not taken.
+  // Returns the cycles beyond those of a branch that is not taken.
   RACEBEAM_INLINE int branch(std::int8_t offset) {
     const auto next = static_cast<std::uint32_t>(at - origin);
     at += static_cast<std::uintptr_t>(std::intptr_t{offset});
@@ -94,12 +94,12 @@ struct Core {
     if (clock & kAlarm) [[unlikely]] end = 0;
   }
 
-  // After an access to a device: the window may show something else, or the frame may have closed.
+  // After an access to a device: the window may have changed, or the frame may have closed.
   RACEBEAM_INLINE void look_at_window() {
     if (board.code.end == nullptr) end = 0;
   }
 
-  // Finds the next instruction where it may be anywhere. False if there is none to be executed.
+  // Finds the next instruction at any address. Returns false if no instruction is to be executed.
   RACEBEAM_INLINE bool locate() {
     counted = (clock & kAlarm) != 0;
     if (board.stop || board.state.cpu.jammed || (counted && executed() >= enough)) return false;
@@ -158,32 +158,32 @@ struct Core {
     return latch;
   }
 
-  // It has been found: its length, and its cycles up to the end but penalties.
+  // Starts an instruction that has been found. base_cycles: without penalties.
   RACEBEAM_INLINE void begin(std::uint8_t opcode, std::int32_t base_cycles) {
     latch = opcode;
     at += kOpcodes[opcode].length;
     clock += base_cycles * kCycle + 1;
   }
 
-  // Its operand.
+  // Its operand, a byte.
   RACEBEAM_INLINE std::uint8_t fetch() { return latch = byte_at(at)[-1]; }
   RACEBEAM_INLINE std::uint16_t fetch_word() { return word(byte_at(at) - 2); }
 
-  // Two bytes that are read in a row.
+  // Two consecutive bytes.
   RACEBEAM_INLINE std::uint16_t word(const std::uint8_t* bytes) {
     const auto both = static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8);
     latch = static_cast<std::uint8_t>(both >> 8);
     return both;
   }
 
-  // A byte that is read when its turn comes, like any other.
+  // Reads the byte at PC over the bus.
   RACEBEAM_INLINE std::uint8_t read_at_PC() { return read(PC()); }
 
-  // At the end of a taken branch that may close a timer loop: goes on before the last turn. One turn is left to be run
-  // in any case, for what it leaves in the registers.
+  // At the end of a taken branch that may close a timer loop: skips all iterations but the last. The last one
+  // is executed for its effect on the registers.
   RACEBEAM_INLINE void skip_timer_loop(std::int32_t period) {
     if (at >= end) return;
-    const std::uint8_t* code = byte_at(at) + 3;  // the branch
+    const std::uint8_t* code = byte_at(at) + 3;  // the branch instruction
     const std::int32_t sure = sure_timer_turns(code, board.state.riot, cycle() + 4, period);
     const std::int32_t most = (budget - executed()) / 2 - 1;
     const std::int32_t turns = sure < most ? sure : most;
@@ -221,11 +221,12 @@ struct Core {
     look_at_window();
   }
 
-  // Where the stack shows the TIA, games write its registers so.
+  // Where the stack pointer is in the TIA, games write registers this way.
   RACEBEAM_INLINE void push(std::uint8_t value) { write(static_cast<std::uint16_t>(0x0100 | SP--), value); }
 
-  // One of several that an instruction pushes. Two of them can reach the TIA in one cycle, where the first one's delay holds
-  // up the second: both are kept. after_read: the access before this one was a read, which WSYNC asks for.
+  // One of several bytes that an instruction pushes. Two of them can reach the TIA in one cycle, where the
+  // delay of the first holds up the second: both are kept. after_read: the previous access was a read, on
+  // which WSYNC depends.
   RACEBEAM_INLINE void push_one(std::uint8_t value, bool after_read) {
     const std::uint16_t address = 0x0100 | SP--;
     latch = value;

@@ -4,9 +4,9 @@
 #include "emulator/cpu/followers.hpp"
 #include "emulator/cpu/operations.hpp"
 
-// Threaded dispatch: every handler ends with its own indirect jump, which a processor predicts far better than the one
-// of a switch, after it has looked for the opcodes that often follow its own (followers.hpp). Labels as values are an
-// extension of g++ and clang.
+// Threaded dispatch: every handler ends with its own indirect jump, which processors predict far better than
+// that of a switch. Before it, the handler tests for the opcodes that often follow its own (followers.hpp).
+// Labels as values are an extension of g++ and clang.
 #pragma GCC diagnostic ignored "-Wpedantic"
 
 namespace racebeam {
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kLoadCycles = 4, kBranchCycles = 2;  // of the two instructions of a timer loop
 
-// The shapes of an instruction, one for each kind of access in opcodes.inc.
+// The shape of an instruction, for each kind of access in opcodes.inc.
 template <auto kMode, void (*kOperation)(Core&, std::uint8_t)>
 RACEBEAM_INLINE void Read(Core& cpu) {
   const auto address = kMode(cpu);

@@ -1,5 +1,5 @@
-// What each instruction does with its operand (docs/spec/cpu.md, 6 to 9). The signature is that of its kind
-// of access in opcodes.inc; names are the mnemonics there.
+// The effect of each instruction on its operand (docs/spec/cpu.md, 6 to 9). The signature follows from the
+// kind of access in opcodes.inc; names are the mnemonics there.
 #pragma once
 
 #include "emulator/cpu/core.hpp"
@@ -12,7 +12,7 @@ using Address = std::uint16_t;
 
 RACEBEAM_INLINE Byte byte(int value) { return static_cast<Byte>(value); }
 
-// Read: the operand comes in.
+// Read: the argument is the operand.
 RACEBEAM_INLINE void lda(Core& cpu, Byte m) { cpu.set_nz(cpu.A = m); }
 RACEBEAM_INLINE void ldx(Core& cpu, Byte m) { cpu.set_nz(cpu.X = m); }
 RACEBEAM_INLINE void ldy(Core& cpu, Byte m) { cpu.set_nz(cpu.Y = m); }
@@ -92,7 +92,8 @@ RACEBEAM_INLINE void sbx(Core& cpu, Byte m) {
 }
 RACEBEAM_INLINE void las(Core& cpu, Byte m) { cpu.set_nz(cpu.A = cpu.X = cpu.SP = cpu.SP & m); }
 
-// Write: the effective address comes in, for the four that store a part of it; the byte to store goes out.
+// Write: the argument is the effective address, for the four that store a part of it. Returns the byte to
+// store.
 RACEBEAM_INLINE Byte high_plus_one(Address address) { return byte((address >> 8) + 1 > 0xFF ? 0 : (address >> 8) + 1); }
 RACEBEAM_INLINE Byte sta(Core& cpu, Address) { return cpu.A; }
 RACEBEAM_INLINE Byte stx(Core& cpu, Address) { return cpu.X; }
@@ -106,7 +107,7 @@ RACEBEAM_INLINE Byte shs(Core& cpu, Address address) {
   return cpu.SP & high_plus_one(address);
 }
 
-// Modify, and the same on A: the old byte comes in, the new one goes out.
+// Modify, and the same on A: the argument is the old byte. Returns the new one.
 RACEBEAM_INLINE Byte asl(Core& cpu, Byte m) {
   cpu.C = m >> 7;
   m = byte(m << 1);
@@ -188,7 +189,7 @@ RACEBEAM_INLINE void iny(Core& cpu) { cpu.set_nz(++cpu.Y); }
 RACEBEAM_INLINE void dex(Core& cpu) { cpu.set_nz(--cpu.X); }
 RACEBEAM_INLINE void dey(Core& cpu) { cpu.set_nz(--cpu.Y); }
 
-// Branch: is it taken?
+// Branch: returns whether it is taken.
 RACEBEAM_INLINE bool bpl(Core& cpu) { return !cpu.is_negative(); }
 RACEBEAM_INLINE bool bmi(Core& cpu) { return cpu.is_negative(); }
 RACEBEAM_INLINE bool bvc(Core& cpu) { return cpu.V == 0; }
@@ -241,7 +242,7 @@ RACEBEAM_INLINE void brk(Core& cpu, Address) {
   cpu.jump(static_cast<Address>(low | cpu.read(0xFFFF) << 8));
 }
 
-// The twelve opcodes that stop the chip until a reset.
+// The twelve opcodes that halt the CPU until a reset.
 RACEBEAM_INLINE void jam(Core& cpu) {
   cpu.board.state.cpu.jammed = 1;
   cpu.end = 0;

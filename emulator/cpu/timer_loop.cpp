@@ -14,7 +14,7 @@ TimerRegister register_at(unsigned address) {
   return address & 1 ? TimerRegister::kInstat : TimerRegister::kIntim;
 }
 
-// The loop goes on while the intervals left, as INTIM counts them, are in [least, most].
+// The loop continues while the intervals left, as INTIM counts them, are in [least, most].
 struct Range {
   int least, most;
 };
@@ -39,7 +39,7 @@ std::int32_t sure_timer_turns(const std::uint8_t* branch, const RiotState& riot,
                               std::int32_t period) {
   const Range range = looping_counts(branch);
   const std::int64_t elapsed = static_cast<std::uint32_t>(next_read) - 1 - riot.timer_set;
-  const std::int64_t count = riot.timer - 1 - (elapsed >> riot.shift);  // as riot.hpp has it
+  const std::int64_t count = riot.timer - 1 - (elapsed >> riot.shift);  // as in riot.hpp
   if (count < range.least || count > range.most) return 0;
   const std::int64_t ends = std::int64_t{riot.timer - range.least} << riot.shift;
   return static_cast<std::int32_t>((ends - elapsed + period - 1) / period);

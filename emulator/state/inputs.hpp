@@ -1,4 +1,4 @@
-// What the player's hands do: sticks, paddles and the switches of the console. Part of the machine's state.
+// The positions of all controllers and console switches. Part of the machine's state.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Where the random contents of a machine that is switched on come from (docs/spec/riot.md, 2).
+// The source of the random contents of a machine that is switched on (docs/spec/riot.md, 2).
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace racebeam {
 
-// `drawn` counts the draws that this machine has taken; it is part of the machine's state, so that a restored
-// machine goes on in the sequence where the saved one stood.
+// `drawn` counts the draws that this machine has taken. It is part of the machine's state: a restored machine
+// continues the sequence where the saved one stood.
 class PowerOn {
  public:
   virtual ~PowerOn() = default;
@@ -18,13 +18,13 @@ class PowerOn {
   virtual void fill_cartridge(std::span<std::uint8_t> ram, std::uint32_t& drawn) = 0;
 };
 
-// ALE 0.12: an MT19937 of its own, one draw a byte of cartridge RAM.
+// As ALE 0.12: a separate MT19937, and one draw for each byte of cartridge RAM.
 class SystemGenerator : public PowerOn {
  public:
   explicit SystemGenerator(std::uint32_t seed) : seed_(seed), engine_(seed) {}
 
   std::uint32_t draw(std::uint32_t& drawn) override {
-    if (drawn < position_) {  // a state from before was restored: start over
+    if (drawn < position_) {  // An earlier state was restored: the sequence starts again.
       engine_.seed(seed_);
       position_ = 0;
     }

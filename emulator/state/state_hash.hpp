@@ -1,4 +1,4 @@
-// A hash of a machine's state for planners: they meet the same state again and again by different ways.
+// A hash of a machine's state, for planners that reach the same state in different ways.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace racebeam {
 
-// 64 bits from a stream of bytes. Sixteen are taken at a time and folded in with one multiplication of 64 by 64
-// bits, of which the high and the low half are joined. Every bit of the input changes every bit of the result
-// with a probability of about a half (tests/environment/state_hash_test.cpp). The same on all little-endian
-// machines and in all versions; no defence against those who construct collisions.
+// 64 bits from a stream of bytes. Sixteen bytes at a time are folded in with a multiplication of 64 by 64
+// bits, whose halves are combined. Each bit of the input changes each bit of the result with a probability of
+// about a half (tests/environment/state_hash_test.cpp). The hash is the same on all little-endian machines
+// and in all versions. It is not safe against constructed collisions.
 class StateHash {
  public:
   void add(std::span<const std::uint8_t> bytes) {
@@ -34,7 +34,7 @@ class StateHash {
   std::uint64_t value() const { return fold(sum_ ^ kOne, kTwo); }
 
  private:
-  // Odd, and with as many ones as zeros, more or less: the fractions of pi.
+  // Odd numbers with about as many ones as zeros: the fraction of pi.
   static constexpr std::uint64_t kStart = 0x243F6A8885A308D3, kOne = 0x13198A2E03707345,
                                  kTwo = 0xA4093822299F31D1;
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kCombEnd = kBlankClocks + 8;  // an HMOVE blanks up to this clock of the line
 
-// The sets of enabled objects, one bit an Object, for which the reference writes pixels in groups of four.
+// The sets of enabled objects (bit n: Object n) for which the reference writes pixels in groups of four.
 bool writes_groups(unsigned enabled, std::uint8_t ctrlpf) {
   constexpr unsigned p0 = 1U << kP0, p1 = 1U << kP1, m0 = 1U << kM0, m1 = 1U << kM1, bl = 1U << kBall,
                      pf = 1U << kPlayfield;
@@ -24,7 +24,7 @@ bool writes_groups(unsigned enabled, std::uint8_t ctrlpf) {
   }
 }
 
-// Where the enabled objects but the playfield stand, players whatever their graphics.
+// The positions of the enabled objects except the playfield; those of players whatever their graphics.
 PixelMask shapes(const TiaState& tia, const Line& line) {
   PixelMask all = line.mask[kM0] | line.mask[kM1] | line.mask[kBall];
   for (unsigned i = 0; i < 2; ++i)
@@ -49,10 +49,10 @@ void Beam::begin_frame() {
   tia_.pixel = 0;
 }
 
-void Beam::aim(FrameBuffer& picture, const FrameBuffer* other, Pixels pixels, Collisions sought) {
+void Beam::aim(FrameBuffer& picture, const FrameBuffer* other, RenderMode mode, Collisions sought) {
   picture_ = &picture;
   other_ = other;
-  pixels_ = pixels;
+  mode_ = mode;
   if (draws_pixels()) {
     picture.make_room(rows_needed());
     lines_.aim(static_cast<std::size_t>(video_.height));
@@ -66,7 +66,7 @@ void Beam::aim(FrameBuffer& picture, const FrameBuffer* other, Pixels pixels, Co
   if (!draws_pixels()) meetings_ = unsought_ | tia_.collisions;
 }
 
-// To the window's end.
+// Rows up to the window's end.
 std::size_t Beam::rows_needed() const {
   const int to_come = std::max(end_ - tia_.cursor, 0) + kLineClocks - 1;
   return row() + static_cast<std::size_t>(to_come / kLineClocks);
@@ -96,14 +96,15 @@ void Beam::draw_beyond(std::int32_t clock) {
   } while (tia_.cursor < clock);
 }
 
-// The cursor's row, of which it is at pixel `first`. Without pixels the picture may have no rows, and this is no address:
-// so it is made of numbers. A choice between the two would cost up to 80 % more instructions a frame.
+// The address of the row of the cursor, which is at pixel `first`. Without pixels the picture may have no
+// rows, and the result is no valid address. It is therefore computed with integers: a branch would cost up to
+// 80 % more instructions a frame.
 RACEBEAM_INLINE std::uint8_t* Beam::row_of(int first) {
   const auto rows = reinterpret_cast<std::uintptr_t>(picture_->pixels().data());
   return reinterpret_cast<std::uint8_t*>(rows + static_cast<std::uintptr_t>(tia_.pixel) - static_cast<std::uintptr_t>(first));
 }
 
-// Most spans: from the cursor to a clock that is on the same line, and visible.
+// The common case: from the cursor to a visible clock on the same line.
 void Beam::draw_in_line(std::int32_t clock) {
   const int first = std::max(kLinePixels - tia_.left, 0);
   tia_.left -= clock - tia_.cursor;
@@ -122,7 +123,7 @@ void Beam::finish_line() {
   end_line();
 }
 
-// The cursor's row will show something else.
+// Records that the cursor's row no longer shows a known line.
 void Beam::forget_row() {
   picture_->shows(row()) = kAnyLine;
   forgotten_ = (static_cast<std::int32_t>(row()) + 1) * kLinePixels;
@@ -141,7 +142,8 @@ void Beam::pass_to(std::int32_t clock) {
   while (clock > line_end()) {
     pass(tia_.left);
     end_line();
-    const int others = tia_.cosmic ? 0 : (clock - 1 - tia_.cursor) / kLineClocks;  // at whose end there is nothing to do
+    // At their ends, there is nothing to do.
+    const int others = tia_.cosmic ? 0 : (clock - 1 - tia_.cursor) / kLineClocks;
     pass_lines(others);
     if (others > 0 && is_since_hmove(tia_.cursor - kLineClocks + kCombEnd)) tia_.comb_armed = 0;
     tia_.left = kLineClocks;
@@ -192,7 +194,7 @@ RACEBEAM_INLINE void Beam::collide(int first, int last) {
   tia_.collisions |= found;
 }
 
-// The reference writes some pixels four at a time, and so up to three beyond the span (docs/spec/tia.md,
+// The reference writes some pixels in groups of four, and so up to three beyond the span (docs/spec/tia.md,
 // "Provisional pixels").
 void Beam::spill(std::uint8_t* row, int first, int last) {
   const int group = last & ~3;
@@ -210,15 +212,15 @@ bool Beam::end_picture(std::int32_t begin) {
   return true;
 }
 
-// The eight pixels at the start of a line that an HMOVE leaves black.
+// Blackens the eight pixels at the start of a line after an HMOVE.
 void Beam::blank_comb(std::uint8_t* row, int first, int last) {
   constexpr int kWidth = kCombEnd - kBlankClocks;
   if (draws_pixels()) std::memset(row + first, 0, static_cast<std::size_t>(std::min(kWidth, last) - first));
   if (last >= kWidth) tia_.comb_armed = 0;
 }
 
-// The same, as exact as can be: the reference blanks from the span's first pixel
-// on, past its end: seen only when drawing stops there.
+// The same for RenderMode::kExact. The reference blanks from the span's first pixel on, past its end. That is
+// visible only if drawing stops there.
 void Beam::blank_comb(std::uint8_t* row, int begin, int end, int first, int last) {
   int blank_to = first + kCombEnd - begin;
   if (!exact_spans()) blank_to = std::min(blank_to, last);

@@ -1,4 +1,4 @@
-// The beam: draws the picture up to a colour clock, line by line, from the registers as they stand
+// The beam draws the picture up to a colour clock, line by line, from the current registers
 // (docs/spec/tia.md, 3, 5 and 6).
 #pragma once
 
@@ -9,79 +9,81 @@
 #include "emulator/tia/frame_buffer.hpp"
 #include "emulator/tia/line/line.hpp"
 #include "emulator/tia/line/pixels.hpp"
-#include "emulator/tia/line_cache/line_memory.hpp"
+#include "emulator/tia/line_cache/line_cache.hpp"
 
 namespace racebeam {
 
 constexpr int kLineClocks = 228;
 constexpr int kBlankClocks = 68;  // of each line, before its first pixel
 
-// What a step does for the picture.
-enum class Pixels : std::uint8_t {
-  kNone,   // its pixels are not wanted: they stay as they were
+// How much of the picture a step makes.
+enum class RenderMode : std::uint8_t {
+  kNone,  // nothing: the pixels stay as they were
   kDrawn,
-  // Step by step as the reference draws, pixels beyond a span's end included (docs/spec/tia.md, "Provisional
-  // pixels").
+  // Each access on its own, as the reference draws, with the pixels beyond the end of a span
+  // (docs/spec/tia.md, "Provisional pixels").
   kExact,
 };
 
-// How a console makes its picture; constant once its format is known.
+// The geometry of a console's picture; constant once its format is known.
 struct Video {
   int ystart = 34;           // first line drawn
   int height = 210;          // lines drawn
   bool hmove_blanks = true;
-  bool pal = false;          // loses its colour on odd line counts, and may have more lines
+  bool pal = false;  // loses its colour on odd line counts, and may have more lines
 };
 
 class Beam {
  public:
   Beam(TiaState& state, const Video& video);
 
-  void begin_frame();  // cursor to the window's start
+  void begin_frame();  // the cursor goes to the window's start
 
-  // Where pixels go, and where there may be rows to copy; without them, which pairs are looked for if they meet.
-  void aim(FrameBuffer& picture, const FrameBuffer* other, Pixels pixels, Collisions sought);
+  // picture: receives the pixels. other: may have rows to copy, or null. sought: without pixels, the pairs
+  // whose collisions are computed.
+  void aim(FrameBuffer& picture, const FrameBuffer* other, RenderMode mode, Collisions sought);
 
-  // Everything derived from the registers is made anew: after a reset or a restored state.
+  // Rebuilds everything that is derived from the registers, after a reset or a restored state.
   void forget();
 
-  // Draws with the registers as they are; a clock that is already passed draws nothing.
+  // Draws up to `clock` with the current registers. Does nothing if the beam has passed it.
   RACEBEAM_INLINE void draw_to(std::int32_t clock) {
     if (clock > tia_.cursor && !pass_blank(clock)) draw_beyond(clock);
   }
 
-  // The same, if only these pixels will be others: there is nothing to draw yet when none of them has been passed.
+  // The same before a change of `part` only: nothing is drawn if the beam has passed none of its pixels.
   RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart& part) {
     if (clock > tia_.cursor && !pass_blank(clock) && !passes_none(clock, part)) draw_beyond(clock);
   }
 
-  // Goes there without a look at what lines show, but not without acting on their ends.
+  // Moves the cursor to `clock` without drawing. The ends of lines are still processed.
   void pass_to(std::int32_t clock);
 
-  // Can anything meet that is looked for, and has not met yet, as the registers are? Where pixels are drawn, it matters
-  // to nobody.
+  // Whether two objects of a sought pair that have not met yet may meet, with the current registers.
+  // Meaningless where pixels are drawn.
   bool may_meet() const { return !tia_.vblank && can_meet(tia_.enabled, meetings_); }
 
-  std::uint8_t sought_objects() const { return sought_objects_; }  // of the pairs that are looked for
+  std::uint8_t sought_objects() const { return sought_objects_; }  // objects of the sought pairs
 
-  // A register of these objects (bit n: Object n) has changed.
+  // objects: those whose registers have changed (bit n: Object n).
   void changed(std::uint8_t objects) { stale_ |= objects; }
 
 
-  // They are about to change, and nobody will say which.
+  // The registers are about to change, without calls of changed().
   void lose_track() {
     if (!lost_track_) line_.shown = tia_.registers();
     lost_track_ = true;
   }
 
-  // Line by line, for lines that are drawn as a whole.
+  // For lines that are drawn as a whole:
   bool at_line_start() const { return tia_.left == kLineClocks && tia_.cursor >= start(); }
   std::int32_t line_end() const { return tia_.cursor + tia_.left; }
   bool line_can_end() const { return line_end() < end(); }  // the window's last line never does
-  // What the reference writes beyond the last span, which began at `begin` or before. False if that can't be known.
+  // Draws what the reference writes beyond the last span, which began at `begin` or before. Returns false if
+  // that cannot be known.
   bool end_picture(std::int32_t begin);
-  void finish_line();                                       // draws the rest of the line and acts on its end
-  void pass_lines(int count);  // which are there already, and whose ends have been acted on
+  void finish_line();                                       // draws the rest of the line and processes its end
+  void pass_lines(int count);  // skips lines that are drawn already, and whose ends have been processed
   int lines_to_end() const { return (end() - 1 - tia_.cursor) / kLineClocks; }  // without the last
   std::size_t row() const { return static_cast<std::size_t>(tia_.pixel) / kLinePixels; }
   bool has_record() const { return row() < lines_.rows(); }
@@ -90,12 +92,13 @@ class Beam {
   bool is_worthwhile() { return lines_.is_worthwhile(record()); }
   void forget_lines() { lines_.drop(); }
 
-  const LineNumber* shown() const { return &picture_->shows(row()); }  // by the cursor's row and those after it
+  // For the cursor's row and those after it.
+  const LineNumber* shown() const { return &picture_->shows(row()); }
   [[gnu::noinline]] bool can_copy(const LineNumber* shown, LineNumber line) {
     return picture_->copy_row(other_, static_cast<std::size_t>(shown - &picture_->shows(0)), line);
   }
 
-  // The line has been drawn on the row before the cursor's.
+  // Records that the row before the cursor's shows this line.
   void show(LineRecord& line) { picture_->shows(row() - 1) = lines_.add(line); }
 
   RACEBEAM_INLINE void end_line() {
@@ -104,7 +107,7 @@ class Beam {
     if (((tia_.reflect ^ reflect) | p0.skip | p1.skip | tia_.cosmic) != 0) act_on_line_end();
   }
 
-  // What has been drawn since: LineView::seen, and the pairs that met, after the last CXCLR.
+  // Since look_afresh(): LineDependencies::seen, and the pairs that met after the last CXCLR.
   void look_afresh() { seen_ = meetings_ = 0; }
   std::uint16_t seen() const { return seen_; }
   Collisions meetings() const { return meetings_; }
@@ -115,16 +118,16 @@ class Beam {
   }
   bool cleared() const { return cleared_; }  // the collisions, since the step began
 
-  std::uint32_t spans() const { return spans_; }  // that were looked at since the step began
+  std::uint32_t spans() const { return spans_; }  // processed since the step began
 
-  bool exact_spans() const { return pixels_ == Pixels::kExact; }
-  bool draws_pixels() const { return pixels_ != Pixels::kNone; }
+  bool exact_spans() const { return mode_ == RenderMode::kExact; }
+  bool draws_pixels() const { return mode_ != RenderMode::kNone; }
 
-  std::int32_t start() const { return start_; }  // the window, in colour clocks
+  std::int32_t start() const { return start_; }  // of the window, in colour clocks
   std::int32_t end() const { return end_; }
 
  private:
-  // Most writes come in a line's blank, where there is nothing to draw.
+  // Most writes are in the blank of a line, where there is nothing to draw.
   RACEBEAM_INLINE bool pass_blank(std::int32_t clock) {
     const std::int32_t clocks = clock - tia_.cursor;
     if (clocks > tia_.left - kLinePixels || tia_.cursor < start_ || tia_.cursor >= end_ || exact_spans()) return false;
@@ -138,11 +141,12 @@ class Beam {
     const int first = kLinePixels - tia_.left, last = first + clock - tia_.cursor;
     const bool left = first < part.left_end && last > part.left, right = first < part.right_end && last > part.right;
     if (left || right) return false;
-    if (tia_.enabled & object_bit(kPlayfield)) seen_ |= object_bit(kPlayfield);  // if it was enabled, its place has a say
+    // If it was enabled, its position matters.
+    if (tia_.enabled & object_bit(kPlayfield)) seen_ |= object_bit(kPlayfield);
     return true;
   }
 
-  // The clock is after the last HMOVE: what that armed is used up there.
+  // Whether the clock is after the last HMOVE, whose effect ends there.
   bool is_since_hmove(std::int32_t clock) const {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(clock) - tia_.hmove_clock) > 0;
   }
@@ -167,19 +171,19 @@ class Beam {
   const DrawPixels draw_pixels_;
   FrameBuffer* picture_ = nullptr;
   const FrameBuffer* other_ = nullptr;
-  LineMemory lines_;
+  LineCache lines_;
   std::int32_t start_ = 0, end_ = 0;
   alignas(64) Line line_;
-  std::uint8_t stale_ = 0xFF;   // masks to make anew
+  std::uint8_t stale_ = 0xFF;  // masks to rebuild, bit n: Object n
   bool lost_track_ = false;
   std::uint16_t seen_ = 0;
-  Collisions meetings_ = 0;     // that are known: they need not be looked for
-  Collisions unsought_ = 0;     // nor these
+  Collisions meetings_ = 0;  // pairs that have met: they need not be computed
+  Collisions unsought_ = 0;  // pairs that are not sought
   std::uint8_t sought_objects_ = 0;
   bool cleared_ = false;
   std::uint32_t spans_ = 0;
-  std::int32_t forgotten_ = 0;  // the rows before this pixel are known to have changed
-  Pixels pixels_ = Pixels::kDrawn;
+  std::int32_t forgotten_ = 0;  // up to this pixel, forget_row() has been called
+  RenderMode mode_ = RenderMode::kDrawn;
 };
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-// One of the two picture buffers, and which line each of its rows shows (line_memory.hpp).
+// One of the two frame buffers, and which line each of its rows shows (line_cache.hpp).
 #pragma once
 
 #include <algorithm>
@@ -16,17 +16,17 @@
 
 namespace racebeam {
 
-// A machine before a step that opens a frame, and has told the TIA so.
+// The machine before a step that opens a frame; the TIA has begun the frame already.
 struct FrameStart {
   State state;
   std::vector<std::uint8_t> cartridge_ram;
   Sound sound;
 };
 
-// Rows that have never been drawn are black, and take no memory.
+// Rows that have never been drawn are black, and allocate no memory.
 class FrameBuffer {
  public:
-  // All of its rows, one after the other: those of the window, and those that a reset has shifted it down by, if ever
+  // All rows, one after the other: those of the window, and those that a reset may have shifted it down by
   // (docs/spec/tia.md, 2).
   std::span<std::uint8_t> pixels() { return {reinterpret_cast<std::uint8_t*>(rows_.data()), sizeof(Row) * rows()}; }
   std::span<const std::uint8_t> pixels() const {
@@ -48,7 +48,7 @@ class FrameBuffer {
 
   LineNumber& shows(std::size_t row) { return shows_[row]; }
 
-  // A row shows that line now, if the other picture does.
+  // Makes a row show `line`, by a copy from `other`. Returns false if that does not show it.
   bool copy_row(const FrameBuffer* other, std::size_t row, LineNumber line) {
     if (other == nullptr || row >= other->rows() || other->shows_[row] != line) return false;
     rows_[row] = other->rows_[row];
@@ -56,10 +56,11 @@ class FrameBuffer {
     return true;
   }
 
-  // The pixels were written by somebody else.
+  // Call it after another writer has changed pixels.
   void forget_lines() { std::ranges::fill(shows_, kAnyLine); }
 
-  // The last frame on this buffer was run without its pixels. From here it can be run again, and then fills them all.
+  // The start of the last frame on this buffer, if that was run without its pixels. Running it again fills
+  // all rows.
   FrameStart undrawn;
   bool is_undrawn = false;
 
@@ -71,17 +72,18 @@ class FrameBuffer {
   std::vector<LineNumber> shows_;
 };
 
-// Nobody else holds it. A snapshot may have been let go in another thread, after it had looked at the picture.
+// Whether this is the only reference. A saved state may have been released by another thread, which had read
+// the picture before.
 inline bool is_own(const std::shared_ptr<FrameBuffer>& picture) {
   if (!picture || picture.use_count() > 1) return false;
 #if defined(__SANITIZE_THREAD__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wtsan"  // fences are all the same to it
+#pragma GCC diagnostic ignored "-Wtsan"  // it does not know fences
 #endif
   std::atomic_thread_fence(std::memory_order_acquire);
   return true;
 }
 
-// The one drawn last, and the one before it.
+// The frame buffer drawn last, and the one before it.
 struct FrameBuffers {
   std::shared_ptr<FrameBuffer> current, previous;
 };

@@ -7,7 +7,7 @@
 namespace racebeam {
 namespace {
 
-using Colours = std::array<std::uint32_t, 128>;  // RRGGBB of the even entries; one row a hue
+using Colours = std::array<std::uint32_t, 128>;  // RRGGBB of the even entries; a row for each hue
 
 constexpr Colours kNtsc = {
     0x000000, 0x4A4A4A, 0x6F6F6F, 0x8E8E8E, 0xAAAAAA, 0xC0C0C0, 0xD6D6D6, 0xECECEC,  // 00-0E
@@ -47,7 +47,7 @@ constexpr Colours kPal = {
     0x000000, 0x2B2B2B, 0x525252, 0x767676, 0x979797, 0xB6B6B6, 0xD2D2D2, 0xECECEC,  // F0-FE
 };
 
-// SECAM knows eight colours, the same for every hue.
+// SECAM has eight colours, the same for every hue.
 constexpr std::array<std::uint32_t, 8> kSecamRow = {0x000000, 0x2121FF, 0xF03C79, 0xFF50FF,
                                                     0x7FFF00, 0x7FFFFF, 0xFFFF3F, 0xFFFFFF};
 
@@ -101,7 +101,7 @@ int distance(Rgb entry, int r, int g, int b) {
   return std::abs(entry.r - r) + std::abs(entry.g - g) + std::abs(entry.b - b);
 }
 
-// The even entry nearest to the blend of two; the lowest of several.
+// The even entry nearest to the blend of two; of several, the lowest.
 std::uint8_t nearest(const Palette& entries, Rgb x, Rgb y) {
   const int r = mix(x.r, y.r), g = mix(x.g, y.g), b = mix(x.b, y.b);
   std::array<int, 128> distances;
@@ -124,7 +124,7 @@ Blend::Blend(const Palette& entries) {
   }
 }
 
-// Most of two pictures in sequence is equal, eight pixels at a time.
+// Two pictures in sequence are mostly equal: eight pixels are compared at a time.
 void Blend::operator()(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
                        std::span<std::uint8_t> out) const {
   constexpr std::uint64_t kOdd = 0x0101010101010101;

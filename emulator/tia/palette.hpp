@@ -1,4 +1,4 @@
-// What the bytes of a picture look like: colour, grey, and the blend of two pictures (docs/spec/palette.md).
+// The colours of a picture's bytes: palette, grey, and the blend of two pictures (docs/spec/palette.md).
 #pragma once
 
 #include <array>
@@ -15,17 +15,16 @@ struct Rgb {
   bool operator==(const Rgb&) const = default;
 };
 
-// Entry 2k is a colour, entry 2k + 1 its grey. The format decides; kAuto is taken as NTSC.
+// Entry 2k is a colour, entry 2k + 1 its grey. kAuto is taken as NTSC.
 using Palette = std::array<Rgb, 256>;
 const Palette& palette(Format format);
 
-// What the grey picture shows for a byte: the blue of the entry after it. That is the grey of a colour, but
-// the next colour's blue for a byte that is odd. Byte 255 reads past the table in the reference; here it
-// gives 0.
+// The grey of a picture's byte: the blue of the palette's entry after it. For a colour, that is its grey. For
+// an odd byte, it is the next colour's blue. Byte 255 reads past the table in the reference; here it gives 0.
 using GreyTable = std::array<std::uint8_t, 256>;
 const GreyTable& grey_table(Format format);
 
-// Colour averaging. Both pictures' bytes give the colour nearest to their blend; an odd byte in either gives
+// Colour averaging: each pair of bytes gives the colour nearest to their blend. An odd byte in either gives
 // 0.
 class Blend {
  public:
@@ -42,10 +41,10 @@ class Blend {
 
   std::array<std::uint8_t, 128 * 128> table_;
   bool keeps_equal_ =
-      true;  // every colour blended with itself is itself (not so in PAL, which has colours twice)
+      true;  // whether every colour blended with itself is itself (not in PAL, which has some colours twice)
 };
 
-// Made when first asked for, in about a millisecond; shared by all machines of the process.
+// Computed on the first request, in about a millisecond; shared by all machines of the process.
 const Blend& blend(Format format);
 
 }  // namespace racebeam

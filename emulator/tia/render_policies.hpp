@@ -1,12 +1,16 @@
-// Who is told what the writes to the TIA change (register_effects.hpp), in three kinds: one that draws, one that only looks
-// for collisions, and one that has seen it all before.
+// Three receivers of the changes that writes to the TIA make (register_effects.hpp): one draws, one only
+// computes collisions, and one replays writes of a line whose pixels exist.
 //
-// Before these objects (bit n: Object n), or colours, change: draw_to(clock, objects) asks for what stands so far to be
-// drawn, draw_before(clock, part) the same for a part of the playfield, come_to(clock) that the ends of lines have been
-// acted on, too, and reach(clock) says that the beam is there and nothing has changed. Afterwards, changed(objects) names
-// what has, and enabled() says that TiaRegisters::enabled or VBLANK may be others. minds(objects): does it matter whether
-// one of them is enabled? While looks() is false, a painter may hear all that for nothing, and brings
-// TiaRegisters::enabled up to date itself, afterwards.
+// Before a change:
+// - draw_to(clock, objects): these objects (bit n: Object n), or colours, change at `clock`.
+// - draw_before(clock, part): the same for a part of the playfield.
+// - come_to(clock): the ends of lines before `clock` must be processed, too.
+// - reach(clock): the beam is at `clock`; nothing changes.
+// After a change:
+// - changed(objects): registers of these objects have changed.
+// - enabled(): TiaRegisters::enabled or VBLANK may have changed.
+// minds(objects): whether it matters if one of them is enabled. While looks() is false, a policy may ignore
+// all calls; it then updates TiaRegisters::enabled itself, afterwards.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +22,7 @@
 
 namespace racebeam {
 
-// Draws what stood before a change, as far as the beam had come.
+// Draws the pixels before each change.
 struct RenderPolicy {
   Beam& beam;
   std::int32_t& reached;
@@ -40,7 +44,7 @@ struct RenderPolicy {
   RACEBEAM_INLINE void clear_collisions() const { beam.clear_collisions(); }
 };
 
-// Pixels are not wanted, collisions are: the beam stays behind, except while objects are shown that may meet.
+// Computes collisions without pixels. The beam stays behind, except while objects are shown that may meet.
 struct TrackPolicy {
   Beam& beam;
   TiaState& tia;
@@ -73,7 +77,7 @@ struct TrackPolicy {
   }
 };
 
-// The line's pixels are there already; only the registers are wanted.
+// The line's pixels exist; only the registers are needed.
 struct ReplayPolicy {
   Beam& beam;
 

@@ -7,7 +7,7 @@ using Channel = Sound::Channel;
 
 constexpr unsigned bit(unsigned value, int number) { return value >> number & 1; }
 
-// Both shift registers keep eight bits; only the low four or five matter, and bit 5 for what falls out.
+// Both shift registers keep eight bits. Only the low four or five matter, and bit 5 as the output.
 void shift_in(std::uint8_t& shift_register, unsigned value) {
   shift_register = static_cast<std::uint8_t>(shift_register << 1 | value);
 }
@@ -20,7 +20,7 @@ void clock_poly5(std::uint8_t& b) {
   }
 }
 
-// What a waveform does with the register that is heard: A and B in docs/spec/audio.md, 4.
+// The effect of a waveform on the register that is heard: A and B in docs/spec/audio.md, 4.
 void one(Channel& c) { shift_in(c.poly4, 1); }
 void divide_by_2(Channel& c) { shift_in(c.poly4, 1 - bit(c.poly4, 0)); }
 void poly5_bit4(Channel& c) { shift_in(c.poly4, bit(c.poly5, 4)); }
@@ -40,7 +40,7 @@ void poly4(Channel& c) {
   }
 }
 
-// Both registers in a row are one of nine bits.
+// Both registers together are one of nine bits.
 void poly9(Channel& c) {
   if ((c.poly5 & 31) == 0 && (c.poly4 & 15) == 0) {
     c.poly5 = 1;
@@ -50,7 +50,7 @@ void poly9(Channel& c) {
   poly5_bit5(c);
 }
 
-// When the five-bit register is clocked first, it may hold the other back.
+// Whether the five-bit register is clocked first, and may hold the other back.
 enum class Poly5 { kUnused, kFree, kGate31, kGate5 };
 
 struct Waveform {

@@ -1,4 +1,4 @@
-// The TIA's two sound channels and the block of samples made from them (docs/spec/audio.md).
+// The TIA's two sound channels and the block of samples that they make (docs/spec/audio.md).
 #pragma once
 
 #include <array>
@@ -11,10 +11,11 @@ namespace racebeam {
 
 constexpr int kSamplesPerBlock = 512;
 
-// Lives beside the machine: neither a system reset nor a restored machine touches it, a client's snapshot includes it.
+// It is beside the machine's state: neither a system reset nor a restored machine changes it. A client's
+// saved state includes it.
 struct Sound {
-  // $15-$1A as last written: AUDC0 AUDC1 AUDF0 AUDF1 AUDV0 AUDV1. Samples are made once an act, so that only the
-  // last value of each register counts.
+  // $15-$1A as last written: AUDC0 AUDC1 AUDF0 AUDF1 AUDV0 AUDV1. Samples are made once for each act, so that
+  // only the last value of each register counts.
   std::array<std::uint8_t, 6> registers{};
 
   struct Channel {

@@ -15,7 +15,7 @@ constexpr std::uint32_t kLineOfWrites = TiaWrite(kLineCycles, 0, 0).packed();
 
 constexpr std::array<std::uint32_t, 8> kFirstOfFour = {~0U, ~0U, ~0U, ~0U, 0, 0, 0, 0};
 
-// Are the next writes those of the record? `origin` is the line's first cycle as a write has it.
+// Whether the next writes are those of the record. origin: the line's first cycle, as in a write of the log.
 RACEBEAM_INLINE bool meets_the_same(const std::uint32_t* entry, std::uint32_t origin, const LineRecord& record) {
   FourWords difference{};
   int left = record.count;
@@ -26,9 +26,10 @@ RACEBEAM_INLINE bool meets_the_same(const std::uint32_t* entry, std::uint32_t or
   return is_zero(load<TwoWords>(&difference));
 }
 
-enum class Likeness { kOther, kBegins, kLooks, kIsSame };  // kLooks: but the registers may come out differently
+// kLooks: the pixels are the same, but the registers may end differently
+enum class Likeness { kOther, kBegins, kLooks, kIsSame };
 
-// How much a line that starts with `registers` and meets the writes from `entry` on is like a remembered one.
+// How far a line that starts with `registers` and has the writes from `entry` on equals a recorded one.
 RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::uint32_t* entry, std::uint32_t origin,
                                  const LineRecord& record) {
   const bool same = record.mask != nullptr && record.starts_with(registers);
@@ -39,14 +40,14 @@ RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::ui
   return same ? Likeness::kIsSame : Likeness::kLooks;
 }
 
-// Is what has been written so far the beginning of that?
+// Whether the writes from `entry` to `end` are the beginning of the record's.
 bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::uint32_t origin, const LineRecord& record) {
   const auto count = static_cast<std::size_t>(end - entry);
   if (count > record.count) return false;
   return std::equal(entry, end, record.event.begin(), [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
 }
 
-// Instructions, as counted in some games.
+// Instructions of the host, as counted in some games.
 constexpr std::uint32_t kWorkOfWrite = 60, kWorkOfRecall = 110, kWorkOfLikeness = 300, kWorkOfMiss = 200;
 
 }  // namespace
@@ -58,9 +59,9 @@ void Tia::begin_frame() {
   for (std::uint8_t& color : tia_.color) color = static_cast<std::uint8_t>((color & 0xFE) | loss);
 }
 
-void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, Pixels pixels,
+void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, RenderMode mode,
                      Collisions sought) {
-  beam_.aim(picture, other, pixels, sought);
+  beam_.aim(picture, other, mode, sought);
   asked_ = 0;
   work_ = 0;
   watches_ = beam_.may_meet() || tia_.cosmic;
@@ -70,8 +71,8 @@ void Tia::begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& l
   reached_ = std::numeric_limits<std::int32_t>::min();
 }
 
-// The word behind the last write says up to which cycle there is no other. Of the line in which that is, only what
-// decides about the latches `asked` need be played; false if it was left.
+// The word behind the last write tells the cycle before which there is no other. On the line of that cycle,
+// only writes that affect the latches `asked` need be played. Returns false if that line was left.
 bool Tia::play_log(std::int32_t cycle, Collisions asked) {
   const bool empty = log_->size() == 0;
   if (empty && cycle < log_->base) return true;
@@ -86,7 +87,7 @@ bool Tia::play_log(std::int32_t cycle, Collisions asked) {
   }
 }
 
-// Where no pixels are wanted.
+// For steps without pixels.
 bool Tia::follow_log() {
   skip(end_of_unseen());
   const TrackPolicy painter{beam_, tia_, reached_, watches_};
@@ -131,7 +132,7 @@ bool Tia::stopped_inside(std::int32_t cycle) const {
   return tia_.cursor < beam_.end() && 3 * cycle + kLongestDelay > beam_.start();
 }
 
-// Write by write, or up to `next`.
+// Plays write by write, up to `next`.
 void Tia::play(const std::uint32_t* next) {
   work_ += kWorkOfWrite * static_cast<std::uint32_t>(next - played_);
   RegisterEffects(tia_, frame_, video_, RenderPolicy{beam_, reached_}).play(played_, next, log_->base);
@@ -139,7 +140,7 @@ void Tia::play(const std::uint32_t* next) {
   if (beam_.exact_spans()) beam_.draw_to(reached_);
 }
 
-// Up to `next`, for what needs no drawing.
+// The same for writes that need no drawing.
 void Tia::skip(const std::uint32_t* next) {
   if (next == played_) return;
   RegisterEffects(tia_, frame_, video_, ReplayPolicy{beam_}).play(played_, next, log_->base);
@@ -147,7 +148,7 @@ void Tia::skip(const std::uint32_t* next) {
   played_ = next;
 }
 
-// Nothing can be seen of what is written before the window, or when it is full.
+// The end of the writes before the window, or after it is full, which cannot be seen.
 const std::uint32_t* Tia::end_of_unseen() const {
   if (tia_.cursor >= beam_.end()) return log_->next;
   const std::uint32_t* at = played_;
@@ -160,7 +161,7 @@ std::uint32_t Tia::line_origin() const {
   return TiaWrite(beam_.line_end() / 3 - kLineCycles - log_->base, 0, 0).packed();
 }
 
-// Is the next write on the cursor's line or beyond it, and nothing known about the line that can't be remembered?
+// Whether the next write is on the cursor's line or after it, and the line can be recorded.
 bool Tia::at_line() const {
   if (beam_.exact_spans() || tia_.cursor < beam_.start() || !beam_.line_can_end()) return false;
   const std::int32_t first_cycle = beam_.line_end() / 3 - kLineCycles - log_->base;
@@ -168,8 +169,8 @@ bool Tia::at_line() const {
   return recorded_ != nullptr || !beam_.at_line_start() || reached_ <= tia_.cursor;
 }
 
-// Takes one line after the other, as long as they can be taken as a whole: those that are there already, or else they
-// are drawn, and remembered. True if nothing more need be played.
+// Takes line after line as a whole: recalled if it exists, else drawn and recorded. Returns true if nothing
+// more need be played.
 bool Tia::take_lines(Collisions asked) {
   std::uint32_t origin = line_origin();
   while (beam_.line_can_end()) {
@@ -184,9 +185,9 @@ bool Tia::take_lines(Collisions asked) {
   return false;
 }
 
-// Lines that start with the same registers, as far as they count, and meet the same writes as when these rows of the
-// buffer were drawn last. True if it stops at one that is not known to its end, but so far it is the same as well, and
-// nothing asked for has met on that.
+// Recalls lines that start with the same relevant registers and have the same writes as when these rows were
+// last drawn. Returns true if it stops at a line whose writes are not complete, but equal so far, and on
+// which no asked pair has met.
 bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   if (recorded_ != nullptr || !beam_.has_record()) return false;
   RegisterVectors registers(tia_);
@@ -226,17 +227,18 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
   return enough;
 }
 
-// The line is there, but its registers came from elsewhere.
+// Plays the writes of a line whose pixels exist, because the registers may end differently.
 void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
   RegisterEffects(tia_, frame_, video_, ReplayPolicy{beam_}).play(played_, next, log_->base);
   tia_.enabled = enabled_objects(tia_);
   tia_.comb_armed = record.end.comb_armed;
   beam_.end_line();
   work_ += kWorkOfLikeness;
-  if (record.mask == nullptr) record.sum_up(video_.pal);
+  if (record.mask == nullptr) record.summarize(video_.pal);
 }
 
-// Draws the cursor's line up to the last write, or to its end if the next one lies beyond: then it returns true.
+// Draws the cursor's line up to the last write, or to its end if the next write lies after it. Returns true
+// in the second case.
 bool Tia::draw_line(std::uint32_t origin) {
   if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr && beam_.is_worthwhile()) {
     recorded_ = &beam_.record();
@@ -249,8 +251,8 @@ bool Tia::draw_line(std::uint32_t origin) {
   return true;
 }
 
-// Plays the writes that the cursor's line meets, and remembers them; true if they are all known. Those that act on two
-// lines, or are too many, are left, and the line is not remembered.
+// Plays and records the writes of the cursor's line. Returns true if they are complete. Writes that act on
+// two lines, or are too many, are left, and the line is not recorded.
 bool Tia::record_writes(std::uint32_t origin) {
   const std::uint32_t* next = recorded_ != nullptr ? recorded_->add(played_, origin) : played_;
   if (recorded_ == nullptr)
@@ -258,7 +260,8 @@ bool Tia::record_writes(std::uint32_t origin) {
   play(next);
   const LineWrite write(*next, origin);
   if (!write.is_of_line()) return true;
-  // The end of a line does something more in Cosmic Ark mode, and it matters if that comes before a late write.
+  // In Cosmic Ark mode, the end of a line has a further effect, and it matters whether that comes before a
+  // late write.
   if (write.is_late() && recorded_ != nullptr && tia_.cosmic == 0) return true;
   if (next != log_->next) recorded_ = nullptr;
   return false;
@@ -273,7 +276,7 @@ void Tia::close_record() {
   recorded_ = nullptr;
 }
 
-// docs/spec/tia.md, "Greying": what is seen when the processor stands still in the middle of a picture.
+// docs/spec/tia.md, "Greying": what is seen if the processor stops in the middle of a picture.
 void Tia::grey(FrameBuffer& picture, std::int32_t cycle) const {
   const int line = (3 * cycle - tia_.origin) / kLineClocks;
   const int first = std::clamp(line - video_.ystart, 0, video_.height);

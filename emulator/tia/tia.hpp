@@ -1,5 +1,5 @@
-// The TIA's picture side: plays the log of register writes on the beam, line by line (docs/spec/tia.md, 4 to
-// 6). Sound, WSYNC, VSYNC and the paddles' capacitors, which the CPU sees at once, are the board's.
+// The TIA's picture: plays the log of register writes on the beam, line by line (docs/spec/tia.md, 4 to 6).
+// The board handles what the CPU sees at once: sound, WSYNC, VSYNC and the paddles' capacitors.
 #pragma once
 
 #include <cstdint>
@@ -15,31 +15,35 @@ class Tia {
   Tia(TiaState& state, const FrameState& frame, const Video& video)
       : tia_(state), frame_(frame), video_(video), beam_(state, video) {}
 
-  void begin_frame();  // the cursor, and the colour loss of PAL (docs/spec/tia.md, 12)
+  void begin_frame();  // docs/spec/tia.md, 12: the cursor, and the colour loss of PAL
 
-  // Pixels go to `picture`, writes come in `log`. Pixels::kExact: the picture shows what the reference has drawn ahead
-  // of the beam at every access; then each write must be played, and each read touched, before the next.
-  // Pixels::kNone: of collisions, only the pairs `sought` are found.
-  void begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, Pixels pixels,
+  // picture: receives the pixels. log: receives the writes. RenderMode::kExact: the picture shows at every
+  // access what the reference has drawn ahead of the beam. The caller must then play each write, and touch()
+  // each read, before the next. RenderMode::kNone: only collisions of the pairs `sought` are computed.
+  void begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, RenderMode mode,
                   Collisions sought);
   void play_log(std::int32_t cycle) { play_log(cycle, kWholePicture); }  // all that was written up to `cycle`
-  void empty_log(std::int32_t cycle);    // the same, and makes room; its cycles count from `cycle` from now on
-  void touch(std::int32_t cycle);        // an access that changes nothing: draws up to it
-  void catch_up(std::int32_t cycle);     // plays all, and draws up to `cycle`
-  void find_collisions(std::int32_t cycle, Collisions asked);  // these latches stand as they do at `cycle`
-  Collisions asked() const { return asked_; }      // latches that have been read in this step
-  bool cleared() const { return beam_.cleared(); }  // all latches, in this step
-  std::uint32_t work() const { return work_ + 250 * beam_.spans(); }  // of this step: instructions, more or less
-  bool drew_all() const { return tia_.cursor >= beam_.end(); }  // of the window
-  // The same, where nothing follows. False if an access that is not in the log may have left something to be seen.
+  void empty_log(std::int32_t cycle);    // the same, and empties the log, whose cycles then count from `cycle`
+  void touch(std::int32_t cycle);  // an access that changes no register: draws up to it
+  void catch_up(std::int32_t cycle);  // plays all writes, and draws up to `cycle`
+  void find_collisions(std::int32_t cycle, Collisions asked);  // computes these latches as of `cycle`
+  Collisions asked() const { return asked_; }  // latches that have been read in this step
+  bool cleared() const { return beam_.cleared(); }  // whether all latches have been, in this step
+  // Of this step: an estimate of the host's instructions.
+  std::uint32_t work() const { return work_ + 250 * beam_.spans(); }
+  bool drew_all() const { return tia_.cursor >= beam_.end(); }  // whether the window is complete
+  // catch_up() at the end of a picture. Returns false if an access that is not in the log may have left
+  // visible pixels.
   bool end_picture(std::int32_t cycle);
-  bool stopped_inside(std::int32_t cycle) const;  // would a picture that stops here show what was drawn ahead?
-  void forget() { beam_.forget(); }      // the registers were replaced as a whole
+  // Whether pixels that were drawn ahead are visible in a picture that stops here.
+  bool stopped_inside(std::int32_t cycle) const;
+  void forget() { beam_.forget(); }  // the registers were replaced as a whole
   void forget_lines() { beam_.forget_lines(); }
-  void grey(FrameBuffer& picture, std::int32_t cycle) const;  // rows not drawn when a step ended open
+  // Greys the rows that were not drawn when a step ended open.
+  void grey(FrameBuffer& picture, std::int32_t cycle) const;
 
  private:
-  static constexpr Collisions kWholePicture = 0xFFFF;  // asked: not collisions alone
+  static constexpr Collisions kWholePicture = 0xFFFF;  // a value of `asked`: more than collisions
 
   bool play_log(std::int32_t cycle, Collisions asked);
   bool follow_log();
@@ -60,12 +64,13 @@ class Tia {
   const Video& video_;
   Beam beam_;
   WriteLog* log_ = nullptr;
-  const std::uint32_t* played_ = nullptr;  // of its entries, up to here
-  LineRecord* recorded_ = nullptr;  // the cursor's line, as far as it has been drawn
+  const std::uint32_t* played_ = nullptr;  // entries up to here have been played
+  LineRecord* recorded_ = nullptr;         // the cursor's line, as far as it has been drawn
   Collisions asked_ = 0;
   std::uint32_t work_ = 0;
-  bool watches_ = false;      // something may meet, in a step without pixels
-  std::int32_t reached_ = 0;  // the beam as the reference has it: ours may be behind, with the same registers
+  bool watches_ = false;  // objects of a sought pair may meet, in a step without pixels
+  // The clock that the reference's beam has reached; ours may be behind, with the same registers.
+  std::int32_t reached_ = 0;
 };
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-// Where an address leads, as far as it is known without running anything (emulator/README.md, "The address map").
+// Which device an address selects (emulator/README.md, "The address map").
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The x86-64 assembler for one batch of blocks, and what the blocks of a batch share: places in a Board, labels, ways out.
+// The x86-64 assembler of one batch of blocks, with what the blocks share: the layout of a Board, labels, the
+// exit stub.
 #pragma once
 
 #include <xbyak/xbyak.h>
@@ -14,7 +15,8 @@ class Board;
 
 namespace racebeam::translator {
 
-// Bytes from a Board to what translated code uses of it: the same for all Boards.
+// Offsets in bytes from the start of a Board to the fields that translated code uses. They are the same for
+// all Boards.
 struct Layout {
   explicit Layout(Board& board);
 
@@ -24,21 +26,22 @@ struct Layout {
 
 class Assembler : public Xbyak::CodeGenerator {
  public:
-  // Writes to `memory`. out: where code goes that leaves translation, with what kInterpretNext says in eax.
+  // Writes to `memory`. out: the exit stub, which translated code jumps to when it ends. eax then holds the
+  // PC, and kInterpretNext if the interpreter must execute the next instruction.
   Assembler(void* memory, std::size_t size, const Layout& places, const Window& seen, const void* out)
-      : CodeGenerator(size, memory), layout(places), window(seen), way_out(out) {}
+      : CodeGenerator(size, memory), layout(places), window(seen), exit_stub(out) {}
 
   const Layout& layout;
   const Window& window;
-  const void* way_out;
+  const void* exit_stub;
   std::unordered_map<std::uint16_t, Xbyak::Label> blocks;  // of this batch, by address
 
-  // The byte of the window at an address, if it has it.
+  // Whether the window contains the byte at an address.
   bool covers(std::uint16_t address) const { return offset_of(address) < size(); }
   bool covers(std::uint16_t first, unsigned count) const { return offset_of(first) + count <= size(); }
   std::uint8_t byte_at(std::uint16_t address) const { return window.code.memory[offset_of(address)]; }
   unsigned offset_of(std::uint16_t address) const {
-    // Pages repeat with bits 15 and 14, which are not decoded.
+    // Bits 15 and 14 are not decoded, so that pages repeat.
     return static_cast<std::uint16_t>((address & 0x3FFF) - (window.code.first & 0x3FFF));
   }
   unsigned size() const { return window.code.span + 2U; }
@@ -50,7 +53,8 @@ class Assembler : public Xbyak::CodeGenerator {
   Xbyak::Address ram(unsigned zero_page) { return byte[rbx + layout.ram + static_cast<int>(zero_page & 0x7F)]; }
 };
 
-// What eax says when translated code is left: the PC, and whether the interpreter must do the next instruction.
+// A flag in eax when translated code ends: the interpreter must execute the instruction at PC. The low 16
+// bits are the PC.
 constexpr std::uint32_t kInterpretNext = 1U << 16;
 
 }  // namespace racebeam::translator

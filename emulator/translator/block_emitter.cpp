@@ -12,22 +12,23 @@ void BlockEmitter::emit() {
   as_.L(as_.blocks[block_.pc]);
   if (block_.instructions.empty()) {
     as_.mov(as_.eax, block_.pc | kInterpretNext);
-    as_.jmp(as_.way_out, Xbyak::CodeGenerator::T_NEAR);
+    as_.jmp(as_.exit_stub, Xbyak::CodeGenerator::T_NEAR);
     return;
   }
   check_limit();
   const std::vector<Flags> live = live_flags(block_, as_.window);
   for (std::size_t i = 0; i < block_.instructions.size(); ++i) emit(block_.instructions[i], live[i]);
   if (block_.instructions.back().access != Access::Jump) {
-    settle(here());
+    settle(exit_state());
     jump_to(block_.next);
   }
   for (std::size_t i = 0; i < cold_.size(); ++i) cold_[i]();
 }
 
-// In loops, and before writes to the TIA, which past the limit close the frame.
+// Checks the line limit in loops, and before writes to the TIA, because such a write closes the frame past
+// the limit.
 void BlockEmitter::check_limit() {
-  bool matters = block_.loops;
+  bool matters = block_.is_loop_head;
   for (const Instruction& instruction : block_.instructions) matters = matters || may_write_device(instruction);
   if (!matters) return;
   Xbyak::Label reached;
@@ -36,7 +37,7 @@ void BlockEmitter::check_limit() {
   cold([this, reached]() mutable {
     as_.L(reached);
     as_.mov(as_.eax, block_.pc);
-    as_.jmp(as_.way_out, Xbyak::CodeGenerator::T_NEAR);
+    as_.jmp(as_.exit_stub, Xbyak::CodeGenerator::T_NEAR);
   });
 }
 
@@ -67,45 +68,46 @@ void BlockEmitter::emit_read(const Instruction& instruction, Flags live) {
   }
 }
 
-void BlockEmitter::settle(const Place& place) {
-  if (place.elapsed != 0) as_.add(as_.ebp, place.elapsed);
-  switch (place.nz) {
+void BlockEmitter::settle(const ExitState& exit) {
+  if (exit.elapsed != 0) as_.add(as_.ebp, exit.elapsed);
+  switch (exit.nz) {
     case NzHome::kNumber: break;
     case NzHome::kA: as_.mov(as_.r8d, as_.r12d); break;
     case NzHome::kX: as_.mov(as_.r8d, as_.r13d); break;
     case NzHome::kY: as_.mov(as_.r8d, as_.r14d); break;
   }
-  if (place.carry != CarryHome::kNumber) as_.mov(as_.r9d, place.carry == CarryHome::kSet ? 1 : 0);
+  if (exit.carry != CarryHome::kNumber) as_.mov(as_.r9d, exit.carry == CarryHome::kSet ? 1 : 0);
 }
 
-void BlockEmitter::leave_before(const Instruction& instruction) {
+void BlockEmitter::exit_before(const Instruction& instruction) {
   as_.mov(as_.eax, instruction.pc | kInterpretNext);
-  as_.jmp(as_.way_out, Xbyak::CodeGenerator::T_NEAR);
+  as_.jmp(as_.exit_stub, Xbyak::CodeGenerator::T_NEAR);
 }
 
-// The interpreter does the instruction if `label` is jumped to, from `place`.
-void BlockEmitter::leave_cold(Xbyak::Label label, const Instruction& instruction, const Place& place) {
-  cold([this, instruction, place, label]() mutable {
+// Emits code at `label`, out of line: the interpreter executes the instruction. exit: what is known at the
+// jump to `label`.
+void BlockEmitter::exit_out_of_line(Xbyak::Label label, const Instruction& instruction, const ExitState& exit) {
+  cold([this, instruction, exit, label]() mutable {
     as_.L(label);
-    settle(place);
-    leave_before(instruction);
+    settle(exit);
+    exit_before(instruction);
   });
 }
 
-// Everything is settled.
+// Requires that the flags and the cycle are settled.
 void BlockEmitter::jump_to(std::uint16_t target) {
   const auto found = as_.blocks.find(target);
   if (found != as_.blocks.end()) {
     as_.jmp(found->second, Xbyak::CodeGenerator::T_NEAR);
     return;
   }
-  if (holds(as_.window.code, target)) jump_to_other_batch(target);
+  if (contains(as_.window.code, target)) jump_to_other_batch(target);
   as_.mov(as_.eax, target);
-  as_.jmp(as_.way_out, Xbyak::CodeGenerator::T_NEAR);
+  as_.jmp(as_.exit_stub, Xbyak::CodeGenerator::T_NEAR);
 }
 
-// Goes on after it if the block at `target` has not been made, or the limit is reached: the jump may close a loop that
-// neither batch knows of, and no block in it might look at the limit.
+// Jumps if the block at `target` exists and the limit is not reached; else continues after it. The limit is
+// checked here because the jump may close a loop across two batches, in which no other block checks it.
 void BlockEmitter::jump_to_other_batch(std::uint16_t target) {
   Xbyak::Label stays;
   as_.cmp(as_.ebp, as_.dword_of(as_.layout.limit));
@@ -176,12 +178,12 @@ void BlockEmitter::emit_branch(const Instruction& instruction) {
       break;
     }
   }
-  Place place = here();
+  ExitState exit = exit_state();
   const int penalty = (instruction.next() ^ instruction.target()) & 0xFF00 ? 2 : 1;
-  place.elapsed += penalty;
-  cold([this, instruction, place, penalty, taken]() mutable {
+  exit.elapsed += penalty;
+  cold([this, instruction, exit, penalty, taken]() mutable {
     as_.L(taken);
-    settle(place);
+    settle(exit);
     const std::uint16_t read = instruction.target();
     if (static_cast<std::int8_t>(instruction.operand) == kTimerLoopOffset && as_.covers(read) &&
         is_timer_loop(as_.window.code.memory + as_.offset_of(instruction.pc))) {
@@ -196,31 +198,33 @@ void BlockEmitter::emit_jump(const Instruction& instruction) {
   if (instruction.operation == Operation::jsr) return jsr(instruction);
   if (instruction.operation == Operation::rts) return rts(instruction);
   if (instruction.mode == Mode::indirect) return jmp_indirect(instruction);
-  const bool known = may_be_left_to(instruction.target());
+  const bool known = can_jump_to(instruction.target());
   if (known) elapsed_ += instruction.cycles;
-  settle(here());
+  settle(exit_state());
   if (known) jump_to(instruction.target());
-  else leave_before(instruction);
+  else exit_before(instruction);
 }
 
-// Code on the cartridge is the same whatever was on the data bus before.
-bool BlockEmitter::may_be_left_to(std::uint16_t target) const {
-  return holds(as_.window.code, target) || is_cartridge(target);
+// Whether execution may continue at `target` without the interpreter. Code on the cartridge does not depend
+// on the data bus.
+bool BlockEmitter::can_jump_to(std::uint16_t target) const {
+  return contains(as_.window.code, target) || is_cartridge(target);
 }
 
 // Both bytes of the pointer must be in RAM.
 void BlockEmitter::jmp_indirect(const Instruction& instruction) {
-  settle(here());
-  if (!is_ram(instruction.operand) || (instruction.operand & 0x7F) == 0x7F) return leave_before(instruction);
+  settle(exit_state());
+  if (!is_ram(instruction.operand) || (instruction.operand & 0x7F) == 0x7F) return exit_before(instruction);
   Xbyak::Label outside;
   as_.movzx(as_.eax, as_.word[as_.rbx + (as_.layout.ram + (instruction.operand & 0x7F))]);
   as_.lea(as_.edx, as_.ptr[as_.rax - as_.window.code.first]);
   find_block(outside);
   jump_to_block(instruction);
-  leave_cold(outside, instruction, {0, NzHome::kNumber, CarryHome::kNumber, false});
+  exit_out_of_line(outside, instruction, {0, NzHome::kNumber, CarryHome::kNumber, false});
 }
 
-// The block that starts at the offset edx, into rsi.
+// Loads the code of the block at the offset in edx into rsi. Jumps to `none` if there is none, or the limit
+// is reached.
 void BlockEmitter::find_block(Xbyak::Label& none) {
   constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
   as_.cmp(as_.edx, as_.window.code.span);
@@ -238,53 +242,54 @@ void BlockEmitter::jump_to_block(const Instruction& instruction) {
   as_.jmp(as_.rsi);
 }
 
-// Both bytes of the return address must fall into RAM.
+// Both bytes of the return address must be written to RAM.
 void BlockEmitter::jsr(const Instruction& instruction) {
   Xbyak::Label outside;
-  const Place before = here();
-  if (!may_be_left_to(instruction.target()) || !as_.covers(instruction.pc, 3)) {
+  const ExitState before = exit_state();
+  if (!can_jump_to(instruction.target()) || !as_.covers(instruction.pc, 3)) {
     settle(before);
-    leave_before(instruction);
+    exit_before(instruction);
     return;
   }
   as_.movzx(as_.eax, as_.byte_of(as_.layout.sp));
   as_.cmp(as_.al, 0x81);
   as_.jb(outside, Xbyak::CodeGenerator::T_NEAR);
   const unsigned pushed = static_cast<std::uint16_t>(instruction.pc + 2);
-  // Low byte below the high one, as the stack grows down.
+  // The low byte is below the high one, as the stack grows down.
   as_.mov(as_.word[as_.rbx + as_.rax + (as_.layout.ram - 0x81)], pushed);
   as_.sub(as_.byte_of(as_.layout.sp), 2);
   elapsed_ += instruction.cycles;
-  settle(here());
+  settle(exit_state());
   jump_to(instruction.target());
-  leave_cold(outside, instruction, before);
+  exit_out_of_line(outside, instruction, before);
 }
 
-// The return address comes from RAM, and leads into the window, or at least the cartridge.
+// The return address must be in RAM, and lead into the window or elsewhere in the cartridge.
 void BlockEmitter::rts(const Instruction& instruction) {
   constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
   Xbyak::Label outside, interpret;
-  settle(here());
+  settle(exit_state());
   as_.movzx(as_.ecx, as_.byte_of(as_.layout.sp));
   as_.lea(as_.edx, as_.ptr[as_.rcx - 0x7F]);
   as_.cmp(as_.edx, 0x7E);
   as_.ja(interpret, kNear);
   as_.movzx(as_.eax, as_.word[as_.rbx + as_.rcx + (as_.layout.ram - 0x7F)]);
   as_.lea(as_.edx, as_.ptr[as_.rax + (1 - as_.window.code.first)]);
-  as_.test(as_.edx, as_.edx);  // the byte before it is read, too
+  as_.test(as_.edx, as_.edx);  // The CPU also reads the byte before the target.
   as_.jz(interpret, kNear);
   find_block(outside);
   as_.add(as_.byte_of(as_.layout.sp), 2);
   jump_to_block(instruction);
   cold([this, instruction, outside, interpret]() mutable {
     as_.L(outside);
-    leave_to_cartridge(instruction, interpret);
+    return_to_cartridge(instruction, interpret);
   });
-  leave_cold(interpret, instruction, {0, NzHome::kNumber, CarryHome::kNumber, false});
+  exit_out_of_line(interpret, instruction, {0, NzHome::kNumber, CarryHome::kNumber, false});
 }
 
-// Returns to the address after the one in eax, if both are the cartridge's and reading that one does nothing.
-void BlockEmitter::leave_to_cartridge(const Instruction& instruction, Xbyak::Label& interpret) {
+// Returns to the address after the one in eax. Both must be on the cartridge, and reading the first must have
+// no effect.
+void BlockEmitter::return_to_cartridge(const Instruction& instruction, Xbyak::Label& interpret) {
   constexpr auto kNear = Xbyak::CodeGenerator::T_NEAR;
   as_.mov(as_.ecx, as_.eax);
   as_.shr(as_.ecx, 6);
@@ -298,7 +303,7 @@ void BlockEmitter::leave_to_cartridge(const Instruction& instruction, Xbyak::Lab
   as_.add(as_.byte_of(as_.layout.sp), 2);
   as_.add(as_.ebp, instruction.cycles);
   as_.movzx(as_.eax, as_.dx);
-  as_.jmp(as_.way_out, kNear);
+  as_.jmp(as_.exit_stub, kNear);
 }
 
 }  // namespace racebeam::translator

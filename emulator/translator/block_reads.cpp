@@ -1,4 +1,4 @@
-// Reads: what is known of an address when the code is translated decides how short they are.
+// Emits reads. The more is known of an address at translation, the shorter is the code.
 #include "emulator/translator/addresses.hpp"
 #include "emulator/translator/block_emitter.hpp"
 #include "emulator/translator/bus_calls.hpp"
@@ -36,8 +36,8 @@ BlockEmitter::Value BlockEmitter::read_fixed(const Instruction& instruction) {
   }
   if (!is_cartridge(address)) {
     as_.mov(as_.eax, address);
-    as_.mov(as_.ecx, instruction.length == 3 ? high_byte(address) : address);  // the operand was on the bus before
-    read_device(instruction, here());
+    as_.mov(as_.ecx, instruction.length == 3 ? high_byte(address) : address);  // the last byte on the data bus was the operand's
+    read_device(instruction, exit_state());
     return {Value::Kind::kEax};
   }
   if (as_.covers(address)) return {Value::Kind::kConstant, as_.byte_at(address)};
@@ -45,23 +45,23 @@ BlockEmitter::Value BlockEmitter::read_fixed(const Instruction& instruction) {
   as_.mov(as_.rdx, as_.ptr[as_.rbx + as_.layout.pages + 8 * (address >> 6 & 0xFF)]);
   as_.test(as_.rdx, as_.rdx);
   as_.jz(hidden, kNear);
-  leave_cold(hidden, instruction, here());
+  exit_out_of_line(hidden, instruction, exit_state());
   clobbered_flags();
   return {Value::Kind::kMemory, 0, as_.rdx + (address & 0x3F)};
 }
 
-// Reads the TIA or the RIOT, in line; eax, ecx as call_read wants them. Not where the cartridge takes part in it: it may
-// have memory there, or switch banks.
-void BlockEmitter::read_device(const Instruction& instruction, const Place& place) {
+// Reads the TIA or the RIOT, in line. Inputs as for call_read, in eax and ecx. If the cartridge watches these
+// addresses, the interpreter executes the read: the cartridge may have memory there, or switch banks.
+void BlockEmitter::read_device(const Instruction& instruction, const ExitState& exit) {
   if (as_.window.cartridge_watches()) {
     remove_penalty(instruction);
-    settle(place);
-    leave_before(instruction);
+    settle(exit);
+    exit_before(instruction);
     return;
   }
-  as_.lea(as_.edx, as_.ptr[as_.rbp + (place.elapsed + instruction.cycles)]);
+  as_.lea(as_.edx, as_.ptr[as_.rbp + (exit.elapsed + instruction.cycles)]);
   call_read(as_);
-  if (place.rom_loaded) load_rom_again();
+  if (exit.rom_loaded) load_rom_again();
   clobbered_flags();
 }
 
@@ -74,18 +74,18 @@ BlockEmitter::Value BlockEmitter::read_zero_page_indexed(const Instruction& inst
   as_.movzx(as_.eax, as_.byte[as_.rbx + as_.rcx + as_.layout.ram]);
   as_.L(done);
   clobbered_flags();
-  cold([this, instruction, place = here(), device, done]() mutable {
+  cold([this, instruction, exit = exit_state(), device, done]() mutable {
     as_.L(device);
     as_.mov(as_.eax, as_.ecx);
     as_.xor_(as_.eax, 0x80);
     as_.mov(as_.ecx, instruction.operand);
-    read_device(instruction, place);
+    read_device(instruction, exit);
     as_.jmp(done, kNear);
   });
   return {Value::Kind::kEax};
 }
 
-// A table of the window is read without a check.
+// A table within the window is read without a check of the address.
 BlockEmitter::Value BlockEmitter::read_indexed(const Instruction& instruction, Reg32 index) {
   const std::uint16_t base = instruction.operand;
   if (is_cartridge(base) && as_.covers(base, 256)) {
@@ -117,12 +117,13 @@ BlockEmitter::Value BlockEmitter::read_through_pointer(const Instruction& instru
   return {Value::Kind::kEax};
 }
 
-// The pointer of (zp),Y or (zp,X) into eax. False if it is not in RAM, and the interpreter does the instruction.
+// Loads the pointer of (zp),Y or (zp,X) into eax. Returns false if it is not in RAM; the interpreter then
+// executes the instruction.
 bool BlockEmitter::load_pointer(const Instruction& instruction) {
   if (instruction.mode == Mode::indirect_y) {
     if (instruction.operand < 0x80 || instruction.operand == 0xFF) {
-      settle(here());
-      leave_before(instruction);
+      settle(exit_state());
+      exit_before(instruction);
       return false;
     }
     as_.movzx(as_.eax, as_.word[as_.rbx + (as_.layout.ram + (instruction.operand & 0x7F))]);
@@ -134,13 +135,13 @@ bool BlockEmitter::load_pointer(const Instruction& instruction) {
   as_.cmp(as_.ecx, 0x7F);
   as_.jae(outside, kNear);
   as_.movzx(as_.eax, as_.word[as_.rbx + as_.rcx + as_.layout.ram]);
-  leave_cold(outside, instruction, here());
+  exit_out_of_line(outside, instruction, exit_state());
   clobbered_flags();
   return true;
 }
 
-// Reads what is at the address in eax, into eax; esi: the data bus before. The penalty has been added already. Mostly it
-// is a table in the window's ROM.
+// Reads the byte at the address in eax, into eax. Input: esi the data bus before. The penalty for a crossed
+// page has been added already. The common case is a table in the window's ROM.
 void BlockEmitter::read_at_eax(const Instruction& instruction) {
   Xbyak::Label elsewhere, done;
   load_rom();
@@ -150,7 +151,7 @@ void BlockEmitter::read_at_eax(const Instruction& instruction) {
   as_.movzx(as_.eax, as_.byte[as_.r10 + as_.rcx]);
   as_.L(done);
   clobbered_flags();
-  cold([this, instruction, place = here(), elsewhere, done]() mutable {
+  cold([this, instruction, exit = exit_state(), elsewhere, done]() mutable {
     Xbyak::Label device, cartridge;
     as_.L(elsewhere);
     as_.mov(as_.ecx, as_.eax);
@@ -166,16 +167,16 @@ void BlockEmitter::read_at_eax(const Instruction& instruction) {
     as_.test(as_.ah, 0x10);
     as_.jnz(cartridge, kNear);
     as_.mov(as_.ecx, as_.esi);
-    read_device(instruction, place);
+    read_device(instruction, exit);
     as_.jmp(done, kNear);
     as_.L(cartridge);
     remove_penalty(instruction);
-    settle(place);
-    leave_before(instruction);
+    settle(exit);
+    exit_before(instruction);
   });
 }
 
-// A cycle more where the index leads into another page.
+// Adds a cycle if the index crosses a page.
 void BlockEmitter::add_penalty(const Instruction& instruction, Reg32 index) {
   const int low = instruction.operand & 0xFF;
   if (low == 0) return;

@@ -1,4 +1,4 @@
-// Operations on values, registers, flags and the stack.
+// Emits operations on registers, flags and the stack.
 #include "emulator/translator/addresses.hpp"
 #include "emulator/translator/block_emitter.hpp"
 #include "emulator/translator/bus_calls.hpp"
@@ -44,7 +44,7 @@ void BlockEmitter::into_al(const Value& value) {
   }
 }
 
-// The host's carry for adc (as it is) or sbb (a borrow).
+// Moves the carry to the host's: as it is for adc, inverted (a borrow) for sbb.
 void BlockEmitter::carry_to_host(bool inverted) {
   if (carry_ != CarryHome::kNumber) {
     if ((carry_ == CarryHome::kSet) != inverted) as_.stc();
@@ -81,8 +81,8 @@ void BlockEmitter::add(const Instruction& instruction, Value value, Flags live) 
     case Value::Kind::kEax: apply(as_.al); break;
   }
   if (live.v) as_.seto(as_.byte_of(as_.layout.overflow));
-  const Place before = here();
-  // Also where nobody looks: decimal mode comes back with it.
+  const ExitState before = exit_state();
+  // All flags, live or not: the out-of-line code for decimal mode returns here with them.
   carry_from_host(subtracts, Flags{});
   as_.L(done);
   clobbered_flags();
@@ -115,7 +115,7 @@ void BlockEmitter::compare(Reg8 reg, const Value& value, Flags live) {
   made_nz(NzHome::kNumber, true);
 }
 
-// N and V come from the operand, Z from what it has in common with A.
+// N and V are bits of the operand. Z tells whether it has no bit in common with A.
 void BlockEmitter::bit(const Value& value, Flags live) {
   into_al(value);
   if (live.v) {
@@ -143,7 +143,7 @@ void BlockEmitter::implied(const Instruction& instruction, Flags) {
   const auto step = [this](Reg8 reg, bool up, NzHome home) {
     if (up) as_.inc(reg);
     else as_.dec(reg);
-    made_nz(home, true);  // the host's carry stays as it was
+    made_nz(home, true);  // INC and DEC preserve the host's carry
   };
   switch (instruction.operation) {
     case Operation::clc: carry_ = CarryHome::kClear; host_carry_ = HostCarry::kUnknown; break;
@@ -172,14 +172,14 @@ void BlockEmitter::implied(const Instruction& instruction, Flags) {
   }
 }
 
-// Where the stack pointer shows the TIA, games write its registers with PHP and PHA.
+// Where the stack pointer is in the TIA, games write registers with PHP and PHA.
 void BlockEmitter::push(const Instruction& instruction) {
   Xbyak::Label device, done;
   const bool pushes_status = instruction.operation == Operation::php;
-  const Place before = here();
+  const ExitState before = exit_state();
   as_.movzx(as_.eax, as_.byte_of(as_.layout.sp));
   if (pushes_status) {
-    Place now = before;
+    ExitState now = before;
     now.elapsed = 0;
     settle(now);
     nz_ = NzHome::kNumber;
@@ -187,23 +187,23 @@ void BlockEmitter::push(const Instruction& instruction) {
     status_into_ecx(as_);
   }
   clobbered_flags();
-  const Place place = here();
+  const ExitState exit = exit_state();
   as_.test(as_.al, as_.al);
   as_.jns(device, kNear);
   as_.mov(as_.byte[as_.rbx + as_.rax + (as_.layout.ram - 0x80)], pushes_status ? as_.cl : as_.r12b);
   as_.dec(as_.byte_of(as_.layout.sp));
   as_.L(done);
-  cold([this, instruction, place, pushes_status, device, done]() mutable {
+  cold([this, instruction, exit, pushes_status, device, done]() mutable {
     as_.L(device);
     as_.dec(as_.byte_of(as_.layout.sp));
     as_.or_(as_.eax, 0x100);
     if (!pushes_status) as_.mov(as_.ecx, as_.r12d);
-    call_write(instruction, as_.ecx, place);
+    call_write(instruction, as_.ecx, exit);
     as_.jmp(done, kNear);
   });
 }
 
-// The place above the stack pointer; where that is no RAM, reading it does something.
+// Reads above the stack pointer. Outside RAM, that read may have an effect.
 void BlockEmitter::pull(const Instruction& instruction) {
   Xbyak::Label outside, done;
   as_.movzx(as_.eax, as_.byte_of(as_.layout.sp));
@@ -216,12 +216,12 @@ void BlockEmitter::pull(const Instruction& instruction) {
   as_.L(done);
   clobbered_flags();
   made_nz(NzHome::kA, false);
-  cold([this, instruction, place = here(), outside, done]() mutable {
+  cold([this, instruction, exit = exit_state(), outside, done]() mutable {
     as_.L(outside);
-    as_.lea(as_.edx, as_.ptr[as_.rbp + (place.elapsed + instruction.cycles)]);
+    as_.lea(as_.edx, as_.ptr[as_.rbp + (exit.elapsed + instruction.cycles)]);
     call_pull(as_);
     as_.mov(as_.r12d, as_.eax);
-    if (place.rom_loaded) load_rom_again();
+    if (exit.rom_loaded) load_rom_again();
     as_.jmp(done, kNear);
   });
 }
@@ -229,19 +229,19 @@ void BlockEmitter::pull(const Instruction& instruction) {
 void BlockEmitter::modify(const Instruction& instruction, Flags live) {
   if (instruction.access == Access::Accumulator) {
     shift(instruction.operation, as_.r12b, live);
-    // Rotations leave the host's Z and N as they were.
+    // The host's rotations do not change ZF and SF.
     const bool rotates = instruction.operation == Operation::rol || instruction.operation == Operation::ror;
     made_nz(NzHome::kA, !rotates);
     return;
   }
   Xbyak::Label outside;
-  const Place before = here();
+  const ExitState before = exit_state();
   Xbyak::RegExp place;
   const bool fixed = instruction.mode == Mode::zero_page || instruction.mode == Mode::absolute;
   if (fixed) {
     if (!is_ram(instruction.operand)) {
       settle(before);
-      leave_before(instruction);
+      exit_before(instruction);
       made_nz(NzHome::kNumber, false);
       return;
     }
@@ -262,7 +262,7 @@ void BlockEmitter::modify(const Instruction& instruction, Flags live) {
     }
     place = as_.rbx + as_.rcx + as_.layout.ram;
     clobbered_flags();
-    leave_cold(outside, instruction, before);
+    exit_out_of_line(outside, instruction, before);
   }
   const bool counts = instruction.operation == Operation::inc || instruction.operation == Operation::dec;
   if (counts && !live.nz) {

@@ -1,4 +1,4 @@
-// Writes: to RAM, to the TIA's log, and to what only the machine knows.
+// Emits writes: to RAM, to the write log, and to devices.
 #include <cstddef>
 
 #include "emulator/tia/registers/registers.hpp"
@@ -48,10 +48,10 @@ void BlockEmitter::write_fixed(const Instruction& instruction, Reg32 value) {
   if (is_free && is_sound(reg)) return write_sound(instruction, reg, value);
   if (is_free && reg >= kTiaRegisters) return touch_tia(elapsed_ + instruction.cycles);
   as_.mov(as_.eax, address);
-  call_write(instruction, value, here());
+  call_write(instruction, value, exit_state());
 }
 
-// A register that is not there: the access alone counts.
+// A TIA address without a register: only the cycle of the access counts.
 void BlockEmitter::touch_tia(int cycles) {
   as_.lea(as_.edx, as_.ptr[as_.rbp + cycles]);
   as_.mov(as_.dword_of(as_.layout.last_access), as_.edx);
@@ -63,7 +63,7 @@ void BlockEmitter::write_sound(const Instruction& instruction, unsigned reg, Reg
   touch_tia(elapsed_ + instruction.cycles);
 }
 
-// WriteLog::append, in line: the motions are something else now.
+// WriteLog::append for HMCLR, in line. The log then knows no values of the motion registers.
 void BlockEmitter::write_hmclr(const Instruction& instruction, Reg32 value) {
   static_assert(HMP1 == HMP0 + 1 && HMM0 == HMP0 + 2 && HMM1 == HMP0 + 3 && HMBL == HMP0 + 4);
   constexpr int kFirst = offsetof(WriteLog, written) + 2 * HMP0;
@@ -99,7 +99,7 @@ void BlockEmitter::write_register(const Instruction& instruction, unsigned reg, 
   clobbered_flags();
 }
 
-// Cycle, register and value, as a TiaWrite.
+// Appends cycle, register and value, as a TiaWrite.
 void BlockEmitter::append(const Instruction& instruction, unsigned reg, Reg32 value) {
   as_.lea(as_.ecx, as_.ptr[as_.rbp + (elapsed_ + instruction.cycles)]);
   as_.sub(as_.ecx, as_.dword[as_.r15 + offsetof(WriteLog, base)]);
@@ -110,7 +110,7 @@ void BlockEmitter::append(const Instruction& instruction, unsigned reg, Reg32 va
   as_.add(as_.qword[as_.r15 + offsetof(WriteLog, next)], sizeof(std::uint32_t));
 }
 
-// Waits until the line's end: a division by 76, for cycles below 69,000 (the limit is far below).
+// Waits for the end of the line: a division by 76, exact for cycles below 69,000. The limit is far below.
 void BlockEmitter::write_wsync(const Instruction& instruction) {
   const int cycles = elapsed_ + instruction.cycles;
   as_.mov(as_.ecx, as_.dword_of(as_.layout.first_line));
@@ -124,7 +124,7 @@ void BlockEmitter::write_wsync(const Instruction& instruction) {
   as_.mov(as_.ebp, as_.eax);
   as_.sub(as_.eax, as_.edx);
   as_.add(as_.dword_of(as_.layout.waited), as_.eax);
-  elapsed_ = -static_cast<int>(instruction.cycles);  // they are counted when the instruction is done
+  elapsed_ = -static_cast<int>(instruction.cycles);  // emit() adds them after the instruction
   clobbered_flags();
 }
 
@@ -137,11 +137,11 @@ void BlockEmitter::write_zero_page_indexed(const Instruction& instruction, Xbyak
   as_.mov(as_.byte[as_.rbx + as_.rcx + as_.layout.ram], value.cvt8());
   as_.L(done);
   clobbered_flags();
-  cold([this, instruction, value, place = here(), device, done]() mutable {
+  cold([this, instruction, value, exit = exit_state(), device, done]() mutable {
     as_.L(device);
     as_.mov(as_.eax, as_.ecx);
     as_.xor_(as_.eax, 0x80);
-    call_write(instruction, value, place);
+    call_write(instruction, value, exit);
     as_.jmp(done, kNear);
   });
 }
@@ -156,17 +156,18 @@ void BlockEmitter::write_at_eax(const Instruction& instruction, Reg32 value) {
   as_.mov(as_.byte[as_.rbx + as_.rax + as_.layout.ram], value.cvt8());
   as_.L(done);
   clobbered_flags();
-  cold([this, instruction, value, place = here(), device, done]() mutable {
+  cold([this, instruction, value, exit = exit_state(), device, done]() mutable {
     as_.L(device);
     as_.movzx(as_.eax, as_.ax);
-    call_write(instruction, value, place);
+    call_write(instruction, value, exit);
     as_.jmp(done, kNear);
   });
 }
 
-// Writes to a device or the cartridge at the address in eax. That may end the frame, or change what the window shows.
-void BlockEmitter::call_write(const Instruction& instruction, Reg32 value, const Place& place) {
-  const int cycles = place.elapsed + instruction.cycles;
+// Writes to a device or the cartridge, at the address in eax. The write may end the frame, or change what the
+// window shows.
+void BlockEmitter::call_write(const Instruction& instruction, Reg32 value, const ExitState& exit) {
+  const int cycles = exit.elapsed + instruction.cycles;
   Xbyak::Label leaves;
   if (value.getIdx() != as_.ecx.getIdx()) as_.mov(as_.ecx, value);
   as_.lea(as_.edx, as_.ptr[as_.rbp + cycles]);
@@ -176,15 +177,15 @@ void BlockEmitter::call_write(const Instruction& instruction, Reg32 value, const
   as_.jne(leaves, kNear);
   as_.cmp(as_.word[as_.rbx + as_.layout.code_span], 0);
   as_.je(leaves, kNear);
-  if (place.rom_loaded) load_rom_again();
+  if (exit.rom_loaded) load_rom_again();
   clobbered_flags();
-  cold([this, instruction, place, cycles, leaves]() mutable {
+  cold([this, instruction, exit, cycles, leaves]() mutable {
     as_.L(leaves);
-    Place after = place;
+    ExitState after = exit;
     after.elapsed = cycles;
     settle(after);
     as_.mov(as_.eax, instruction.next());
-    as_.jmp(as_.way_out, kNear);
+    as_.jmp(as_.exit_stub, kNear);
   });
 }
 

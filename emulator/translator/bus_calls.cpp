@@ -32,7 +32,7 @@ std::uint32_t pull(Board* board, std::int32_t cycle) {
   return read(++cpu.SP, unused);
 }
 
-// V in bit 16, carry in bit 8, the sum in bits 7-0.
+// Returns V in bit 16, the carry in bit 8, and the sum in bits 7-0.
 std::uint32_t decimal(std::uint32_t a, std::uint32_t m, std::uint32_t carry, bool subtracts) {
   const auto left = static_cast<std::uint8_t>(a), right = static_cast<std::uint8_t>(m);
   const auto in = static_cast<std::uint8_t>(carry);
@@ -108,7 +108,7 @@ void call_skip_timer_loop(Assembler& as, const std::uint8_t* branch, int period)
   as.mov(as.ebp, as.eax);
 }
 
-// N V 1 1 D I Z C.
+// The bits are N V 1 1 D I Z C.
 void status_into_ecx(Assembler& as) {
   const auto put = [&as](std::int32_t place, int bit) {
     as.movzx(as.edx, as.byte_of(place));

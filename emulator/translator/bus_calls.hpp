@@ -1,5 +1,5 @@
-// Calls from translated code into the machine, for what is not plain memory. Each keeps the flags of r8d and r9d; r10 is
-// lost.
+// Calls from translated code into the machine, for accesses beyond plain memory. Each preserves the flags in
+// r8d and r9d, and overwrites r10.
 #pragma once
 
 #include <cstdint>
@@ -8,25 +8,29 @@
 
 namespace racebeam::translator {
 
-// eax: address of the TIA or the RIOT; ecx: the data bus before; edx: cycle. Answers the byte in eax.
+// Inputs: eax the address, in the TIA or the RIOT; ecx the data bus before; edx the cycle. Result: the byte
+// in eax.
 void call_read(Assembler& as);
 
-// edx: cycle. Answers the byte of a port of the cartridge in eax.
+// Input: edx the cycle. Result: the byte of the cartridge port in eax.
 void call_port(Assembler& as, PortReader reader, std::uint16_t address);
 
-// eax: address; ecx: value; edx: cycle. Answers the cycle after it in eax.
+// Inputs: eax the address; ecx the value; edx the cycle. Result: the cycle after the write in eax.
 void call_write_bus(Assembler& as);
 
-// PLA over the bus, wherever the stack pointer is; edx: cycle. Answers the byte in eax.
+// PLA over the bus, wherever the stack pointer is. Input: edx the cycle. Result: the byte in eax.
 void call_pull(Assembler& as);
 
-// al: operand. Decimal addition or subtraction with A and carry in r12d and r9d; makes V too.
+// Decimal addition or subtraction. Inputs: al the operand; A in r12d, the carry in r9d. Results: A, the carry
+// and V.
 void call_decimal(Assembler& as, bool subtracts);
 
-// Skips the turns of a timer loop that are certain, whose branch, at `branch`, has just been taken; cycle in ebp.
+// Skips the iterations of a timer loop that are certain. `branch` points to the loop's branch, which has just
+// been taken. Input and result: the cycle in ebp.
 void call_skip_timer_loop(Assembler& as, const std::uint8_t* branch, int period);
 
-// The status byte as PHP pushes it, into ecx; keeps all others but the host's flags. r8d and r9d are the flags.
+// Writes the status byte, as PHP pushes it, into ecx. The flags come from r8d, r9d and memory. Only the
+// host's flags and edx are overwritten besides.
 void status_into_ecx(Assembler& as);
 
 }  // namespace racebeam::translator

@@ -1,6 +1,6 @@
-// Executable memory that is never writable at the same time. It is filled from the front, in whole pages: those that
-// are being written can't be run yet, and those that can be run are never written again, so that other threads may be in
-// them.
+// Executable memory that is never writable at the same time (W^X). It is filled from the front, in whole
+// pages. Pages that are being written are not executable yet, and executable pages are never written again.
+// Other threads may therefore execute them at any time.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,18 @@ class CodeMemory {
   CodeMemory(const CodeMemory&) = delete;
   CodeMemory& operator=(const CodeMemory&) = delete;
 
-  // Where to write next, and how much. Null when all is used.
+  // Where to write next, and how many bytes. Null when the memory is full.
   void* writable() const { return left() == 0 ? nullptr : base_ + used_; }
   std::size_t left() const { return open_ - used_; }
 
-  // Makes the first `size` written bytes executable. Throws std::system_error where that is refused.
+  // Makes the first `size` written bytes executable. Throws std::system_error if the system refuses that.
   void seal(std::size_t size);
 
  private:
   char* base_ = nullptr;
   std::size_t size_;
-  std::size_t used_ = 0;   // sealed
-  std::size_t open_ = 0;   // up to here, pages can be written
+  std::size_t used_ = 0;  // executable
+  std::size_t open_ = 0;  // pages up to here are writable
 };
 
 }  // namespace racebeam::translator

@@ -3,15 +3,15 @@
 #include <algorithm>
 
 #include "emulator/board/board.hpp"
+#include "emulator/translator/block_discovery.hpp"
 #include "emulator/translator/block_emitter.hpp"
-#include "emulator/translator/program.hpp"
 
 namespace racebeam::translator {
 namespace {
 
 std::atomic<std::size_t> code_capacity = 4U << 20;
 
-constexpr std::size_t kRoomForBatch = 1U << 16;  // less than this is not begun with
+constexpr std::size_t kBatchCapacity = 1U << 16;  // a batch is begun only with this much memory left
 
 }  // namespace
 
@@ -32,7 +32,7 @@ std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom, const Wiring& wiring) {
 }
 
 ImageCode::ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity)
-    : rom_(rom), wiring_(wiring), memory_(std::max(capacity, 2 * kRoomForBatch)) {}
+    : rom_(rom), wiring_(wiring), memory_(std::max(capacity, 2 * kBatchCapacity)) {}
 
 View* ImageCode::view(const CodeWindow& window, const Rom& rom, bool make) {
   const std::less<> before;
@@ -44,8 +44,9 @@ View* ImageCode::view(const CodeWindow& window, const Rom& rom, bool make) {
   return view.get();
 }
 
-// The way in: saves what belongs to the caller, loads the 6507's registers and jumps. The way out: the reverse.
-void ImageCode::make_gates(const Layout& layout) {
+// The entry stub saves the host's registers, loads the 6507's and jumps to a block. The exit stub does the
+// reverse.
+void ImageCode::emit_stubs(const Layout& layout) {
   using namespace Xbyak::util;
   Xbyak::CodeGenerator as(memory_.left(), memory_.writable());
   const Xbyak::Reg64 saved[] = {rbx, rbp, r12, r13, r14, r15};
@@ -61,7 +62,7 @@ void ImageCode::make_gates(const Layout& layout) {
   as.mov(r8d, dword[rbx + layout.nz]);
   as.mov(r9d, dword[rbx + layout.carry]);
   as.jmp(rdi);
-  way_out_ = as.getCurr();
+  exit_stub_ = as.getCurr();
   out(r12b, layout.a), out(r13b, layout.x), out(r14b, layout.y);
   as.mov(dword[rbx + layout.cycle], ebp);
   as.mov(dword[rbx + layout.nz], r8d);
@@ -76,16 +77,16 @@ void ImageCode::make_gates(const Layout& layout) {
 const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout) {
   const std::lock_guard lock(mutex_);
   if (const void* entry = view.entry(pc)) return entry;
-  if (memory_.left() < kRoomForBatch) full_ = true;
+  if (memory_.left() < kBatchCapacity) full_ = true;
   if (full_) return nullptr;
-  if (enter_ == nullptr) make_gates(layout);
+  if (enter_ == nullptr) emit_stubs(layout);
   const Window window{wiring_, view.code, view.entries.data()};
-  Assembler assembler(memory_.writable(), memory_.left(), layout, window, way_out_);
+  Assembler assembler(memory_.writable(), memory_.left(), layout, window, exit_stub_);
   const std::vector<Block> blocks = discover(view.code, pc, view.known);
   try {
     for (const Block& block : blocks) assembler.blocks[block.pc];
     for (const Block& block : blocks) BlockEmitter(assembler, block).emit();
-  } catch (const Xbyak::Error&) {  // out of room
+  } catch (const Xbyak::Error&) {  // The code memory is full.
     full_ = true;
     return nullptr;
   }
@@ -93,7 +94,7 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
   for (const Block& block : blocks) {
     const auto offset = static_cast<std::uint16_t>(block.pc - view.code.first);
     view.known[offset] = true;
-    view.worth[offset].set_length(block.instructions.size() + 1);
+    view.profitability[offset].set_length(block.instructions.size() + 1);
     const void* start = assembler.blocks[block.pc].getAddress();
     std::atomic_ref(view.entries[offset]).store(start, std::memory_order_release);
   }

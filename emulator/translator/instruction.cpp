@@ -7,14 +7,14 @@
 namespace racebeam::translator {
 namespace {
 
-struct Row {
+struct OpcodeRow {
   Operation operation;
   Mode mode;
   Access access;
   std::uint8_t cycles;
 };
 
-constexpr std::array<Row, 256> kRows = {{
+constexpr std::array<OpcodeRow, 256> kRows = {{
 #define OP(code, operation, mode, access, cycles) {Operation::operation, Mode::mode, Access::access, cycles},
 #include "emulator/base/opcodes.inc"
 #undef OP
@@ -23,7 +23,7 @@ constexpr std::array<Row, 256> kRows = {{
 }  // namespace
 
 Instruction decode(const std::uint8_t* bytes, std::uint16_t pc) {
-  const Row& row = kRows[bytes[0]];
+  const OpcodeRow& row = kRows[bytes[0]];
   const std::uint8_t length = row.operation == Operation::jsr ? 3 : kOpcodes[bytes[0]].length;
   const unsigned low = length > 1 ? bytes[1] : 0U, high = length > 2 ? bytes[2] : 0U;
   return {pc, row.operation, row.mode, row.access, length, row.cycles, static_cast<std::uint16_t>(low | high << 8)};

@@ -1,4 +1,4 @@
-// One 6502 instruction as the translator sees it: the row of opcodes.inc, with its operand.
+// One decoded 6502 instruction: the row of opcodes.inc, with its operand.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ enum class Operation : std::uint8_t {
   adc, and_, asl, bcc, bcs, beq, bit, bmi, bne, bpl, brk, bvc, bvs, clc, cld, cli, clv, cmp, cpx, cpy, dec, dex, dey,
   eor, inc, inx, iny, jmp, jsr, lda, ldx, ldy, lsr, nop, ora, pha, php, pla, plp, rol, ror, rti, rts, sbc, sec, sed,
   sei, sta, stx, sty, tax, tay, tsx, txa, txs, tya,
-  // the others
+  // undocumented
   anc, ane, arr, asr, dcp, isb, jam, las, lax, lxa, rla, rra, sax, sbx, sha, shs, shx, shy, slo, sre
 };
 
-// How the operation meets memory: the fourth column of opcodes.inc.
+// How the operation accesses memory: the fourth column of opcodes.inc.
 enum class Access : std::uint8_t { Read, Immediate, Write, Modify, Accumulator, Implied, Jump, Branch };
 
 struct Instruction {
@@ -28,22 +28,22 @@ struct Instruction {
   Mode mode;
   Access access;
   std::uint8_t length;
-  std::uint8_t cycles;      // without penalties
-  std::uint16_t operand;    // one or two bytes, as they stand
+  std::uint8_t cycles;    // without those for crossed pages and taken branches
+  std::uint16_t operand;  // one or two bytes, unsigned
 
   std::uint16_t next() const { return static_cast<std::uint16_t>(pc + length); }
 
-  // Of a branch, a JMP or a JSR.
+  // The target of a branch, a JMP or a JSR.
   std::uint16_t target() const {
     if (access != Access::Branch) return operand;
     return static_cast<std::uint16_t>(next() + static_cast<std::int8_t>(operand));
   }
 };
 
-// The instruction whose bytes, of which three can be read, start at `bytes`.
+// Decodes the instruction at `pc`. Three bytes at `bytes` must be readable.
 Instruction decode(const std::uint8_t* bytes, std::uint16_t pc);
 
-// The documented instructions but BRK, PLP and RTI: the others are the interpreter's.
+// True for documented instructions except BRK, PLP and RTI. The interpreter executes all others.
 bool is_translatable(const Instruction& instruction);
 
 }  // namespace racebeam::translator

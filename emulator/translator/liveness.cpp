@@ -21,7 +21,7 @@ bool sets_overflow(Operation operation) {
          operation == Operation::clv;
 }
 
-// All documented ones do but these.
+// All documented instructions set N and Z except these.
 bool sets_nz(const Instruction& instruction) {
   switch (instruction.operation) {
     case Operation::clc: case Operation::cld: case Operation::cli: case Operation::clv: case Operation::sec:
@@ -39,8 +39,8 @@ bool reads_carry(Operation operation) {
          operation == Operation::ror;
 }
 
-// A read that may find a hot spot: it is not known to be in the window, in RAM, or in a device that the cartridge leaves
-// alone.
+// Whether a read may access a hot spot. It may unless its address is known to be in the window, in RAM, or in
+// a device that the cartridge ignores.
 bool may_switch_banks(const Instruction& instruction, const Window& window) {
   if (instruction.access != Access::Read && instruction.access != Access::Modify) return false;
   if (window.cartridge_watches()) return true;
@@ -59,7 +59,8 @@ bool may_switch_banks(const Instruction& instruction, const Window& window) {
 }  // namespace
 
 bool may_write_device(const Instruction& instruction) {
-  if (instruction.operation == Operation::pha || instruction.operation == Operation::php) return true;  // the stack may be there
+  // The stack may be in a device.
+  if (instruction.operation == Operation::pha || instruction.operation == Operation::php) return true;
   if (instruction.access != Access::Write && instruction.access != Access::Modify) return false;
   const bool fixed = instruction.mode == Mode::zero_page || instruction.mode == Mode::absolute;
   return !fixed || !is_ram(instruction.operand);

@@ -1,9 +1,10 @@
-// Which flags somebody may look at after an instruction of a block. A flag that is overwritten first need not be made.
+// Which flags can be read after an instruction of a block. A flag that is overwritten before it can be read
+// is not computed.
 #pragma once
 
 #include <vector>
 
-#include "emulator/translator/program.hpp"
+#include "emulator/translator/block_discovery.hpp"
 #include "emulator/translator/window.hpp"
 
 namespace racebeam::translator {
@@ -12,12 +13,13 @@ struct Flags {
   bool nz = true, c = true, v = true;
 };
 
-// One for each instruction of the block: the flags that are live after it. All are at the block's end, where a branch
-// may leave it, after a write that may end the frame, where the state is seen from outside, and after a read that the
-// interpreter may have to do, since it may bring other code before the processor.
+// For each instruction of the block, the flags that are live after it. All flags are live at three places:
+// - where a branch may leave the block;
+// - after a write that may end the frame, because the state can then be read from outside;
+// - after a read that the interpreter may have to execute, because it may switch to other code.
 std::vector<Flags> live_flags(const Block& block, const Window& window);
 
-// Does the instruction write somewhere else than RAM, or may it?
+// Whether the instruction writes to a device, or may do so.
 bool may_write_device(const Instruction& instruction);
 
 }  // namespace racebeam::translator

@@ -8,27 +8,30 @@
 
 #include "emulator/board/board.hpp"
 #include "emulator/cpu/cpu.hpp"
+#include "emulator/translator/block_discovery.hpp"
 #include "emulator/translator/image_code.hpp"
-#include "emulator/translator/program.hpp"
-#include "emulator/translator/purse.hpp"
+#include "emulator/translator/translation_budget.hpp"
 
 namespace racebeam {
 namespace {
 
-// No block lasts longer, so that a write in it comes before the line limit if the block starts before it by this much.
+// No block takes more cycles. A block that starts this long before the line limit makes its TIA writes before
+// the limit.
 constexpr std::int32_t kMargin = 400;
 
 constexpr std::int32_t kFewestCycles = 2;  // of an instruction
 
-// Rows of instructions that are interpreted: short ones end exactly, others at a jump or branch, after so many more at most.
-constexpr std::int32_t kShortRow = 32, kMostRow = 4096;
+// Runs of interpreted instructions. Those below kShortRun end exactly. Others end at the next jump or branch,
+// at most kRunSlack instructions later.
+constexpr std::int32_t kShortRun = 32, kRunSlack = 4096;
 
-// Where a step is longer than what translated code may run, it is run again by the interpreter. After such a step others
-// are left to it at once: one, then three, up to 63; fewer again after many that were not so long.
-class Retreat {
+// Back-off after steps that were too long for translated code, and were interpreted again. After one, the
+// next steps are interpreted at once: one, then three, up to 63. The count halves after 64 steps that
+// translated code completed.
+class StepBackoff {
  public:
-  bool goes_on() { return left_ > 0 && left_-- > 0; }
-  void note(bool whole) {
+  bool skips_step() { return left_ > 0 && left_-- > 0; }
+  void record(bool whole) {
     if (whole) {
       if (++calm_ % kCalm == 0) length_ /= 2;
       return;
@@ -43,16 +46,17 @@ class Retreat {
   int length_ = 0, left_ = 0, calm_ = 0;  // steps
 };
 
-// How many instructions the interpreter runs before translated code is looked for again. Where there is none that pays, it
-// runs twice as many each time: looking costs as much as interpreting a few.
-class Row {
+// How many instructions the interpreter runs before the next search for translated code. The count doubles
+// each time that no profitable code is found, because a search costs as much as interpreting a few
+// instructions.
+class InterpretedRun {
  public:
-  std::int32_t next(std::int32_t least) {
-    const std::int32_t length = std::max(length_, least);
+  std::int32_t next(std::int32_t minimum) {
+    const std::int32_t length = std::max(length_, minimum);
     length_ = std::min(2 * length_, kLongest);
     return length;
   }
-  void end() { length_ = 1; }
+  void reset() { length_ = 1; }
 
  private:
   static constexpr std::int32_t kLongest = 128;
@@ -78,8 +82,8 @@ std::uint8_t pack_status(const translator::Context& context) {
   return static_cast<std::uint8_t>(n | others | z | context.carry);
 }
 
-// Whether the system lets memory be made executable is found out once.
-const std::string& refusal() {
+// Why the system refuses executable memory; empty if it permits it. Tried once per process.
+const std::string& executable_memory_error() {
   static const std::string reason = [] {
     try {
       translator::CodeMemory(1).seal(1);
@@ -94,44 +98,45 @@ const std::string& refusal() {
 }  // namespace
 
 struct Translator::Impl {
-  Impl(Board& board, bool always) : layout(board), purse(always) {}
+  Impl(Board& board, bool always) : layout(board), budget(always) {}
 
-  // Windows that were looked into before, by their place: a bank switch finds its way back without asking the image.
-  struct Seen {
+  // A window that was looked up before, cached by its address. After a bank switch, the view is found without
+  // a search in the image.
+  struct CachedView {
     CodeWindow window;
     translator::View* view = nullptr;
   };
 
-  // Where the instruction at PC is translated: `start` is null if it is not.
-  struct Block {
+  // Translated code of the instruction at PC. `start` is null if there is none.
+  struct Entry {
     const void* start = nullptr;
-    translator::Worth* worth = nullptr;
+    translator::Profitability* profitability = nullptr;
   };
 
   bool has_code(Board& board);
   translator::View* current_view(Board& board);
-  Block block(Board& board);
+  Entry find_entry(Board& board);
   bool enter(Board& board, const void* start);
-  std::int32_t run_block(Board& board, const Block& block);
+  std::int32_t run_block(Board& board, const Entry& entry);
 
-  std::shared_ptr<translator::ImageCode> code;  // null until some can be afforded
+  std::shared_ptr<translator::ImageCode> code;  // null until the budget covers a first batch
   const translator::Layout layout;
-  std::array<Seen, 32> seen{};
-  translator::Purse purse;
-  Row row;
-  Retreat retreat;
+  std::array<CachedView, 32> views{};
+  translator::TranslationBudget budget;
+  InterpretedRun interpreted_run;
+  StepBackoff step_backoff;
 };
 
-// False as long as there is none. A new generation is begun when the old one is full.
+// False while there is no code. Begins a new generation when the code memory of the old one is full.
 bool Translator::Impl::has_code(Board& board) {
   const bool is_useful = code != nullptr && !code->is_full();
-  if (is_useful || !purse.affords_batch()) return code != nullptr;
-  const translator::Purse::Payment payment(purse);
+  if (is_useful || !budget.covers_batch()) return code != nullptr;
+  const translator::TranslationBudget::Charge charge(budget);
   try {
     code = translator::ImageCode::of(board.slot.rom, {board.plain_registers(), board.slot.scheme.port_reader});
-    seen = {};
+    views = {};
   } catch (const std::system_error&) {
-    // There is no memory for code now: it is tried again at a later step.
+    // The system has no memory for code now. A later step tries again.
   }
   return code != nullptr;
 }
@@ -140,45 +145,45 @@ translator::View* Translator::Impl::current_view(Board& board) {
   const std::uint16_t pc = board.state.cpu.PC;
   if (static_cast<std::uint16_t>(pc - board.code.first) >= board.code.span && !board.find_code(pc)) return nullptr;
   const std::uintptr_t place = reinterpret_cast<std::uintptr_t>(board.code.memory) / MemoryMap::kPageSize;
-  Seen& known = seen[(place ^ board.code.first / 1024U) % seen.size()];
-  if (known.view == nullptr || !same(known.window, board.code)) {
-    const translator::Purse::Payment payment(purse);
-    known = {board.code, code->view(board.code, board.slot.rom, purse.affords_batch())};
+  CachedView& cached = views[(place ^ board.code.first / 1024U) % views.size()];
+  if (cached.view == nullptr || !same(cached.window, board.code)) {
+    const translator::TranslationBudget::Charge charge(budget);
+    cached = {board.code, code->view(board.code, board.slot.rom, budget.covers_batch())};
   }
-  return known.view;
+  return cached.view;
 }
 
-// The block at PC, made if it can be afforded.
-Translator::Impl::Block Translator::Impl::block(Board& board) {
+// Finds the block at PC, and translates it if the budget allows that.
+Translator::Impl::Entry Translator::Impl::find_entry(Board& board) {
   translator::View* view = current_view(board);
   if (view == nullptr) return {};
   const std::uint16_t pc = board.state.cpu.PC;
-  if (!translator::holds(view->code, pc)) return {};
-  translator::Worth* const worth = &view->worth[static_cast<std::uint16_t>(pc - view->code.first)];
-  if (const void* known = view->entry(pc)) return {known, worth};
-  if (code->is_full() || !purse.affords_batch()) return {};
-  const translator::Purse::Payment payment(purse);
-  return {code->translate(*view, pc, layout), worth};
+  if (!translator::contains(view->code, pc)) return {};
+  translator::Profitability* const profitability = &view->profitability[static_cast<std::uint16_t>(pc - view->code.first)];
+  if (const void* known = view->entry(pc)) return {known, profitability};
+  if (code->is_full() || !budget.covers_batch()) return {};
+  const translator::TranslationBudget::Charge charge(budget);
+  return {code->translate(*view, pc, layout), profitability};
 }
 
-// True if the interpreter must do the next instruction.
-bool Translator::Impl::enter(Board& board, const void* entry) {
+// Returns whether the interpreter must execute the next instruction.
+bool Translator::Impl::enter(Board& board, const void* start) {
   translator::Context& context = board.translated;
   unpack_status(context, board.state.cpu.P);
-  const std::uint32_t left = code->enter()(entry, &board, board.log);
+  const std::uint32_t left = code->enter()(start, &board, board.log);
   board.state.cpu.PC = static_cast<std::uint16_t>(left);
   board.state.cpu.P = pack_status(context);
   return (left & translator::kInterpretNext) != 0;
 }
 
-// Runs translated code from `block` on. Returns how many instructions the interpreter must do then.
-std::int32_t Translator::Impl::run_block(Board& board, const Block& block) {
-  if (!purse.is_endless() && block.worth->is_poor()) return row.next(block.worth->length());
+// Runs translated code from `entry` on. Returns how many instructions the interpreter must execute next.
+std::int32_t Translator::Impl::run_block(Board& board, const Entry& entry) {
+  if (!budget.is_unlimited() && entry.profitability->is_unprofitable()) return interpreted_run.next(entry.profitability->length());
   const std::int32_t before = board.state.cycle - board.translated.waited;
-  const bool interpret_next = enter(board, block.start);
+  const bool interpret_next = enter(board, entry.start);
   const std::int32_t cycles = board.state.cycle - board.translated.waited - before;
-  if (!board.stop) block.worth->note(cycles);
-  if (cycles >= translator::Worth::kFewestCycles) row.end();
+  if (!board.stop) entry.profitability->record(cycles);
+  if (cycles >= translator::Profitability::kBreakEvenCycles) interpreted_run.reset();
   return interpret_next ? 1 : 0;
 }
 
@@ -187,22 +192,22 @@ Translator::~Translator() = default;
 
 std::unique_ptr<Translator> Translator::make(Board& board, CpuKind kind) {
   if (kind == CpuKind::kInterpreter) return nullptr;
-  if (!refusal().empty()) {
+  if (!executable_memory_error().empty()) {
     if (kind == CpuKind::kAuto) return nullptr;
-    throw std::system_error(std::make_error_code(std::errc::permission_denied), refusal());
+    throw std::system_error(std::make_error_code(std::errc::permission_denied), executable_memory_error());
   }
   return std::unique_ptr<Translator>(new Translator(std::make_unique<Impl>(board, kind == CpuKind::kTranslator)));
 }
 
 bool Translator::run(Board& board, std::int32_t instructions) {
-  impl_->purse.begin_step();
-  if (impl_->retreat.goes_on() || !impl_->has_code(board)) {
+  impl_->budget.begin_step();
+  if (impl_->step_backoff.skips_step() || !impl_->has_code(board)) {
     interpret(board, instructions);
     return true;
   }
   const bool begins_frame = board.state.cycle < board.overlong_cycle() - kMargin;
   const bool whole = run_blocks(board, instructions);
-  if (begins_frame) impl_->retreat.note(whole);
+  if (begins_frame) impl_->step_backoff.record(whole);
   return whole;
 }
 
@@ -217,19 +222,19 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
       interpret(board, left);
       return board.stop || board.state.cpu.jammed || first_cycle >= limit;
     }
-    const Impl::Block block = impl_->block(board);
-    const std::int32_t row = block.start != nullptr ? impl_->run_block(board, block) : impl_->row.next(1);
-    if (row == 0 || board.stop) continue;
-    if (row < kShortRow || left < row + kMostRow) interpret(board, std::min(row, left));
-    else interpret(board, row + kMostRow, row);
+    const Impl::Entry entry = impl_->find_entry(board);
+    const std::int32_t run = entry.start != nullptr ? impl_->run_block(board, entry) : impl_->interpreted_run.next(1);
+    if (run == 0 || board.stop) continue;
+    if (run < kShortRun || left < run + kRunSlack) interpret(board, std::min(run, left));
+    else interpret(board, run + kRunSlack, run);
   }
   return true;
 }
 
-void Translator::end_step() { impl_->purse.end_step(); }
+void Translator::end_step() { impl_->budget.end_step(); }
 
 void Translator::set_code_capacity(std::size_t bytes) { translator::set_code_capacity(bytes); }
 
-const char* Translator::obstacle() { return refusal().c_str(); }
+const char* Translator::obstacle() { return executable_memory_error().c_str(); }
 
 }  // namespace racebeam

@@ -1,5 +1,5 @@
-// Runs a machine's 6507 code as x86-64 code, and with the interpreter what is no translated code (docs/translator.md).
-// On other processors, and where the system refuses executable memory, there is only the interpreter.
+// Runs a machine's 6507 code as x86-64 code, and interprets what is not translated (docs/translator.md).
+// Builds for other processors only have the interpreter. So do systems that refuse executable memory.
 #pragma once
 
 #include <cstddef>
@@ -10,29 +10,32 @@ namespace racebeam {
 
 class Board;
 
-// What runs a machine's instructions. All do the same, to the byte.
+// The implementation of the CPU. All kinds give the same bytes.
 enum class CpuKind { kAuto, kInterpreter, kTranslator };
 
-// One machine's way to the translated code of its image, which all machines of the process that run it share.
+// Connects one machine to the translated code of its image, which all machines of the process share.
 class Translator {
  public:
-  // Null where the interpreter is wanted, or kAuto finds that code can't be translated here. Throws std::system_error
-  // if it can't and kTranslator was asked for.
+  // Null for kInterpreter, and for kAuto where code cannot be translated. For kTranslator, throws
+  // std::system_error there.
   static std::unique_ptr<Translator> make(Board& board, CpuKind kind);
   ~Translator();
 
-  // Like interpret(), but the instructions are not counted. False if there may have been `instructions` of them before
-  // the frame closed: then there were no more, and the step must be run again by who counts.
+  // Like interpret(), but does not count instructions. Returns false if the step may have reached
+  // `instructions` before the frame closed. The step then stopped there, and the caller must interpret it
+  // again from its start.
   bool run(Board& board, std::int32_t instructions);
 
-  // After run(), and what the machine does besides for its step: that time counts for what may be spent on translation.
+  // Call it after run(), when the machine has finished its step. The time between the two adds to the
+  // translation budget.
   void end_step();
 
-  // The most bytes of translated code for one image, at least 131072; 4 MiB unless told. When they are used up, all is
-  // translated anew. Applies to images that are translated from now on.
+  // Sets the most bytes of translated code for one image: at least 131072, 4 MiB by default. When they are
+  // used up, translation starts again with new memory. Applies to images that are first translated
+  // afterwards.
   static void set_code_capacity(std::size_t bytes);
 
-  // Why kAuto gives the interpreter in this process; empty if it does not.
+  // Why kAuto selects the interpreter in this process; empty if it does not.
   static const char* obstacle();
 
  private:

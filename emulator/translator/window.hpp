@@ -7,24 +7,25 @@
 
 namespace racebeam::translator {
 
-// What all boards with the same cartridge scheme have in common.
+// How the cartridge is wired: the same for all boards with one cartridge scheme.
 struct Wiring {
-  std::uint64_t plain_registers;  // of the TIA: writes that only go to the log
+  std::uint64_t plain_registers;                        // TIA registers whose writes only go to the write log, a bit each
   PortReader (*port_reader_at)(std::uint16_t address);  // of the scheme
 
   bool operator==(const Wiring&) const = default;
-  bool cartridge_watches() const { return plain_registers == 0; }  // accesses to the TIA
+  bool cartridge_watches() const { return plain_registers == 0; }  // it reacts to accesses to the TIA
 
-  // What reads a port of the cartridge that selects no bank; null if there is none at `address`.
+  // The function that reads a port of the cartridge which selects no bank. Null if there is no such port at
+  // `address`.
   PortReader port_reader(std::uint16_t address) const {
     return (address & 0x1000) != 0 && port_reader_at != nullptr ? port_reader_at(address) : nullptr;
   }
 };
 
-// What the code of a window is translated for: constant as long as it is valid.
+// What a window's code is translated for. It is constant while the window's code is valid.
 struct Window : Wiring {
-  CodeWindow code;                 // in the translator's own copy of the image
-  const void* const* entries;      // by offset in the window: where the blocks start, null where there is none
+  CodeWindow code;             // in the translator's own copy of the image
+  const void* const* entries;  // by offset in the window: the start of a block, or null
 };
 
 }  // namespace racebeam::translator

@@ -1,5 +1,4 @@
-// Actions on their way to the console's ports and switches (docs/spec/environment.md, 2;
-// docs/spec/console.md, 5).
+// Applies actions to the console's ports and switches (docs/spec/environment.md, 2; docs/spec/console.md, 5).
 #pragma once
 
 #include <cstdint>
@@ -17,10 +16,10 @@ class ControllerInput {
   const PaddleLimits& limits() const { return limits_; }
   PaddleValues middle() const { return limits_.middle(); }
 
-  // For one frame. An action that nobody has presses nothing; player A's 40 is the RESET switch.
+  // For one frame. An unknown action presses nothing; player A's action 40 presses the RESET switch.
   void press(Inputs& inputs, const Presses& presses, int difficulty, PaddleValues& paddles) const;
 
-  // Holds SELECT alone. The paddles stay where they are.
+  // Holds SELECT alone. The paddles keep their positions.
   static void press_select(Inputs& inputs, int difficulty);
 
  private:

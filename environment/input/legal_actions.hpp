@@ -1,4 +1,4 @@
-// Which action numbers a game takes, and what becomes of the others (docs/spec/environment.md, 1).
+// The action numbers that a game accepts, and the replacement of others (docs/spec/environment.md, 1).
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ class LegalActions {
  public:
   LegalActions(const std::vector<int>& legal, bool paddles);
 
-  // Throws std::invalid_argument for what would end the reference's process in mid-game. Paddles take any
-  // number.
+  // Throws std::invalid_argument for actions that would abort the reference's process. With paddles, any
+  // number is accepted.
   void check(const Presses& asked) const;
 
-  // An illegal action becomes NOOP, and so does RESET.
+  // Replaces illegal actions, and RESET, by NOOP.
   Presses replace(const Presses& held) const {
     return {{replace_a(held.a.action), held.a.strength}, {replace_b(held.b.action), held.b.strength}};
   }

@@ -1,5 +1,5 @@
-// How many frames pass before an agent may act: drawn as the reference's vector environment draws them
-// (docs/spec/environment.md, 15), so that the same seed gives the same episodes.
+// How many frames of NOOP precede an agent's first action. The number is drawn as in the reference's vector
+// environment (docs/spec/environment.md, 15), so that the same seed gives the same episodes.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ class Noops {
  public:
   Noops(std::uint32_t seed, int max) : random_(seed), choices_(static_cast<std::uint32_t>(std::max(max, 1))) {}
 
-  // 0 to max - 1; 0 if max is not positive. Unbiased, by rejection.
+  // Draws from 0 to max - 1, without bias, by rejection. Returns 0 if max is not positive.
   int draw() {
     const std::uint32_t uneven = -choices_ % choices_;  // 2^32 mod choices
     std::uint64_t product;

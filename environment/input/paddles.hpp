@@ -1,4 +1,4 @@
-// The two paddles that actions can turn: player A's and player B's (docs/spec/environment.md, 2).
+// The two paddles that actions turn: player A's and player B's (docs/spec/environment.md, 2).
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct PaddleLimits {
     return {value, value};
   }
 
-  // direction: -1 for RIGHT, 1 for LEFT, 0 for neither. The product is made in double precision.
+  // direction: -1 for RIGHT, 1 for LEFT, 0 for neither. The product is computed in double precision.
   std::int32_t turn(std::int32_t value, int direction, float strength) const {
     constexpr double kStep = 23000, kFar = 4e9;
     const double way = std::trunc(std::min(kStep * std::fabs(double{strength}), kFar));

@@ -1,4 +1,4 @@
-// What the two players ask for, and what they get: sticky actions (docs/spec/environment.md, 3 and 4).
+// Sticky actions: which of the two players' actions take effect (docs/spec/environment.md, 3 and 4).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace racebeam {
 
 struct Press {
   std::int32_t action;
-  float strength;  // of turning a paddle
+  float strength;  // how far a paddle turns
 };
 
 struct Presses {
@@ -17,8 +17,8 @@ struct Presses {
   Press b{18, 0.0F};
 };
 
-// The reference compares a draw u / 2^32 with the probability p, in double precision: the smallest u that
-// lets a new action through. p is single precision and has been through a decimal text of six significant
+// The reference compares a draw u / 2^32 with the probability p, in double precision. Returns the smallest u
+// that lets a new action through. p is a float that has been through a decimal text of six significant
 // digits.
 std::uint64_t sticky_threshold(float p);
 
@@ -26,7 +26,7 @@ class Sticky {
  public:
   explicit Sticky(float p) : threshold_(sticky_threshold(p)) {}
 
-  // Two draws, A's first, whatever p is.
+  // Makes two draws, A's first, whatever p is.
   void draw(MersenneTwister& random, const Presses& asked, Presses& held) const {
     if (random() >= threshold_) held.a = asked.a;
     if (random() >= threshold_) held.b = asked.b;

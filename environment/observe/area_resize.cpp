@@ -14,10 +14,10 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kSlots = 32;  // reduced rows that are kept: more than a target has taps
+constexpr std::size_t kSlots = 32;  // reduced rows in the ring: more than a target has taps
 constexpr int kMostShrinking = static_cast<int>(kSlots) - 3;
 
-// Half to even, as the processor rounds: from 1.5 * 2^23 on, a float's last bit is worth 1.
+// Rounds half to even, as the processor does: from 1.5 * 2^23 on, a float's last bit is worth 1.
 std::uint8_t rounded(float value) {
   return static_cast<std::uint8_t>(std::bit_cast<std::uint32_t>(value + 12582912.0F));
 }
@@ -45,8 +45,8 @@ void check(int width, int height, int to_width, int to_height) {
 
 }  // namespace
 
-// A sliver under a thousandth of a cell counts as none. Weights of zero fill up to the same number of taps
-// for all targets; they change no sum.
+// A sliver under a thousandth of a cell counts as none. Weights of zero pad all targets to the same number of
+// taps; they change no sum.
 AreaAxis::AreaAxis(int cells, int targets)
     : taps(std::min(static_cast<std::size_t>(cells / targets) + 2, static_cast<std::size_t>(cells))),
       weights(static_cast<std::size_t>(targets) * taps) {
@@ -77,7 +77,7 @@ AreaResize::AreaResize(int width, int height, int to_width, int to_height, Simd 
   if (form >= Simd::kAvx2 && fits_octets()) make_octets();
 }
 
-// The taps of four targets must lie within 16 bytes of a row.
+// The taps of four targets must be within 16 bytes of a row.
 bool AreaResize::fits_octets() const {
   if (width_ < 16) return false;
   for (std::size_t target = 0; target < columns_.first.size(); target += 4) {
@@ -94,7 +94,7 @@ void AreaResize::make_octets() {
     for (std::size_t half = 0; half < 2; ++half)
       octet.from[half] = std::min(columns_.first[std::min(first + 4 * half, targets - 1)], width_ - 16);
     for (std::size_t tap = 0; tap < columns_.taps; ++tap) {
-      octet.places.emplace_back().fill(0x80);  // gives zero
+      octet.places.emplace_back().fill(0x80);  // selects zero
       octet.weights.emplace_back().fill(0);
       for (std::size_t lane = 0; lane < std::min<std::size_t>(8, targets - first); ++lane) {
         const std::size_t target = first + lane;
@@ -117,7 +117,7 @@ void AreaResize::reduce_plain(const std::uint8_t* row, float* to) const {
   }
 }
 
-// Each source row is made as wide as the targets, then rows are added up. Rows that repeat are common.
+// Each source row is reduced to the targets' width, then rows are added. Repeated rows are common.
 template <typename Reduce>
 [[gnu::always_inline]] inline void AreaResize::run(const std::uint8_t* in, std::uint8_t* out,
                                                    Reduce reduce) const {

@@ -1,4 +1,4 @@
-// Area averaging as OpenCV's INTER_AREA does it, to the byte (docs/spec/environment.md, 15).
+// Area averaging as OpenCV's INTER_AREA, to the byte (docs/spec/environment.md, 15).
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 
 namespace racebeam {
 
-// One axis: target t is the sum of `taps` source cells from first[t] on, with weights[t * taps] and so on.
+// One axis: target t is the sum of `taps` source cells from first[t] on, weighted with weights[t * taps] and
+// so on.
 struct AreaAxis {
   AreaAxis(int cells, int targets);
 
@@ -20,24 +21,26 @@ struct AreaAxis {
   std::vector<float> weights;
 };
 
-// Makes planes of bytes smaller, row-major. Const once it is made: any number of threads can use it.
+// Reduces planes of bytes, in row-major order. Thread-safe after construction.
 class AreaResize {
  public:
   static constexpr std::size_t kWidest = 256;
 
-  // Throws std::invalid_argument when to_width is above kWidest, a size is not positive or is to
-  // grow, or the height is to shrink to less than a 29th.
+  // Throws std::invalid_argument if a size is not positive or would grow, if to_width is above kWidest, or if
+  // the height would shrink to less than a 29th.
   AreaResize(int width, int height, int to_width, int to_height, Simd form = simd());
 
-  // in: height x width bytes; out: to_height x to_width bytes. Nothing is allocated.
+  // in: height x width bytes; out: to_height x to_width bytes. Allocates nothing.
   void operator()(std::span<const std::uint8_t> in, std::span<std::uint8_t> out) const;
 
  private:
-  // Eight target columns, for AVX2: the source bytes of four and of four others lie within 16 each.
+  // Eight target columns for AVX2. The source bytes of the first four, and those of the others, are within 16
+  // bytes.
   struct Octet {
     std::array<std::size_t, 2> from;
-    std::vector<std::array<std::uint8_t, 32>> places;  // for each tap: which of the 16, as 32-bit numbers
-    std::vector<std::array<float, 8>> weights;         // for each tap
+    std::vector<std::array<std::uint8_t, 32>>
+        places;                                 // for each tap: indices into the 16 bytes, as 32-bit numbers
+    std::vector<std::array<float, 8>> weights;  // for each tap
   };
 
   bool fits_octets() const;
@@ -51,7 +54,7 @@ class AreaResize {
 
   std::size_t width_;
   AreaAxis columns_, rows_;
-  std::vector<Octet> octets_;  // empty: the plain form
+  std::vector<Octet> octets_;  // empty: the portable variant is used
 };
 
 }  // namespace racebeam

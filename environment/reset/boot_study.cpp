@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMostInstructions = 20000;
 constexpr std::array<std::string_view, 8> kPlainSchemes = {"2K", "4K", "F8", "F8 swapped", "F6", "F4", "E0", "MB"};
-constexpr unsigned kFirstHotSpot = 0xFC0;  // of all of these
+constexpr unsigned kFirstHotSpot = 0xFC0;  // the lowest of all schemes
 
 struct Unknown {};  // thrown where the study ends
 
@@ -103,7 +103,7 @@ class Study {
 
   const Console& console_;
   std::uint16_t pc_;
-  std::uint8_t a_ = 0, x_ = 0, y_ = 0, sp_ = 0xFF;  // as a reset of the chip leaves them
+  std::uint8_t a_ = 0, x_ = 0, y_ = 0, sp_ = 0xFF;  // as after a reset of the CPU
   std::optional<std::uint8_t> result_;              // for Z and N
   std::optional<bool> carry_;
   std::array<std::uint8_t, 128> ram_{};

@@ -1,5 +1,5 @@
-// What a program does first: does it overwrite all that a system reset leaves to chance before it looks at any of
-// it? Then a reset leads to the same state whatever that was (reset_cache.hpp).
+// Proves that a program overwrites everything that a system reset leaves to chance before it reads it. Then a
+// reset leads to the same state, whatever the random contents were (reset_cache.hpp).
 #pragma once
 
 #include "emulator/console.hpp"
@@ -12,10 +12,10 @@ struct BootFacts {
   bool sets_sound = false;  // all six registers
 };
 
-// Follows the program of a console that was just reset, without running it, for as long as everything that it
-// reads is known: its own bytes, and RAM that it has written. Stops, with what is proven by then, at the first read
-// of anything else, at an instruction that it does not know, and near a cartridge's hot spots. `scheme` is the
-// cartridge's; nothing is proven of those that do not show plain memory.
+// Follows the program of a console that was just reset, without running it. The study continues while
+// everything that the program reads is known: its own bytes, and RAM that it has written. It stops, with what
+// is proven so far, at the first read of anything else, at an unknown instruction, and near a cartridge's hot
+// spots. `scheme` is the cartridge's; nothing is proven for schemes that do not show plain memory.
 BootFacts study_boot(const Console& console, std::string_view scheme);
 
 }  // namespace racebeam

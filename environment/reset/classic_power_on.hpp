@@ -8,8 +8,8 @@
 
 namespace racebeam {
 
-// The generator's position is not part of a machine's state: a restored machine goes on where the generator
-// stands.
+// The generator's position is not part of a machine's state: a restored machine continues from the
+// generator's current position.
 class ClassicPowerOn : public PowerOn {
  public:
   explicit ClassicPowerOn(MersenneTwister& shared) : shared_(shared) {}
@@ -19,7 +19,7 @@ class ClassicPowerOn : public PowerOn {
     return static_cast<std::uint32_t>(shared_());
   }
 
-  // Once, when the image is loaded; resets leave it alone.
+  // Once, when the image is loaded; resets keep the contents.
   void fill_cartridge(std::span<std::uint8_t> ram, std::uint32_t&) override {
     if (filled_) return;
     filled_ = true;

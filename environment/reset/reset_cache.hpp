@@ -1,11 +1,11 @@
-// Resets as copies. A reset runs 60 to 100 frames from a machine that was just switched on, and these are the same
-// whenever they start from the same state. So the state they lead to is kept, with what it came from, and
-// copied when that comes again.
+// Resets as copies. A reset runs 60 to 100 frames from a machine that was just switched on. They are the same
+// whenever they start from the same state. The state at their end is therefore cached under the state at
+// their start.
 //
-// Where a reset starts differs by what the episode before left in RAM, by the timer, which is random, and by the
-// sound registers. Most programs overwrite these before they look at them; where that is proven (boot_study.hpp),
-// they are left out of the comparison. All the rest of the machine is compared byte for byte, so that a copy is
-// always what running would have given.
+// Starts differ in what the previous episode left in RAM, in the timer, which is random, and in the sound
+// registers. Most programs overwrite these before they read them. Where that is proven (boot_study.hpp), they
+// are left out of the comparison. The rest of the machine is compared byte for byte, so that a copy always
+// equals the result of running the reset.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +24,9 @@ namespace racebeam {
 struct Game;
 struct Image;
 
-// All that decides what a reset leads to.
+// Everything that decides the result of a reset.
 struct ResetStart {
-  std::shared_ptr<const Image> image;  // by identity
+  std::shared_ptr<const Image> image;  // compared by address
   std::shared_ptr<const Game> game;
   PaddleLimits limits;
   std::int32_t mode = 0, difficulty = 0;
@@ -42,22 +42,23 @@ struct ResetEnd {
   std::array<std::uint8_t, 6> sound{};
   Tally tally;
   PaddleValues paddles{};
-  std::uint32_t frames = 0;  // that were counted
+  std::uint32_t frames = 0;  // counted ones
   FrameBuffers pictures;
 };
 
 class ResetCache {
  public:
-  static constexpr std::size_t kMost = 128;  // ends; of each the two pictures are the most
+  static constexpr std::size_t kMost = 128;  // entries; the two pictures take most of their memory
 
   std::optional<ResetEnd> find(const ResetStart& start);
-  void keep(const ResetStart& start, const ResetEnd& end);  // in place of the one not used for longest
+  // Replaces the entry that was not used for longest.
+  void keep(const ResetStart& start, const ResetEnd& end);
   std::size_t size();
 
  private:
   struct Entry {
     std::uint64_t hash;
-    std::uint64_t used;  // when, in calls
+    std::uint64_t used;  // the number of the call that used it last
     ResetStart start;
     ResetEnd end;
   };
@@ -67,7 +68,7 @@ class ResetCache {
   std::vector<Entry> entries_;
 };
 
-// The cache that all machines of the process share. Can be called from any thread.
+// The cache of all machines of the process. Thread-safe.
 ResetCache& reset_cache();
 
 }  // namespace racebeam

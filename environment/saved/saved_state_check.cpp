@@ -24,13 +24,13 @@ void check_offered(const char* what, int number, const std::vector<int>& offered
 void check_strength(const Press& press) {
   if (!std::isfinite(press.strength))
     throw InvalidInput(
-        "the state is none that this machine can be in: the strength of a held action is no "
+        "invalid state: the strength of a held action is not a "
         "finite number");
 }
 
 }  // namespace
 
-// A held action may be any number: with paddles so may an agent's, and one that nobody has presses nothing.
+// A held action may be any number: with paddles an agent may send any, and an unknown one presses nothing.
 void check_play(const EpisodeState& play, const Game& game) {
   check_strength(play.held.a);
   check_strength(play.held.b);
@@ -40,13 +40,13 @@ void check_play(const EpisodeState& play, const Game& game) {
   check_offered("the mode", play.mode, game.offered_modes());
   if (play.difficulty != 0)
     check_offered("the difficulty", play.difficulty, game.difficulties);  // starts with 0
-  check_flag("the flag of an old RAM", play.ram_is_stale);
+  check_flag("the flag of outdated RAM", play.ram_is_stale);
 }
 
 void check_tally(const Tally& tally, const Game& game) {
   const std::size_t used = game.rule ? game.rule->variables.size() : 0;
   for (std::size_t i = used; i < tally.values.size(); ++i)
-    check_range("a variable that the rule has not", tally.values[i], 0, 0);
+    check_range("a variable that the rule does not have", tally.values[i], 0, 0);
 }
 
 void check_sound(const Sound& sound) {
@@ -54,12 +54,12 @@ void check_sound(const Sound& sound) {
     check_range("the divider of a sound channel", channel.divider, 0, kSlowestDivider);
 }
 
-// Words that are all zero would give zeros for ever.
+// A generator whose words are all zero would give zeros for ever.
 void check_generator(std::span<const std::uint32_t, MersenneTwister::state_size> words, std::uint32_t position) {
   check_range("the position of the generator", position, 0, MersenneTwister::state_size);
   if (std::ranges::all_of(words, [](std::uint32_t word) { return word == 0; }))
     throw InvalidInput(
-        "the state is none that this machine can be in: the words of its generator are all 0");
+        "invalid state: the words of the generator are all 0");
 }
 
 }  // namespace racebeam

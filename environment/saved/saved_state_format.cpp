@@ -17,14 +17,14 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "a state's bytes are the memory of its values");
 
 using Values = Environment::Saved::Values;
-using GeneratorWords = std::array<std::uint32_t, MersenneTwister::state_size + 1>;  // and the position in them
+using GeneratorWords = std::array<std::uint32_t, MersenneTwister::state_size + 1>;  // and the position
 
 struct Header {
   char magic[8];
   std::uint32_t version;
   std::uint32_t values_size;  // another compilation of the same version could differ
   std::uint32_t total_size;
-  std::uint32_t checksum;  // CRC-32 of all that follows the header
+  std::uint32_t checksum;  // CRC-32 of everything after the header
 };
 static_assert(sizeof(Header) == 24);
 
@@ -62,7 +62,7 @@ T take(std::span<const std::uint8_t>& bytes) {
   return value;
 }
 
-// The standard's only way to look into a generator is text.
+// The standard's only access to a generator's state is text.
 GeneratorWords words_of(const MersenneTwister& generator) {
   std::stringstream text;
   text << generator;
@@ -90,7 +90,7 @@ void check(const Header& header, std::size_t size) {
   }
   if (header.total_size != size) {
     refuse("the state has " + std::to_string(size) + " bytes instead of " +
-           std::to_string(header.total_size) + "; it was cut, or something was added");
+           std::to_string(header.total_size) + "; it was truncated, or bytes were added");
   }
 }
 
@@ -100,7 +100,7 @@ void check(const Prefix& prefix, std::size_t size, const Environment& environmen
     refuse("the state's pictures have " + std::to_string(prefix.height) +
            " rows; those of the console that runs have " + std::to_string(environment.height()));
   }
-  if (prefix.has_random > 1 || size != prefix.size_of_rest()) refuse("the state contradicts itself about its size");
+  if (prefix.has_random > 1 || size != prefix.size_of_rest()) refuse("the state's size contradicts its header");
 }
 
 void append_pixels(std::vector<std::uint8_t>& bytes, const FrameBuffer& picture, std::size_t size) {

@@ -60,7 +60,7 @@ GameImage read_image(const TomlSource& source, const toml::table& table) {
   in_range("ystart", image.properties.ystart, 0, kLastYStart);
   in_range("height", image.properties.height, kLeastHeight, kMostHeight);
   if (image.properties.ystart + image.properties.height > kPictureLines)
-    section.refuse(table, "height", "ystart and height must not be more than 300 lines together");
+    section.refuse(table, "height", "the sum of ystart and height must be at most 300 lines");
   if (table.contains("md5") && !is_md5(image.md5))
     section.refuse(*table.get("md5"), "md5", "must be 32 lower-case hexadecimal digits");
   return image;
@@ -95,7 +95,7 @@ void read_minimal(const Section& section, const toml::table& table, Game& game) 
 
 void read_facts(const TomlSource& source, const Section& section, const toml::table& table, Game& game) {
   game.title = section.text("title").value_or("");
-  if (game.title.empty()) section.refuse_missing("title", "a game needs this");
+  if (game.title.empty()) section.refuse_missing("title", "a game must have this key");
   game.images = read_images(source, section);
   game.legal_actions = read_actions(section, "legal", all_actions());
   read_minimal(section, table, game);
@@ -132,8 +132,8 @@ void read_answers(const Section& section, RuleCompiler& compiler) {
   section.compile("lives", [&](std::string_view source) { compiler.lives(source); });
 }
 
-// A variable that is set but never looked at is most likely a misspelt one.
-constexpr const char* kUseless = "nothing uses this variable's value from before a step";
+// A variable that is set but never read is most likely misspelt.
+constexpr const char* kUseless = "the step never reads this variable's previous value";
 
 void refuse_useless_reset(const Section& section, const toml::table& reset, const RuleCompiler& compiler) {
   for (const auto& [key, node] : reset)
@@ -155,9 +155,9 @@ std::optional<int> read_wraps(const Section& section) {
   return modulus;
 }
 
-// The mode program may look at variables of the rule, so that both are compiled together.
+// The mode program may read variables of the rule, so both are compiled together.
 void read_rule(const Section& section, const TomlSource& source, const Section* mode, Game& game) {
-  if (!section.node("step")) section.refuse_missing("step", "a rule needs this");
+  if (!section.node("step")) section.refuse_missing("step", "a rule must have this key");
   const toml::table none;
   const toml::table* reset = section.table("reset");
   if (!reset) reset = &none;
@@ -186,7 +186,7 @@ Correction read_correction(const Section& section, const toml::table& table) {
   const bool wraps_only = table.size() == 1 && correction.wraps;
   for (const char* key : {"reference", "correction", "evidence"})
     if (!wraps_only && section.text(key).value_or("").empty())
-      section.refuse_missing(key, "a correction that is more than 'wraps' needs this");
+      section.refuse_missing(key, "a correction that has more than 'wraps' must have this key");
   return correction;
 }
 
@@ -235,9 +235,9 @@ void read_rules(const TomlSource& source, const Section& section, Game& game) {
   const toml::table* const mode = section.table("mode");
   std::optional<Section> setup;
   if (mode) setup.emplace(source, *mode, "mode").allow({"setup"});
-  if (!rule && mode) section.refuse(*mode, "mode", "a mode program needs a [rule] beside it");
-  if (!rule && fixed) section.refuse(*fixed, "fixed", "a correction needs a [rule] beside it");
-  if (!rule && classic) section.refuse(*classic, "classic", "what was different needs a [rule] beside it");
+  if (!rule && mode) section.refuse(*mode, "mode", "a mode program requires a [rule]");
+  if (!rule && fixed) section.refuse(*fixed, "fixed", "a correction requires a [rule]");
+  if (!rule && classic) section.refuse(*classic, "classic", "a classic rule requires a [rule]");
   if (!rule) return;
   const Section rule_section(source, *rule, "rule");
   rule_section.allow({"step", "reset", "keep", "terminal", "lives", "wraps", "source"});

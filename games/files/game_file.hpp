@@ -1,4 +1,4 @@
-// Reads a game file (games/catalogue/README.md says what is in one).
+// Reads a game file (games/catalogue/README.md describes the format).
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace racebeam {
 
-// `file` is how errors call it. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
+// `file` is the name for errors. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 Game parse_game(std::string_view text, const std::string& name, const std::string& file);
 
 }  // namespace racebeam

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMaxRepeat = 100000;
 
-// "12" and such; nothing for anything else.
+// A number in decimal digits, such as "12"; nothing for any other text.
 std::optional<int> whole_number(std::string_view text) {
   int value = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -51,7 +51,7 @@ void add_numbers(const Section& section, std::string_view key, const toml::node&
                    "must be numbers from 0 to " + std::to_string(largest) + ", or ranges such as \"0-7\"");
   for (int n = *first; n <= *last; ++n) {
     if (std::find(numbers.begin(), numbers.end(), n) != numbers.end())
-      section.refuse(node, key, std::to_string(n) + " is there twice");
+      section.refuse(node, key, std::to_string(n) + " is listed twice");
     numbers.push_back(n);
   }
 }
@@ -66,7 +66,7 @@ std::vector<int> read_actions(const Section& section, std::string_view key, std:
   std::sort(actions.begin(), actions.end());
   const auto twice = std::adjacent_find(actions.begin(), actions.end());
   if (twice != actions.end())
-    section.refuse(*list, key, std::string(action_name(*twice)) + " is there twice");
+    section.refuse(*list, key, std::string(action_name(*twice)) + " is listed twice");
   if (actions.empty()) section.refuse(*list, key, "must not be empty");
   return actions;
 }

@@ -11,7 +11,7 @@ namespace racebeam {
 // Names of player A's actions, as ascending numbers; `otherwise` if the key is absent.
 std::vector<int> read_actions(const Section& section, std::string_view key, std::vector<int> otherwise);
 
-// "FIRE", "NOOP 60", ...: one number a frame.
+// From "FIRE", "NOOP 60" and so on: one number for each frame.
 std::vector<int> read_starting_actions(const Section& section, std::string_view key);
 
 // Numbers and ranges "0-7", none above `largest`; 0 alone if the key is absent.

@@ -1,10 +1,10 @@
-// toml++, which reads our files, without two faults of its version 3.3. Some of its assertions don't hold for texts that
-// it refuses right after them, such as "[[.": without this, they would end a build that has assertions, and a compiler
-// may take for granted what the others say. And its tables of letters take some letters beyond ASCII for impossible
-// where a text may have them: here they are no blanks, no digits, and nothing else that is asked for.
+// Includes toml++ without two faults of its version 3.3. Some of its assertions do not hold for texts that it
+// refuses right after them, such as "[[.". They would end a build that has assertions, and otherwise let the
+// compiler assume what is false. Its tables of letters also treat some letters beyond ASCII as impossible
+// that a text may have. Here they are neither blanks nor digits, nor anything else.
 #pragma once
 
-#include <cstdint>  // which the tables forget
+#include <cstdint>  // the tables need it
 
 #pragma push_macro("NDEBUG")
 #undef NDEBUG

@@ -44,7 +44,7 @@ void Section::allow(std::initializer_list<std::string_view> keys) const {
   for (const auto& [key, node] : table_)
     if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
       source_.refuse(line_of(key.source()), field(key.str()),
-                     "there is no such key here; there are " + joined({keys.begin(), keys.end()}));
+                     "unknown key; accepted are " + joined({keys.begin(), keys.end()}));
 }
 
 std::string Section::field(std::string_view key) const {
@@ -98,7 +98,7 @@ std::optional<int> Section::choice(std::string_view key, const std::vector<std::
   if (!word) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *word);
   if (found == words.end())
-    refuse(*node(key), key, quoted(*word) + " is not known; there are " + joined(words));
+    refuse(*node(key), key, quoted(*word) + " is not known; accepted are " + joined(words));
   return static_cast<int>(found - words.begin());
 }
 
@@ -106,7 +106,7 @@ void Section::guard(const toml::node& at, std::string_view key, const std::funct
   try {
     work();
   } catch (const SourceError&) {
-    throw;  // knows its line better
+    throw;  // it knows the line more exactly
   } catch (const InvalidInput& error) {
     refuse(at, key, error.what());
   }
@@ -123,7 +123,7 @@ void Section::compile(std::string_view key, const std::function<void(std::string
   }
 }
 
-// TOML drops a line end right after the opening ''' or """: the text then starts on the next line.
+// TOML drops a line end right after the opening ''' or """. The text then starts on the next line.
 int Section::first_line(const toml::node& text) const {
   const int line = line_of(text.source());
   std::size_t at = 0;

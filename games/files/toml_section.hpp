@@ -1,4 +1,4 @@
-// Reads one table of a game file, with errors that a person can act on: "FILE:LINE: FIELD: sentence".
+// Reads one table of a game file, with errors that say what to change: "FILE:LINE: FIELD: sentence".
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace racebeam {
 
-// A file's text and how errors call it; outlives its sections.
+// The text of a file, and its name for errors. It must outlive its sections.
 struct TomlSource {
   std::string_view text;
   std::string file;
@@ -25,7 +25,7 @@ toml::table parse_toml(const TomlSource& source);
 
 class Section {
  public:
-  // `path` is "" for the whole file. What `table` hasn't got is looked for in `base`, if there is one.
+  // path: "" for the whole file. base: a table for keys that `table` lacks, or null.
   Section(const TomlSource& source, const toml::table& table, std::string path,
           const toml::table* base = nullptr);
 
@@ -33,20 +33,20 @@ class Section {
 
   const toml::node* node(std::string_view key) const;  // null if the key is absent
 
-  // Nothing if the key is absent; refused if it is something else.
+  // Each returns nothing if the key is absent, and refuses another type.
   std::optional<std::string> text(std::string_view key) const;
   std::optional<int> number(std::string_view key) const;
   std::optional<bool> flag(std::string_view key) const;
   const toml::array* list(std::string_view key) const;
   const toml::table* table(std::string_view key) const;
 
-  // Hands the text of `key` to a compiler; its errors name the line within the text.
+  // Passes the text of `key` to a compiler, whose errors name the line within the text.
   void compile(std::string_view key, const std::function<void(std::string_view)>& compiler) const;
 
-  // Runs `work`; its InvalidInput is refused as an error of this key.
+  // Runs `work`, and refuses its InvalidInput as an error of this key.
   void guard(const toml::node& at, std::string_view key, const std::function<void()>& work) const;
 
-  // One of a list of words, by its number.
+  // A word of a list, by its index.
   std::optional<int> choice(std::string_view key, const std::vector<std::string>& words) const;
 
   [[noreturn]] void refuse(const toml::node& at, std::string_view key, const std::string& sentence) const;

@@ -1,4 +1,4 @@
-// The names and numbers of what an agent can do (docs/spec/environment.md, 1).
+// The names and numbers of an agent's actions (docs/spec/environment.md, 1).
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What is known about one game: images, actions, modes, and the rule that turns memory into reward.
+// A game's facts: images, actions, modes, and the rule that turns memory into reward.
 #pragma once
 
 #include <memory>
@@ -15,17 +15,17 @@ namespace racebeam {
 
 struct GameImage {
   std::string md5;        // lower-case hex; empty: any image
-  Properties properties;  // what the console is told about this image
-  bool accepted = true;   // false: another dump, known but not recognised as this game by its MD5
+  Properties properties;  // what the console must know about this image
+  bool accepted = true;   // false: another dump; it is not recognised as this game by its MD5
 };
 
-// Whose rule it is that a game file's [rule] states.
+// The origin of the rule in a game file's [rule].
 enum class RuleSource { kAle012, kRacebeam };
 
-// What is wrong with the reference's rule, and what --rules fixed does about it ([fixed] in a game file).
+// A known error of the reference's rule, and its correction by --rules fixed ([fixed] in a game file).
 struct Correction {
-  std::optional<int> wraps;  // rewards are counted across the score's wrap at this number
-  std::string reference, correction, evidence;  // sentences for people; empty if `wraps` says it all
+  std::optional<int> wraps;                     // rewards are counted across the score's wrap at this number
+  std::string reference, correction, evidence;  // for the documents; empty if `wraps` says it all
 };
 
 struct Game {
@@ -42,28 +42,28 @@ struct Game {
   int default_mode = 0;
   std::vector<int> difficulties{
       0};               // bit 0: left switch A; bit 1: right switch A. An environment starts with 0
-  int paddle_max = -1;  // a wider paddle than usual; -1: the usual
+  int paddle_max = -1;  // a wider range of the paddles than usual; -1: the usual one
 
   std::optional<RuleProgram> rule;
   RuleSource rule_source = RuleSource::kAle012;
   ModeProgram mode_program;
 
-  // The same game as ALE 0.6 had it, for classic sessions; null where it was no different.
+  // The same game as in ALE 0.6, for classic sessions; null where it was no different.
   std::shared_ptr<const Game> classic;
 
-  // The same game with the corrected rule; null where nothing is known to be wrong. `correction` is set with it.
+  // The same game with the corrected rule; null if no error is known. `correction` is set with it.
   std::shared_ptr<const Game> fixed;
-  bool is_fixed = false;  // this is such a game itself
+  bool is_fixed = false;  // whether this is a corrected game itself
   Correction correction;
 
   bool has_rule() const { return rule.has_value(); }
   bool has_second_reward() const { return rule && rule->reward_b; }
-  std::vector<int> offered_modes() const;  // modes and two_player_modes, ascending
-  bool accepts(const std::string& md5) const;  // the rule was written for this image
+  std::vector<int> offered_modes() const;      // modes and two_player_modes, ascending
+  bool accepts(const std::string& md5) const;  // whether the rule was written for this image
   Properties properties_for(const std::string& md5) const;
 };
 
-// The game of an image that nobody knows: no score, all actions, both difficulty switches.
+// The game of an unknown image: no score, all actions, both difficulty switches.
 Game game_without_rule(const std::string& name);
 
 }  // namespace racebeam

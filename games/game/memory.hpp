@@ -1,4 +1,4 @@
-// What a rule may look at: the console's memory, without any effect on it.
+// The console's memory as a rule reads it, without side effects.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ struct Memory {
   const std::uint8_t* ram = nullptr;  // the 128 bytes at $80-$FF
   std::uint8_t (*peek)(const void* machine,
                        std::uint16_t address) = nullptr;  // any 13-bit address; may be null
-  const void* machine = nullptr;                          // handed to peek
+  const void* machine = nullptr;                          // passed to peek
 };
 
 }  // namespace racebeam

@@ -35,12 +35,12 @@ class Runner {
 
   void loop(const Statement& statement) {
     while (value(statement) != 0) {
-      if (++turns_ > kModeTurns) give_up("the console did not get there");
+      if (++turns_ > kModeTurns) give_up("the console did not reach the mode");
       run(statement.body);
     }
   }
 
-  // The rule's variables change between statements, as frames pass.
+  // The rule's variables change between statements, because frames pass.
   std::int32_t value(const Statement& statement) {
     std::ranges::copy(rule_.tally().values, variables_.begin());
     if (statement.draws) variables_[kRandomSlot] = static_cast<std::int32_t>(host_.random());

@@ -1,5 +1,4 @@
-// How a game variation is put in place during a reset: SELECT presses, waits and checks
-// (docs/spec/games/README.md, 3).
+// Selects a game variation during a reset: SELECT presses, waits and checks (docs/spec/games/README.md, 3).
 #pragma once
 
 #include <cstdint>
@@ -13,13 +12,13 @@ namespace racebeam {
 
 struct Game;
 
-// The machine and its environment, as a mode program sees them.
+// The machine and its environment, as a mode program uses them.
 struct ModeHost {
   virtual ~ModeHost() = default;
   virtual Memory memory() = 0;
-  virtual void select(int frames) = 0;          // hold SELECT so long, then one frame with nothing pressed
-  virtual void act(int action, int count) = 0;  // so many environment actions of player A
-  virtual void soft_reset() = 0;                // press RESET
+  virtual void select(int frames) = 0;          // holds SELECT for `frames`, then nothing for one frame
+  virtual void act(int action, int count) = 0;  // repeats an action of player A
+  virtual void soft_reset() = 0;                // presses RESET
   virtual std::uint32_t random() = 0;           // one draw of the environment's generator
 };
 
@@ -42,11 +41,11 @@ struct ModeProgram {
   std::vector<Statement> statements;
 };
 
-// Of all loops of one run. The games of the catalogue take 683 at most (video_cube), so that more means that the image is not
-// the one the program was written for.
+// The most iterations of all loops in one run. The games of the catalogue take 683 at most (video_cube). A
+// program that takes more was not written for the image.
 constexpr int kModeTurns = 1000;
 
-// Puts `mode` in place. Throws InvalidInput when that can't be done with the image that is running.
+// Selects `mode`. Throws InvalidInput if the running image does not reach it.
 void run_mode_program(const Game& game, Rule& rule, int mode, ModeHost& host);
 
 }  // namespace racebeam

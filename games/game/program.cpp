@@ -10,7 +10,7 @@ constexpr std::uint16_t kBusMask = 0x1FFF;  // the 6507 has thirteen address lin
 std::uint32_t bits(std::int32_t value) { return static_cast<std::uint32_t>(value); }
 std::int32_t wrapped(std::uint32_t value) { return static_cast<std::int32_t>(value); }
 
-// Lowest / -1 doesn't fit; it wraps to itself.
+// The lowest number / -1 does not fit: it wraps to itself.
 std::int32_t quotient(std::int32_t a, std::int32_t b) {
   if (b == 0) return 0;
   return b == -1 ? wrapped(0u - bits(a)) : a / b;
@@ -23,7 +23,7 @@ std::uint8_t peek(const Memory& memory, std::int32_t address) {
                      : std::uint8_t{0};
 }
 
-// The value of one instruction, given those before it.
+// The value of one instruction, from those before it.
 inline std::int32_t value_of(const Instruction& in, const std::int32_t* values, const std::int32_t* variables,
                              const Memory& memory) {
   const auto a = [&] { return values[in.a]; };
@@ -66,7 +66,7 @@ inline std::int32_t value_of(const Instruction& in, const std::int32_t* values, 
   return 0;
 }
 
-// Every value is written before it is read, since operands have lower numbers.
+// Every value is written before it is read, because operands have lower numbers.
 using Values = std::array<std::int32_t, kMaxInstructions>;
 
 void run(const Program& program, Values& values, const std::int32_t* variables, const Memory& memory) {

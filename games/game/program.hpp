@@ -1,5 +1,5 @@
-// Compiled expressions: straight-line code in which instruction n gives value n. No loops, so it always ends;
-// nothing is allocated when it runs.
+// Compiled expressions: straight-line code in which instruction n gives value n. Without loops, it always
+// ends. Executing it allocates nothing.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace racebeam {
 
-constexpr int kMaxVariables = 16;       // of a rule: what lives from frame to frame
+constexpr int kMaxVariables = 16;       // of a rule: what persists from frame to frame
 constexpr int kMaxInstructions = 2048;  // of one program
 
 enum class Op : std::uint8_t {
@@ -69,14 +69,14 @@ struct Program {
   Register result = 0;  // of an expression
 };
 
-// What `op` makes of its operands; 32-bit two's complement, wrapping. Dividing by 0 gives 0, as does its
-// remainder; shifts use the low five bits of the count. Loads are not for this function.
+// Applies an operator in 32-bit two's complement, which wraps. A division by 0 gives 0, and so does its
+// remainder. Shifts use the low five bits of the count. Not for loads.
 std::int32_t apply(Op op, std::int32_t a, std::int32_t b, std::int32_t c);
 
-// Runs the program of an expression. The value of its result.
+// Executes the program of an expression. Returns its result.
 std::int32_t evaluate(const Program& program, const std::int32_t* variables, const Memory& memory);
 
-// Runs the program and stores its outputs.
+// Executes the program and stores its outputs.
 void execute(const Program& program, std::int32_t* variables, const Memory& memory);
 
 }  // namespace racebeam

@@ -7,7 +7,7 @@
 
 namespace racebeam {
 
-static_assert(std::has_unique_object_representations_v<Tally>);  // so that comparing it is a memcmp
+static_assert(std::has_unique_object_representations_v<Tally>);  // so that it can be compared with memcmp
 
 Rule::Rule(const Game& game) : program_(game.rule ? &*game.rule : nullptr) { reset(); }
 

@@ -1,4 +1,4 @@
-// A game's running tally: reward, end and lives, brought up to date after every frame.
+// The state of a game's rule: reward, end and lives, updated after every frame.
 #pragma once
 
 #include <array>
@@ -16,25 +16,25 @@ struct Game;
 
 constexpr int kRewardSlot = 0, kTerminalSlot = 1;  // the variables that every rule has
 
-// All that a rule remembers from frame to frame. One trivially copyable value, so that saving it is a copy.
+// All that a rule remembers from frame to frame. Trivially copyable, so that saving it is a copy.
 struct Tally {
   std::array<std::int32_t, kMaxVariables> values{};
   bool operator==(const Tally&) const = default;
 };
 
-// One thing that a rule remembers.
+// A variable that a rule remembers.
 struct Variable {
   std::string name;
   std::int32_t initial = 0;  // after a reset
-  bool kept = false;         // a reset leaves it alone; 0 before it is first assigned
+  bool kept = false;         // it persists over resets; 0 before its first assignment
 };
 
 // The rule of a game file, compiled.
 struct RuleProgram {
   std::vector<Variable> variables;  // variable n is Tally::values[n]
   Program step;
-  Program terminal, lives;  // what is answered; they look at variables only
-  std::optional<int> reward_b;  // the variable that is player B's reward, if the rule knows one
+  Program terminal, lives;      // for queries; they read variables only
+  std::optional<int> reward_b;  // the variable with player B's reward, if the rule has one
 };
 
 class Rule {
@@ -44,14 +44,14 @@ class Rule {
   void reset();                     // a new episode
   void step(const Memory& memory);  // after a frame
 
-  // A game without a rule answers 0, false and 0.
+  // A game without a rule returns 0, false and 0.
   int reward() const;    // player A's, of the last frame
   int reward_b() const;  // player B's; 0 if the rule has no second player
   bool terminal() const;
   int lives() const;
-  int initial_lives() const;  // what lives() answers right after a reset: what "loss of life" compares with
+  int initial_lives() const;  // lives() right after a reset; "loss of life" is relative to it
 
-  bool keeps_variables() const;  // what they hold outlives a reset
+  bool keeps_variables() const;  // whether a variable persists over resets
 
   const Tally& tally() const { return tally_; }
   void restore(const Tally& tally) { tally_ = tally; }

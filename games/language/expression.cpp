@@ -46,8 +46,8 @@ constexpr std::array kFunctions = {Function{"if", 3, Op::kSelect}, Function{"min
                                    Function{"u8", 1, Op::kUnsigned8}};
 
 constexpr int kFirstRamAddress = 0x80, kLastRamAddress = 0xFF;
-constexpr int kDeepest = 500;  // levels of operators and parentheses, so that no text can exhaust the stack
-constexpr int kMaxSumTerms = 4096;  // of one expression, in all
+constexpr int kDeepest = 500;       // levels of operators and parentheses, so that no text can exhaust the stack
+constexpr int kMaxSumTerms = 4096;  // of one expression, in total
 
 class Compiler {
  public:
@@ -145,8 +145,8 @@ class Compiler {
     if (in_.is("sum")) return sum();
     if (in_.is("prev")) return previous();
     if (in_.is("rng")) return random();
-    in_.refuse("there is no function " + described(in_.peek()) +
-               "; there are bcd, wrap, prev, if, min, max, s8, u8 and sum");
+    in_.refuse("unknown function " + described(in_.peek()) +
+               "; accepted are bcd, wrap, prev, if, min, max, s8, u8 and sum");
   }
 
   Register plain_call(const Function& function) {
@@ -198,7 +198,7 @@ class Compiler {
   Register bcd_byte() { return emit({.op = Op::kBcd, .a = ram(expression())}); }
 
   Register previous() {
-    if (scope_.purpose != Purpose::kStep) in_.refuse("prev() belongs in 'step'");
+    if (scope_.purpose != Purpose::kStep) in_.refuse("prev() is only accepted in 'step'");
     enter_call();
     const std::string_view wanted = variable_name();
     leave_call("prev");
@@ -206,7 +206,7 @@ class Compiler {
   }
 
   Register random() {
-    if (scope_.purpose != Purpose::kMode) in_.refuse("rng() belongs in a mode program");
+    if (scope_.purpose != Purpose::kMode) in_.refuse("rng() is only accepted in a mode program");
     if (std::exchange(scope_.draws, true)) in_.refuse("rng() can be used once in an expression");
     enter_call();
     leave_call("rng");

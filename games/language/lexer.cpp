@@ -67,7 +67,7 @@ class Lexer {
     add(kind, length);
   }
 
-  // Hexadecimal numbers may fill all 32 bits; decimal ones must be representable.
+  // Hexadecimal numbers may use all 32 bits; decimal ones must be representable.
   void number() {
     word(Kind::kNumber);
     Token& token = tokens_.back();
@@ -96,7 +96,7 @@ class Lexer {
 
   std::string_view rest_;
   int line_ = 1;
-  int open_ = 0;  // parentheses and brackets that are not closed yet
+  int open_ = 0;  // open parentheses and brackets
   std::vector<Token> tokens_;
 };
 

@@ -1,4 +1,4 @@
-// Words of the rule language, each with its place in the text.
+// The tokens of the rule language, each with its position in the text.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace racebeam {
 
-// What is wrong with a piece of a rule, and on which of its lines (from 1).
+// An error in a part of a rule, with its line in the text (from 1).
 struct SourceError : InvalidInput {
   SourceError(int at, const std::string& sentence) : InvalidInput(sentence), line(at) {}
   int line;
@@ -20,15 +20,15 @@ struct SourceError : InvalidInput {
 struct Token {
   enum class Kind { kName, kNumber, kText, kSymbol, kLineEnd, kEnd };
   Kind kind;
-  std::string_view text;  // of the source, which must live as long; kText: without the quotes
+  std::string_view text;  // of the source, which must outlive it; kText: without the quotes
   int line;
   std::int32_t value = 0;  // kNumber
 };
 
-// The tokens of `source`, the last one kEnd. Line ends inside ( and [ are left out, as are comments.
+// The tokens of `source`; the last one is kEnd. Comments, and line ends inside ( and [, are left out.
 std::vector<Token> tokens_of(std::string_view source);
 
-// A place among tokens, and the questions that a parser asks there.
+// A position among tokens, and the queries of a parser there.
 class TokenReader {
  public:
   explicit TokenReader(const std::vector<Token>& tokens) : at_(tokens.data()) {}
@@ -40,10 +40,10 @@ class TokenReader {
   bool accept(std::string_view symbol_or_name);
   void expect(std::string_view symbol, std::string_view where);
   void skip_separators();                                       // line ends and ';'
-  void expect_separator();                                      // or a '}' or the end, which stay
-  [[noreturn]] void refuse(const std::string& sentence) const;  // at the token that comes next
+  void expect_separator();                                      // or a '}' or the end, which are not consumed
+  [[noreturn]] void refuse(const std::string& sentence) const;  // at the next token
 
-  const Token* place() const { return at_; }  // to parse a piece again
+  const Token* place() const { return at_; }  // to parse a part again
   void go_to(const Token* place) { at_ = place; }
 
  private:
@@ -51,6 +51,6 @@ class TokenReader {
 };
 
 std::string quoted(std::string_view text);  // 'text'
-std::string described(const Token& token);  // for an error: 'lives', the end of the line, ...
+std::string described(const Token& token);  // as errors name it: 'lives', the end of the line, ...
 
 }  // namespace racebeam

@@ -8,7 +8,7 @@
 
 namespace racebeam {
 
-// `names` are the variables of the game's rule. Throws SourceError.
+// names: the variables of the game's rule. Throws SourceError.
 ModeProgram compile_mode_program(std::string_view source, VariableNames& names);
 
 }  // namespace racebeam

@@ -14,7 +14,7 @@ std::size_t operand_count(Op op) {
   return op < Op::kSelect ? 2 : 3;
 }
 
-// Those in use.
+// The operands that the instruction uses.
 std::vector<Register*> operands(Instruction& instruction) {
   std::vector<Register*> list = {&instruction.a, &instruction.b, &instruction.c};
   list.resize(operand_count(instruction.op));
@@ -58,7 +58,7 @@ Program ProgramBuilder::finish(Register result) {
   return std::exchange(program_, {});
 }
 
-// Constants that were folded away, addresses above all, are still there.
+// Removes constants that were folded away, addresses above all.
 void ProgramBuilder::drop_unused() {
   const std::vector<bool> used = used_code();
   std::vector<Register> moved(used.size());
@@ -74,7 +74,7 @@ void ProgramBuilder::drop_unused() {
   program_.code = std::move(kept);
 }
 
-// Operands have lower numbers than what they are used by.
+// Operands have lower numbers than the instructions that use them.
 std::vector<bool> ProgramBuilder::used_code() {
   std::vector<bool> used(program_.code.size());
   for (const Output& output : program_.outputs) used[output.from] = true;

@@ -1,4 +1,4 @@
-// Puts a program together: folds what is constant and never computes the same thing twice.
+// Builds a program: folds constants, and never computes the same value twice.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@ class ProgramBuilder {
  public:
   Register constant(std::int32_t value) { return emit({.op = Op::kConstant, .value = value}); }
   Register variable(int slot) { return emit({.op = Op::kVariable, .value = slot}); }
-  Register emit(const Instruction& instruction);  // throws std::length_error when the program gets too long
+  Register emit(const Instruction& instruction);  // throws std::length_error if the program gets too long
 
   std::optional<std::int32_t> constant_value(Register from) const;
   void output(int slot, Register from) { program_.outputs.push_back({slot, from}); }

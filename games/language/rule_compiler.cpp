@@ -35,8 +35,8 @@ void RuleCompiler::step(std::string_view source) {
   if (!assigns("reward_b") && assigns("score_b")) imply_reward("reward_b", "score_b");
 }
 
-// All names that the step assigns may be read anywhere in it: before their assignment they have the value of
-// the frame before.
+// All names that the step assigns may be read anywhere in it. Before their assignment, they have the value of
+// the previous frame.
 void RuleCompiler::declare_assigned(TokenReader reader) {
   for (; !reader.at_end(); reader.next())
     if (starts_assignment(reader)) declare(names_, reader.peek());

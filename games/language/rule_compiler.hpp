@@ -1,5 +1,5 @@
 // Compiles the texts of a game file's rule and mode program. Call in this order: wraps, reset_to and keep,
-// step, terminal, lives, mode_program, finish. Throws SourceError, with the line of the text, and
+// step, terminal, lives, mode_program, finish. Throws SourceError, with the line in the text, and
 // InvalidInput.
 #pragma once
 
@@ -17,7 +17,8 @@ namespace racebeam {
 
 class RuleCompiler {
  public:
-  // Scores start again at 0 when they reach `modulus`: rewards that a score implies take note of it.
+  // Scores start again at 0 when they reach `modulus`. Rewards that follow from a score take that into
+  // account.
   void wraps(std::int32_t modulus) { modulus_ = modulus; }
 
   void reset_to(std::string_view variable, std::int32_t initial) { names_.reset_to(variable, initial); }

@@ -1,6 +1,5 @@
-// The variables of one game's rule. A variable gets its place in the tally when something first asks for the
-// value that it had before the step; names that nobody asks for in this way are temporaries of the step and
-// take no place.
+// The variables of one game's rule. A variable gets a slot in the tally when its value from before the step
+// is first read. Other names are temporaries of the step, without a slot.
 #pragma once
 
 #include <map>
@@ -17,14 +16,14 @@ class VariableNames {
  public:
   VariableNames();  // with reward and terminal, in their slots
 
-  // Throws InvalidInput for a word that the language needs itself, or that is no name.
+  // Throws InvalidInput if it is a word of the language, or no valid name.
   void declare(std::string_view name);
   void reset_to(std::string_view name, std::int32_t initial);
   void keep(std::string_view name);
 
   bool knows(std::string_view name) const { return all_.find(name) != all_.end(); }
   int slot(std::string_view
-               name);  // of a name that is known; throws InvalidInput when there are too many
+               name);  // of a known name; throws InvalidInput if there are too many
   std::optional<int> slot_if_used(std::string_view name) const;
   std::vector<Variable> variables() const;  // in order of slots
 

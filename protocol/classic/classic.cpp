@@ -8,12 +8,12 @@
 namespace racebeam {
 namespace {
 
-// One read of the classic server takes at most so much of a line; a longer line is seen as two.
+// The classic server reads at most this much of a line at once; it takes a longer line as two.
 constexpr std::size_t kLongestFlags = 1023, kLongestAction = 2047;
 
-constexpr float kStrength = 1;  // of turning a paddle
+constexpr float kStrength = 1;  // how far a paddle turns
 
-// What player A can ask for beside the 18 actions.
+// What player A can request besides the 18 actions.
 enum Special { kSaveState = 43, kLoadState = 44, kSystemReset = 45 };
 
 bool is_player_a(int a) { return a >= 0 && a < kActions; }
@@ -63,15 +63,15 @@ std::string_view ClassicSession::answer(std::string_view line) {
   return data_line();
 }
 
-// A last line without LF is carried out, but its answer is not sent. The classic server then runs one more
-// act, which only a recording shows.
+// A last line without LF is executed, but its reply is not sent. The classic server then runs one more act,
+// which only a recording shows.
 std::string_view ClassicSession::last_words() {
   if (!input_.rest().empty()) answer(input_.rest());
   if (options_.record) recorded_act(0, kActions);
   return die();
 }
 
-// screen, RAM, a frame skip of old that is ignored, episode
+// The flags: screen, RAM, an old frame skip that is ignored, episode.
 void ClassicSession::take_flags(std::string_view line) {
   std::array<int, 4> flags{};
   require(parse_integers(line, flags), flags.size(), "a line of four flags, such as 1,1,0,1,");
@@ -94,8 +94,8 @@ void ClassicSession::take_action(std::string_view line) {
   }
 }
 
-// What is not an action presses nothing where the classic server let it pass: with paddles, and after the
-// end. Player B's is never refused, since old clients send 0 or 45 there and mean "nothing". Both paddles
+// A number that is no action presses nothing where the classic server accepted it: with paddles, and after
+// the end. Player B's is never refused, because old clients send 0 or 45 there for "nothing". Both paddles
 // turn with full strength.
 void ClassicSession::act(int a, int b) {
   const bool accepted = is_player_a(a) || a == kResetAction || paddles_ || environment_.game_over();
@@ -109,8 +109,8 @@ void ClassicSession::act(int a, int b) {
   frames_ += environment_.frame_number() - before;
 }
 
-// The screen is recorded before each frame of the act, and again for those that the end of the episode leaves
-// out.
+// The screen is recorded before each frame of the act, and again for frames that are skipped because the
+// episode has ended.
 int ClassicSession::recorded_act(int a, int b) {
   if (!options_.record) return environment_.act(a, b, kStrength, kStrength);
   int missing = std::max(environment_.settings().frame_skip, 1);
@@ -125,7 +125,7 @@ int ClassicSession::recorded_act(int a, int b) {
   return reward;
 }
 
-// The stack keeps the newest states.
+// A stack: the newest states are kept.
 void ClassicSession::save_state() {
   if (saved_.size() == kMostClassicStates) saved_.pop_front();
   saved_.push_back(environment_.save_classic());
@@ -134,7 +134,7 @@ void ClassicSession::save_state() {
 void ClassicSession::load_state() {
   if (saved_.empty()) {
     throw ClassicError(kMalformedStatus,
-                       "the client loads a state (44), but has not saved one (43) that is left; the newest " +
+                       "the client loads a state (44), but none that it saved (43) is left; the newest " +
                            std::to_string(kMostClassicStates) + " are kept");
   }
   environment_.restore_classic(*saved_.back());

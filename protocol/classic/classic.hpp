@@ -1,5 +1,5 @@
 // One session of the text protocol of ALE 0.4 to 0.6 (docs/spec/classic-protocol.md; for clients:
-// protocol/CLASSIC.md). It has never heard of files and sockets: bytes go in, lines of text come out.
+// protocol/CLASSIC.md). It knows no files and no sockets: bytes go in, lines of text come out.
 #pragma once
 
 #include <deque>
@@ -17,45 +17,47 @@
 
 namespace racebeam {
 
-// What a client sent makes no sense; the session is over.
+// The client sent an invalid line; the session is over.
 class ClassicError : public std::runtime_error {
  public:
   ClassicError(int status, const std::string& sentence) : std::runtime_error(sentence), status_(status) {}
-  int status() const { return status_; }  // of the process, when the session is all it does
+  int status() const { return status_; }  // of the process, if it serves this session only
 
  private:
   int status_;
 };
 
-constexpr int kMalformedStatus = 1;        // the classic server crashes
+constexpr int kMalformedStatus = 1;        // where the classic server crashes
 constexpr int kUnknownActionStatus = 255;  // as the classic server
 
 struct ClassicOptions {
-  bool run_length = true;  // how a screen is written
+  bool run_length = true;  // whether screens are written in run lengths
   int max_num_frames = 0;  // frames since the start after which DIE is sent; 0: no limit
-  // Called before each frame of an act, run or not, to record the screen; empty: nothing is recorded.
+  // Called before each frame of an act, even if it is skipped, to record the screen. Empty: nothing is
+  // recorded.
   std::function<void(const Environment&)> record = {};
 };
 
-// A save at each action of an episode of 18,000 frames with a frame skip of 5 fits; see protocol/CLASSIC.md.
+// Enough to save at each action of an episode of 18,000 frames with a frame skip of 5; see
+// protocol/CLASSIC.md.
 constexpr std::size_t kMostClassicStates = 4096;
 
 class ClassicSession {
  public:
   ClassicSession(Environment& environment, const ClassicOptions& options);
 
-  // The next text to send, good until the next call; nothing if more input is needed first.
-  // Throws ClassicError.
+  // Returns the next text to send, or nothing if more input is needed first. The text is valid until the next
+  // call. Throws ClassicError.
   std::optional<std::string_view> reply();
-  bool ended() const { return stage_ == Stage::kEnded; }  // once what reply() has given is sent
+  bool ended() const { return stage_ == Stage::kEnded; }  // after the last text of reply() is sent
 
   std::size_t saved_states() const { return saved_.size(); }
-  void forget_oldest_state() { saved_.pop_front(); }  // there is one
+  void forget_oldest_state() { saved_.pop_front(); }  // there must be one
 
-  int take_frames() { return std::exchange(frames_, 0); }  // that were run since it was asked last
+  int take_frames() { return std::exchange(frames_, 0); }  // frames that were run since the last call
 
   std::span<char> space() { return input_.space(); }  // where input goes
-  void received(std::size_t count);                   // so much came; 0: the client has closed its end
+  void received(std::size_t count);  // this many bytes were added; 0: the client has closed its end
 
  private:
   enum class Stage { kDimensions, kFlags, kPlaying, kEnded };
@@ -82,7 +84,7 @@ class ClassicSession {
   int reward_ = 0;  // of the last action
   int frames_ = 0;  // see take_frames()
   std::deque<std::shared_ptr<const Environment::Saved>> saved_;
-  std::string text_;  // what was answered last; kept for its memory
+  std::string text_;  // the last reply; kept for its memory
 };
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-// Input of a client, cut into lines, in a buffer that never grows.
+// Splits a client's input into lines, in a buffer of fixed size.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@ class LineBuffer {
  public:
   static constexpr std::size_t kSize = 4096;
 
-  std::span<char> space();        // where the next input goes; never empty when line() has found nothing
-  void added(std::size_t count);  // so much was put there
+  std::span<char> space();        // where the next input goes; never empty after line() returned nothing
+  void added(std::size_t count);  // this many bytes were added there
 
-  // The next line without its LF, or the first `longest` bytes if there is no LF among them; nothing if
-  // neither is there yet. longest < kSize. The view is good until space() is called.
+  // Returns the next line without its LF, or the first `longest` bytes if they contain no LF. Returns nothing
+  // if neither is complete. longest < kSize. The view is valid until space() is called.
   std::optional<std::string_view> line(std::size_t longest);
 
-  // What line() has not given.
+  // The bytes after the last line().
   std::string_view rest() const { return {buffer_.data() + begin_, end_ - begin_}; }
 
  private:

@@ -29,7 +29,8 @@ void PacedClassic::answer() {
   }
 }
 
-// A client that saves more than there is memory for loses its oldest state, since the protocol has no errors.
+// If the saved states exceed the memory budget, the oldest one is dropped, because the protocol has no
+// errors.
 void PacedClassic::account() {
   constexpr std::size_t kState = std::size_t{96} << 10;
   const std::size_t bytes = Player::footprint({}) + session_->saved_states() * kState;

@@ -30,7 +30,7 @@ constexpr std::array<std::uint16_t, 4096> kPairs = [] {  // the two letters of 1
 
 char letter(std::uint32_t bits, int place) { return kLetters[bits >> (18 - 6 * place) & 63]; }
 
-// Eight letters of the first six of eight bytes.
+// Eight letters, of the first six of eight bytes.
 std::uint64_t eight_letters(const std::uint8_t* bytes) {
   std::uint64_t bits;
   std::memcpy(&bits, bytes, sizeof bits);
@@ -72,7 +72,7 @@ std::optional<std::vector<std::uint8_t>> bytes_of_base64(std::string_view text) 
   std::vector<std::uint8_t> bytes;
   bytes.reserve(text.size() * 3 / 4);
   std::uint32_t bits = 0;
-  int pending = 0;  // bits that were read, but not given out
+  int pending = 0;  // bits that were read, but not written
   for (const char c : text) {
     const std::uint8_t value = kValues[static_cast<std::uint8_t>(c)];
     if (value == kNone) return std::nullopt;

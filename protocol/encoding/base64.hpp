@@ -12,7 +12,8 @@ namespace racebeam {
 
 void append_base64(std::string& out, std::span<const std::uint8_t> bytes);
 
-// Nothing when the text is not base64: another letter, a length that is no multiple of 4, padding inside.
+// Returns nothing if the text is not base64: another letter, a length that is no multiple of 4, padding
+// inside.
 std::optional<std::vector<std::uint8_t>> bytes_of_base64(std::string_view text);
 
 }  // namespace racebeam

@@ -24,9 +24,9 @@ constexpr std::array kEncodings = {
 };
 
 constexpr std::size_t kMostSkipped = 0xFFFF, kMostRuns = 0xFF, kMostInRun = 0xFF;
-constexpr std::size_t kWorthSkipping = 16;  // a record costs as much as a run and a half
+constexpr std::size_t kWorthSkipping = 16;  // a record takes as much text as one and a half runs
 
-// The first place from `at` on where the two differ; eight bytes are compared at a time.
+// The first position from `at` on where the two differ. Compares eight bytes at a time.
 std::size_t next_difference(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
                             std::size_t at) {
   std::uint64_t left, right;
@@ -39,7 +39,7 @@ std::size_t next_difference(std::span<const std::uint8_t> a, std::span<const std
   return at;
 }
 
-// Where a changed part ends: before so many equal bytes that skipping them pays.
+// The end of a changed part: before so many equal bytes that skipping them saves text.
 std::size_t end_of_change(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, std::size_t at) {
   for (;;) {
     while (at < a.size() && a[at] != b[at]) ++at;
@@ -67,7 +67,7 @@ std::size_t run_at(std::span<const std::uint8_t> bytes, std::size_t at, std::siz
   return next - at;
 }
 
-// One record: [begin, end) as runs, as many as fit. Returns where it stopped.
+// Writes one record: [begin, end) as runs, as many as fit. Returns where it stopped.
 std::size_t append_runs(std::string& out, std::size_t skipped, std::span<const std::uint8_t> bytes,
                         std::size_t begin, std::size_t end) {
   const std::size_t header = out.size();
@@ -100,7 +100,7 @@ std::size_t text_size(Encoding encoding, std::size_t bytes) {
 }
 
 void append_delta(std::string& out, std::span<const std::uint8_t> bytes, std::span<std::uint8_t> before) {
-  std::size_t told = 0;  // what comes before is known to the reader
+  std::size_t told = 0;  // the reader knows the bytes before it
   for (;;) {
     std::size_t begin = next_difference(bytes, before, told);
     if (begin == bytes.size()) break;
@@ -114,7 +114,7 @@ void append_delta(std::string& out, std::span<const std::uint8_t> bytes, std::sp
   }
 }
 
-// Level 1: an agent waits for it.
+// Level 1, because an agent waits for the result.
 class Encoder::Deflater {
  public:
   Deflater() {

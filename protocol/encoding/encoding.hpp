@@ -1,4 +1,4 @@
-// The ways in which the line protocol writes bytes as text (protocol/PROTOCOL.md, "Encodings").
+// The encodings of bytes as text in the line protocol (protocol/PROTOCOL.md, "Encodings").
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,15 @@ struct EncodingRow {
 std::span<const EncodingRow> encodings();  // in the order of Encoding
 std::optional<Encoding> encoding_of(std::string_view name);
 
-// How long `bytes` bytes are as text. What shrinks, more or less, counts as if it did not: runs and delta as
-// hex, which they exceed only where hardly any two neighbours are the same, zlib as base64.
+// The length of `bytes` bytes as text. Encodings of variable length count as the fixed ones: runs and delta
+// as hex, zlib as base64. Runs and delta exceed hex only where hardly any two neighbours are equal.
 std::size_t text_size(Encoding encoding, std::size_t bytes);
 
-// What has changed since `before`, then `before` is made equal to `bytes`; of the same size.
+// Writes what has changed since `before`, and makes `before` equal to `bytes`. Both have the same size.
 void append_delta(std::string& out, std::span<const std::uint8_t> bytes, std::span<std::uint8_t> before);
 
-// Writes one field of reply after reply. What an encoding has to remember lives here; nothing is allocated
-// once each has been used.
+// Writes one field of reply after reply, and holds what its encodings must remember. After each encoding has
+// been used once, it allocates nothing.
 class Encoder {
  public:
   explicit Encoder(Encoding encoding);

@@ -1,4 +1,4 @@
-// The two digits of every byte.
+// The two hexadecimal digits of each byte.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Bytes as hexadecimal digits: 32 at a time where the processor can, by a table elsewhere.
+// Bytes as hexadecimal digits: with AVX2 32 at a time, elsewhere by a table.
 #include <cstring>
 
 #include "protocol/encoding/hex_pairs.hpp"
@@ -16,8 +16,8 @@ void write_plain(char* to, const std::uint8_t* bytes, std::size_t count) {
 }
 
 #if RACEBEAM_HAS_AVX
-// The bytes are halved and looked up, then the digits of both halves are interleaved. As that is done for
-// each 128 bits apart, the four groups of eight bytes are brought into the order 0 2 1 3 before.
+// Nibbles are looked up, then the digits of both nibbles are interleaved. AVX2 does that in each 128 bits
+// separately, so the four groups of eight bytes are first brought into the order 0 2 1 3.
 [[gnu::target("avx2")]] void write_avx2(char* to, const std::uint8_t* bytes, std::size_t count) {
   const __m256i digits = _mm256_broadcastsi128_si256(
       _mm_setr_epi8('0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'A', 'B', 'C', 'D', 'E', 'F'));

@@ -1,7 +1,7 @@
-// The run-length text of a screen, from its lines. Of each row of 160 pixels it is
-// found first where runs begin and whether the row equals the one above, many rows at a time and in SIMD where
-// the processor has it; the text is then made from that. A row that equals the one above, and begins
-// within a run that is as long, has the text that the one above has. Most rows do.
+// The run-length text of a screen. A first pass finds, for each row of 160 pixels, where runs begin and
+// whether the row equals the one above. It handles many rows at a time, with SIMD where the processor has it.
+// A second pass writes the text. A row that equals the one above, and begins within a run of the same length,
+// has the same text. Most rows do.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -22,7 +22,7 @@ constexpr std::size_t kRowsAtOnce = 64;
 constexpr std::int32_t kLongestRun = 255;
 
 struct RowFacts {
-  std::array<std::uint32_t, 5> begins;  // bit i of the whole: pixel i differs from the one before it
+  std::array<std::uint32_t, 5> begins;  // bit i of all words: pixel i differs from the one before it
   std::uint32_t repeats;                // 1: the row equals the one above
 };
 
@@ -33,7 +33,7 @@ std::uint32_t nonzero_bytes(std::uint64_t word) {
   return static_cast<std::uint32_t>(((high_bits >> 7 & 0x0101010101010101) * 0x0102040810204080) >> 56);
 }
 
-// `before`: the pixel before the row.
+// before: the pixel before the row.
 void find_begins(const std::uint8_t* row, std::uint8_t before, RowFacts& facts) {
   facts.begins = {};
   std::uint64_t last = before;
@@ -45,7 +45,7 @@ void find_begins(const std::uint8_t* row, std::uint8_t before, RowFacts& facts) 
   }
 }
 
-// Facts of `count` rows, before each of which there is another.
+// Facts of `count` rows. Each must have a row before it.
 void find_plain(const std::uint8_t* row, std::size_t count, RowFacts* facts) {
   for (std::size_t i = 0; i < count; ++i, row += kRow) {
     facts[i].repeats = std::memcmp(row, row - kRow, kRow) == 0;
@@ -83,7 +83,7 @@ void find_facts(const std::uint8_t* row, std::size_t count, RowFacts* facts, [[m
   find_plain(row, count, facts);
 }
 
-// Makes the text, row by row, in a buffer of its own: growing a string costs more than a run does.
+// Writes the text row by row into its own buffer, because growing a string costs more than a run.
 class RunWriter {
  public:
   RunWriter(std::string& out, std::uint8_t first) : out_(out), open_{first, 0} {}
@@ -98,7 +98,7 @@ class RunWriter {
     open_.begin -= static_cast<std::int32_t>(kRow);
   }
 
-  // What is too short for a row, and comes last.
+  // Adds the pixels after the last whole row.
   void add_rest(std::span<const std::uint8_t> pixels) {
     if (text_.size() - used_ < kMostOfRow) flush();
     for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -115,7 +115,7 @@ class RunWriter {
 
   struct Open {  // the run that has begun
     std::uint8_t color;
-    std::int32_t begin;  // counted from the start of the row
+    std::int32_t begin;  // relative to the start of the row
     bool operator==(const Open&) const = default;
   };
 
@@ -132,7 +132,7 @@ class RunWriter {
     open_below_ = open_;
   }
 
-  // The same run is open as at the start of the row above, so that the same ends and the same stays open.
+  // The same run is open as at the start of the row above, so the same runs end, and the same run stays open.
   void copy_row_above() {
     std::memcpy(&text_[used_], &text_[above_], above_size_);
     used_ += above_size_;
@@ -163,7 +163,7 @@ class RunWriter {
   }
 
   std::string& out_;
-  Open open_, open_above_{}, open_below_{};  // now; at the start and the end of the last row that was written
+  Open open_, open_above_{}, open_below_{};     // now; at the start and the end of the row that was written last
   std::size_t above_ = kGone, above_size_ = 0;  // that row's text
   std::size_t used_ = 0;
   std::array<char, 16384> text_;

@@ -37,7 +37,7 @@ void check(const Command& command, const Session& session, std::size_t arguments
                                            std::to_string(arguments) + ": " + usage(command));
   }
   if (command.needs >= Needs::kAdmission && !session.admitted)
-    throw Refusal(Code::kUnauthorized, "this server wants a token before " + name + "; hello token=TOKEN");
+    throw Refusal(Code::kUnauthorized, "this server requires a token before " + name + "; hello token=TOKEN");
   if (command.needs >= Needs::kGame && !session.player)
     throw Refusal(Code::kNoGame, name + " needs a game; load one first");
   if (command.needs == Needs::kMachines && session.machines.empty())

@@ -25,7 +25,7 @@ void Images::add_folder(const std::string& folder) {
     try {
       add_file(path);
     } catch (const InvalidInput&) {
-      continue;  // `racebeam roms` says what is wrong with it
+      continue;  // `racebeam roms` reports the error
     }
   }
 }

@@ -1,5 +1,5 @@
-// The cartridge images that clients may load: by name or MD5, never by path. Looked at once, when the server
-// starts; const after that, and shared by all sessions.
+// The cartridge images that clients may load: by name or MD5, never by path. Read once, when the server
+// starts; const afterwards, and shared by all sessions.
 #pragma once
 
 #include <map>
@@ -16,13 +16,14 @@ class Images {
  public:
   Images();  // those that are part of the program
 
-  // Both throw InvalidInput for what can't be read. A file in a folder that can't is left out.
-  // `game`, `game_file`: how to score it, as recognise() has it.
+  // Both throw InvalidInput if the path cannot be read. Unreadable files of a folder are left out.
+  // game, game_file: the rule, as for recognise().
   void add_file(const std::string& path, const std::optional<std::string>& game = std::nullopt,
                 const std::optional<std::string>& game_file = std::nullopt);
   void add_folder(const std::string& folder);
 
-  // `name`: a game of the catalogue, the stem of an unknown image's file, or an MD5. Null if there is none.
+  // name: a game of the catalogue, the stem of an unknown image's file, or an MD5. Returns null if there is
+  // no such image.
   const Cartridge* find(std::string_view name) const;
   std::vector<std::string_view> names() const;  // without the MD5s
 
@@ -31,7 +32,7 @@ class Images {
 
   struct Entry {
     Cartridge cartridge;
-    bool certain;  // recognised by its MD5, or told so; wins over one that is only called like it
+    bool certain;  // recognised by its MD5, or explicitly; preferred to an image that only has the name
   };
   std::map<std::string, Entry, std::less<>> by_name_, by_md5_;
 };

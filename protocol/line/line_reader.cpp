@@ -7,7 +7,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kUsual = 4096;  // what an idle session keeps
+constexpr std::size_t kUsual = 4096;  // the size for an idle session
 
 }  // namespace
 

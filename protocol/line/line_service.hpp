@@ -1,4 +1,4 @@
-// What the sessions of the line protocol share, and what one client may use.
+// What the sessions of the line protocol share, and the limits of one client.
 #pragma once
 
 #include <cstddef>
@@ -16,38 +16,39 @@ namespace racebeam {
 
 class Recorder;
 
-// What one client may use. `hello` tells.
+// Limits of one client, as `hello` reports them.
 struct LineLimits {
   std::size_t line = 1 << 20;               // bytes of a request; an image of the largest size fits as base64
-  std::size_t output = 1 << 18;             // bytes that wait for the reader; above, no request is begun
-  std::size_t reply = 1 << 26;              // bytes of a reply that one may ask for, as protocol/PROTOCOL.md counts
+  std::size_t output = 1 << 18;             // bytes that wait to be sent; above them, no request is begun
+  std::size_t reply = 1 << 26;              // bytes of a reply, as protocol/PROTOCOL.md counts them
   int machines = 256;                       // of `open`
-  int states = 256;                         // saved at a time
-  std::int64_t request_frames = 2'000'000;  // that one request may ask for
+  int states = 256;                         // saved at the same time
+  std::int64_t request_frames = 2'000'000;  // of one request
   std::size_t recording = 1 << 30;          // bytes of one recording
-  std::int64_t idle_seconds = 0;            // without a word, after which the server ends it; 0: never
+  std::int64_t idle_seconds = 0;            // timeout without a byte; 0: never
 };
 
-// Runs task(0) ... task(count - 1), on several threads if it likes, and returns when all are done. A task
-// does not throw.
+// Runs task(0) ... task(count - 1), possibly on several threads, and returns when all are done. A task must
+// not throw.
 using Parallel = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
 
-// Whether a token is one of those that the server knows. From any thread.
+// Whether a token is one of the server's. Thread-safe.
 using Admission = std::function<bool(std::string_view token)>;
 
-// What all sessions of a server share, all of it const, or made for many threads.
+// What all sessions of a server share. All of it is const or thread-safe.
 struct LineService {
   std::string version = "0";
   std::shared_ptr<const Images> images;
   LineLimits limits;
-  std::shared_ptr<Recorder> recorder;  // null: nothing is recorded
-  Parallel parallel;                   // empty: one after the other
-  std::size_t threads = 1;             // that `parallel` has
-  Admission admission;                 // empty: everyone may play; else whose `hello` gives a token
-  CpuKind cpu = CpuKind::kAuto;        // of all machines
+  std::shared_ptr<Recorder> recorder;    // null: recording is off
+  Parallel parallel;                     // empty: tasks run one after the other
+  std::size_t threads = 1;               // of `parallel`
+  Admission admission;                   // empty: no token is required
+  CpuKind cpu = CpuKind::kAuto;          // of all machines
   std::shared_ptr<MemoryBudget> memory;  // of all sessions; null: there is no limit
-  bool strict = false;           // the first error ends a session; for scripts
-  std::function<void(const std::string& sentence)> report_fault;  // an `internal` error; from any thread; may be empty
+  bool strict = false;                   // the first error ends a session; for scripts
+  // Reports an `internal` error; thread-safe; may be empty.
+  std::function<void(const std::string& sentence)> report_fault;
 };
 
 }  // namespace racebeam

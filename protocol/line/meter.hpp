@@ -1,4 +1,4 @@
-// What has been done, counted for those who watch a server. Sessions that share a thread share a meter.
+// Counters for the metrics of a server. Sessions that share a thread share a meter.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace racebeam {
 
-// One thread adds, any thread reads: a plain addition, without a lock.
+// One thread adds, and any thread reads: an addition without a lock.
 class Counter {
  public:
   void add(std::int64_t amount) {
@@ -22,23 +22,23 @@ class Counter {
   std::atomic<std::int64_t> value_ = 0;
 };
 
-// Upper bounds, in seconds, of how long a request took; beyond the last there is one more group.
+// Upper bounds of a request's duration, in seconds; one more bucket is for longer ones.
 constexpr std::array kLatencyBounds = {0.00001, 0.000025, 0.00005, 0.0001, 0.00025, 0.0005, 0.001, 0.0025,
                                        0.005,   0.01,     0.025,   0.05,   0.1,     0.25,   1.0,   10.0};
 
 class Meter {
  public:
-  explicit Meter(std::size_t commands);  // that there are
+  explicit Meter(std::size_t commands);  // their number
 
-  // One request, from its line to its reply. `command`: its row in the table of commands, or their number for what is
-  // none.
+  // Counts one request, from its line to its reply. command: its row in the table of commands, or the number
+  // of rows if it is unknown.
   void request(std::size_t command, bool refused, std::chrono::nanoseconds took);
 
   struct Requests {
     Counter done, refused;
   };
   std::vector<Requests> requests;                              // by command
-  std::array<Counter, kLatencyBounds.size() + 1> latencies{};  // each request in one of them
+  std::array<Counter, kLatencyBounds.size() + 1> latencies{};  // each request is in one of them
   Counter nanoseconds;                                         // of all requests
   Counter frames, bytes_in, bytes_out;
 };

@@ -52,7 +52,7 @@ KeyValue key_value(std::string_view word) {
 std::string_view value_of(std::string_view word, std::string_view key, std::string_view command) {
   if (word.size() > key.size() && word.starts_with(key) && word[key.size()] == '=')
     return word.substr(key.size() + 1);
-  throw Refusal(Code::kBadArguments, quote(word) + " makes no sense here; " + std::string(command) +
+  throw Refusal(Code::kBadArguments, quote(word) + " is not accepted here; " + std::string(command) +
                                          " takes " + std::string(key) + "=");
 }
 
@@ -96,7 +96,7 @@ std::string_view cut_behind(std::string_view& text, char mark) {
 std::string_view checked_name(std::string_view text, std::string_view what) {
   constexpr std::size_t kLongest = 64;
   if (!text.empty() && text.size() <= kLongest && std::ranges::all_of(text, is_name_letter)) return text;
-  throw Refusal(Code::kBadValue, quote(text) + " is no name for a " + std::string(what) +
+  throw Refusal(Code::kBadValue, quote(text) + " is not a name for a " + std::string(what) +
                                      "; it takes 1 to 64 letters, digits, - and _");
 }
 

@@ -1,4 +1,4 @@
-// A request of the line protocol as words, and what words mean: numbers, lists, key=value.
+// Splits a request of the line protocol into words, and reads words: numbers, lists, key=value.
 #pragma once
 
 #include <charconv>
@@ -16,11 +16,11 @@ namespace racebeam {
 
 using Words = std::span<const std::string_view>;
 
-// Cuts at blanks; several in a row count as one. Reuses the memory of `words`.
+// Splits at blanks; several in a row count as one. Reuses the memory of `words`.
 void split(std::string_view line, std::vector<std::string_view>& words);
-std::string_view next_word(std::string_view& line);  // takes it out of the line; empty: there is none
+std::string_view next_word(std::string_view& line);  // removes it from the line; empty: there is none
 
-// The whole text as a number; nothing for anything else, "nan" and "inf" included.
+// The whole text as a number; nothing for any other text, "nan" and "inf" included.
 template <typename Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number number{};
@@ -33,43 +33,44 @@ std::optional<Number> parse_number(std::string_view text) {
   return number;
 }
 
-// A whole number from `least` to `most`. Throws Refusal(kBadValue) that calls it `what`.
+// A whole number from `least` to `most`. Throws Refusal(kBadValue), which names it `what`.
 std::int64_t number_within(std::string_view text, std::string_view what, std::int64_t least,
                            std::int64_t most);
 
 struct KeyValue {
   std::string_view key, value;
 };
-// Throws Refusal(kBadArguments) when there is no '='.
+// Throws Refusal(kBadArguments) if there is no '='.
 KeyValue key_value(std::string_view word);
 
-// The value of key=value, where `command` takes no other key. Throws Refusal(kBadArguments).
+// The value of key=value, if `command` accepts only this key. Throws Refusal(kBadArguments).
 std::string_view value_of(std::string_view word, std::string_view key, std::string_view command);
 
 template <typename Rows>
-std::vector<std::string_view> names_of(const Rows& rows) {  // of the rows of a table
+std::vector<std::string_view> names_of(const Rows& rows) {  // the names of a table's rows
   std::vector<std::string_view> names;
   for (const auto& row : rows) names.push_back(row.name);
   return names;
 }
 
-// What was meant, perhaps, then what is accepted, which begins with a small letter: " did you mean A? There
-// are A B C", or " there are A B C" where nothing is near.
+// A suggestion, if a name is similar, then what is accepted, which begins with a small letter: " did you mean
+// A? There are A B C", or " there are A B C".
 std::string advice(std::string_view given, Words known, std::string accepted);
 
 // "there is no KIND 'NAME'; did you mean A? There are A B C"
 [[noreturn]] void refuse_name(Code code, std::string_view kind, std::string_view name, Words known);
 
-// Which of `accepted` `value` is. Throws Refusal(kBadValue): "WHAT is 'VALUE'; did you mean A? It takes A, B
-// or C".
+// The index of `value` in `accepted`. Throws Refusal(kBadValue): "WHAT is 'VALUE'; did you mean A? It takes
+// A, B or C".
 std::size_t choice_of(std::string_view value, std::string_view what, Words accepted);
 
 [[noreturn]] void refuse_twice(std::string_view key);  // Refusal(kBadArguments)
 
-// The rest of `text` behind its first `mark`, which is cut off with it; "" if there is none.
+// Removes the first `mark` and the text after it from `text`. Returns the text after it; "" if there is no
+// mark.
 std::string_view cut_behind(std::string_view& text, char mark);
 
-// A name for something a client keeps: 1 to 64 letters, digits, '-' and '_'. Throws Refusal(kBadValue).
+// A name for something that a client saves: 1 to 64 letters, digits, '-' and '_'. Throws Refusal(kBadValue).
 std::string_view checked_name(std::string_view text, std::string_view what);
 
 std::vector<std::uint8_t> bytes_of_hex(std::string_view digits);  // Throws Refusal(kBadValue)
@@ -82,7 +83,7 @@ void append_list(std::string& out, std::span<const int> numbers);  // 0,1,2
 void append_pair(std::string& out, std::string_view key, std::int64_t number);
 void append_pair(std::string& out, std::string_view key, std::string_view text);
 
-// For sentences: what the client sent, shortened if it is long.
+// For messages: the client's text, shortened if it is long.
 std::string quote(std::string_view text);
 
 }  // namespace racebeam

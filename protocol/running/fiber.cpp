@@ -10,9 +10,9 @@ namespace {
 
 namespace context = boost::context;
 
-struct Cancelled {};  // unwinds the body
+struct Cancelled {};  // thrown to unwind the body
 
-struct NoAllocator {  // the stack is the Run's
+struct NoAllocator {  // the Run owns the stack
   void deallocate(context::stack_context&) {}
 };
 
@@ -27,12 +27,12 @@ struct Fiber::Run {
   }
 
   void run(void (*body)(void*), void* context);
-  bool go_on();  // true: the body has returned
+  bool go_on();  // returns whether the body has returned
 
   FiberStack stack;
   SanitizerFiber sanitizer{stack.bottom(), FiberStack::kBytes};
   context::fiber body;    // suspended, or empty
-  context::fiber caller;  // of the body, while it runs
+  context::fiber caller;  // the context that runs the body
   bool cancelled = false;
 };
 

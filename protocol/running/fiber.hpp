@@ -1,6 +1,5 @@
-// A function call that can be suspended wherever it stands and resumed later. It has a stack of its own
-// (Boost.Context), so that work that takes long is written as straight-line code and still yields to other
-// sessions.
+// A function call that can be suspended at any point and resumed later. It has a stack of its own
+// (Boost.Context). Long work can therefore be straight-line code, and still yield to other sessions.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +11,12 @@ namespace racebeam {
 class Fiber {
  public:
   Fiber();
-  ~Fiber();  // as cancel()
+  ~Fiber();  // calls cancel()
   Fiber(const Fiber&) = delete;
   Fiber& operator=(const Fiber&) = delete;
 
-  // Calls `body` until it returns or is suspended. Returns true when it has returned. `body` must not throw.
-  // No other body may be in progress. Throws std::bad_alloc when there is no memory for a stack.
+  // Calls `body` until it returns or is suspended. Returns whether it has returned. `body` must not throw,
+  // and no other body may be in progress. Throws std::bad_alloc if there is no memory for a stack.
   template <typename Body>
   bool start(Body body) {
     const auto call = [](void* context) {
@@ -27,8 +26,9 @@ class Fiber {
     return start(call, &body);
   }
 
-  // Continues a suspended body, on any thread. Returns true when the body has returned. A function that
-  // suspends must not use thread_local variables both before and after: compilers keep their addresses.
+  // Continues a suspended body, on any thread. Returns whether the body has returned. A function that
+  // suspends must not use thread_local variables both before and after, because compilers keep their
+  // addresses.
   bool resume();
 
   // Unwinds a suspended body: its suspend() throws.
@@ -36,8 +36,8 @@ class Fiber {
 
   bool in_progress() const { return run_ != nullptr; }
 
-  // Called by the body: returns to the caller of start() or resume(), and from there only when resume() is
-  // called. Not to be called within a catch block, since exceptions in flight belong to the thread.
+  // Called by the body: returns to the caller of start() or resume(). It returns to the body when resume() is
+  // called. Must not be called within a catch block, because exceptions in flight belong to the thread.
   void suspend();
 
  private:

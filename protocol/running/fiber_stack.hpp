@@ -1,4 +1,5 @@
-// Memory for the stack of a fiber: with a guard page below it, and kept for the next fiber of the thread.
+// Memory for the stack of a fiber, with a guard page below it. Released stacks are reused by the thread's
+// next fibers.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@ class FiberStack {
 
   std::byte* bottom() const { return bottom_; }
 
-  // Address space. The system provides memory for the pages that are touched, which are mostly three.
+  // Bytes of address space. The system provides memory only for pages that are used, mostly three.
   static constexpr std::size_t kBytes = std::size_t{1} << 18;
 
  private:

@@ -1,5 +1,5 @@
-// A limit for the memory of all sessions together. What they hold is estimated, and estimates are generous;
-// the system's allocator is not asked.
+// A limit for the memory of all sessions together. Memory is estimated, generously; the allocator is not
+// asked.
 #pragma once
 
 #include <atomic>
@@ -12,15 +12,15 @@
 
 namespace racebeam {
 
-// Shared by the sessions of a server. From any thread.
+// Shared by the sessions of a server. Thread-safe.
 class MemoryBudget {
  public:
   static constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
   explicit MemoryBudget(std::uint64_t most = kNoLimit) : most_(most) {}
 
-  bool take(std::uint64_t bytes);         // false, and nothing is taken, when there is not so much left
-  void take_anyway(std::uint64_t bytes);  // what is there already
+  bool take(std::uint64_t bytes);         // returns false, and takes nothing, if less is left
+  void take_anyway(std::uint64_t bytes);  // for memory that is allocated already
   bool has(std::uint64_t bytes) const { return taken_ <= most_ && bytes <= most_ - taken_; }
   void give_back(std::uint64_t bytes) { taken_ -= bytes; }
 
@@ -32,7 +32,7 @@ class MemoryBudget {
   std::atomic<std::uint64_t> taken_ = 0;
 };
 
-// What one owner has taken of a budget; given back at its end.
+// The part of a budget that one owner has taken; its destructor returns it.
 class MemoryShare {
  public:
   explicit MemoryShare(std::shared_ptr<MemoryBudget> budget)  // null: there is no limit
@@ -42,8 +42,8 @@ class MemoryShare {
   MemoryShare& operator=(const MemoryShare&) = delete;
 
   void set(std::size_t bytes);   // what the owner holds
-  bool grow(std::size_t bytes);  // false, and nothing is taken, when there is not so much left
-  void check(std::size_t bytes, const std::string& what);  // as grow(). Throws Refusal
+  bool grow(std::size_t bytes);  // returns false, and takes nothing, if less is left
+  void check(std::size_t bytes, const std::string& what);  // as grow(), but throws Refusal
 
   std::size_t bytes() const { return bytes_; }
 

@@ -1,5 +1,5 @@
-// Tells AddressSanitizer and ThreadSanitizer that the stack changes, which they cannot see. Without them it
-// is nothing.
+// Announces changes of the stack to AddressSanitizer and ThreadSanitizer, which cannot detect them. Without
+// sanitizers it is empty.
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,9 @@
-"""Measures environment::Batch beside AtariVectorEnv of ale-py: the same settings and actions, in alternating chunks of one run.
+"""Measures environment::Batch and AtariVectorEnv of ale-py with the same settings and actions, in alternating chunks
+of one run.
 
 Both sides make stacks of four grey screens of 84 x 84, pooled over the last two frames of a skip of four, for every machine
-and step. Time is the clock's, of the steps alone; processor time is printed beside it, as it is steadier on a
-busy machine. That both did the same is checked after every chunk: observations and RAM of racebeam's machines are those of the
-reference's.
+and step. Elapsed time of the steps alone is measured. Processor time is printed, too, because it varies less on a busy
+machine. After every chunk, observations and RAM of both sides are compared.
 """
 import argparse
 import json
@@ -37,13 +37,13 @@ def parse_arguments():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--games", nargs="+", default=GAMES, metavar="GAME", help="default: " + " ".join(GAMES))
     parser.add_argument("--machines", type=int, default=64, help="in a batch (default 64)")
-    parser.add_argument("--threads", type=int, default=os.cpu_count(), help="on both sides (default: the processors)")
-    parser.add_argument("--steps", type=int, default=200, help="of every machine in a chunk (default 200)")
-    parser.add_argument("--chunks", type=int, default=3, help="on each side (default 3); medians are printed")
-    parser.add_argument("--json", metavar="FILE", help="write the figures to FILE too")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), help="threads on both sides (default: all processors)")
+    parser.add_argument("--steps", type=int, default=200, help="steps of every machine in a chunk (default 200)")
+    parser.add_argument("--chunks", type=int, default=3, help="chunks of each side (default 3); medians are printed")
+    parser.add_argument("--json", metavar="FILE", help="also write the figures to FILE")
     options = parser.parse_args()
     if min(options.machines, options.threads, options.steps, options.chunks) < 1:
-        parser.error("--machines, --threads, --steps and --chunks take numbers from 1 on")
+        parser.error("--machines, --threads, --steps and --chunks must be 1 or more")
     return options
 
 
@@ -52,7 +52,7 @@ def image(game):
 
 
 def play_reference(game, actions, options):
-    """Seconds by the clock and of the processor, and a checksum of the last observations."""
+    """Returns elapsed and processor time in seconds, and a checksum of the last observations."""
     vector = AtariVectorEnv(game, num_envs=options.machines, num_threads=options.threads)
     vector.reset(seed=SEED)
     observations = None

@@ -1,24 +1,23 @@
-"""Measures racebeam beside ALE, game by game, in one run, and checks in the same run that both did the same.
+"""Measures racebeam and ALE, game by game, and checks in the same run that both do the same.
 
 Settings:
   every    the screen and RAM of every frame
   last     frame skip 4, the screen of the last frame
-  none     rewards and RAM only (ALE draws all the same: it has no way not to)
+  none     rewards and RAM only (ALE draws nevertheless: it cannot avoid that)
   states   a reset, and a state saved and restored
 
-Each side is a process of its own; both are pinned to one processor and play chunks of the same random legal
-actions in turns, so that whatever else the machine does hits both. Processor time of the acts alone is
-counted; resets are not. A setting begins with two chunks that don't count (caches, code that is translated).
+Each side is a process. Both are pinned to one processor, and play chunks of the same random legal actions in
+turns, so that other work of the machine disturbs both. The processor time of the acts is measured, without
+resets. A setting begins with two chunks that are not measured: they fill caches and translate code.
 
-The ratio of a game is the median of its chunks' ratios. Both sides of one chunk did the same work a moment
-apart, so that a ratio is good even when the machine's speed drifts; a disturbance spoils a few chunks, which
-a median leaves out and a mean would not; a best-of would pick, of either side, another scene of the game, or
-another kind of luck.
+The ratio of a game is the median of its chunks' ratios. Both sides of a chunk do the same work within a moment,
+so that a ratio is right even if the machine's speed drifts. A disturbance affects a few chunks, which a median
+ignores and a mean would not. The best times of both sides would come from different scenes of the game.
 
-What is checked: after each timed chunk frames, rewards, resets, RAM and (where it is looked at) the screen;
-then the same actions once more on new machines, not timed, with a checksum of screen, RAM, reward, end and
-lives after every act. A game that differs has no figures and makes the run fail: scripts/conformance finds
-out more.
+After each timed chunk, the script compares frames, rewards, resets, RAM and (if observed) the screen. Then it
+plays the same actions again on new machines, not timed, and compares a checksum of screen, RAM, reward, end and
+lives after every act. A game that differs has no figures, and the run fails; scripts/conformance locates the
+difference.
 """
 import argparse
 import datetime
@@ -36,33 +35,33 @@ from bench_settings import SETTINGS, draw_actions
 
 QUICK_GAMES = ["breakout", "pong", "qbert", "seaquest", "space_invaders"]
 CHUNK = 500  # frames
-WARM_UP = 2  # chunks
+WARM_UP = 2  # chunks that are not measured
 STATES = "states"
-ROUNDS, RESETS, SNAPSHOTS = 5, 4, 200  # of which a round has so many
+ROUNDS, RESETS, SNAPSHOTS = 5, 4, 200  # of each round: resets, saved states
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="scripts/bench core", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--games", nargs="+", metavar="GAME", help="default: all that the reference can play")
+    parser.add_argument("--games", nargs="+", metavar="GAME", help="default: all games that the reference can play")
     parser.add_argument("--frames", type=int, metavar="N",
-                        help="frames of a game in a setting, beside those that don't count (default 8000)")
+                        help="measured frames of a game in a setting (default 8000)")
     parser.add_argument("--settings", nargs="+", choices=[*SETTINGS, STATES], default=[*SETTINGS, STATES])
     parser.add_argument("--cpu", choices=["auto", "interpreter", "translator"],
-                        help="what runs the instructions (passed on to racebeam bench)")
+                        help="how instructions are executed (passed to racebeam bench)")
     parser.add_argument("--quick", action="store_true",
-                        help="4000 frames of five games only: " + " ".join(QUICK_GAMES))
+                        help="only 4000 frames of five games: " + " ".join(QUICK_GAMES))
     parser.add_argument("--out", type=pathlib.Path, default=cartridges.ROOT / "build/bench/core.json", metavar="FILE",
-                        help="all figures, as JSON (default build/bench/core.json)")
+                        help="file for all figures, as JSON (default build/bench/core.json)")
     parser.add_argument("--write", action="store_true",
                         help="write docs/performance/figures.md and its picture, and the summary in docs/performance.md")
     parser.add_argument("--from", dest="source", type=pathlib.Path, metavar="FILE",
-                        help="measure nothing, take the figures from this file")
+                        help="measure nothing, and read the figures from this file")
     options = parser.parse_args()
     options.games = options.games or (QUICK_GAMES if options.quick else cartridges.games())
     options.frames = options.frames or (4000 if options.quick else 8000)
     if options.frames < CHUNK:
-        parser.error(f"--frames {options.frames}: a chunk has {CHUNK}, and one is the least")
+        parser.error(f"--frames {options.frames}: it must be at least {CHUNK}, a chunk")
     return options
 
 
@@ -88,7 +87,7 @@ def both_open(reference, game, setting, cpu):
 
 
 def time_chunks(reference, game, name, options):
-    """The chunks' [seconds of ALE, seconds of racebeam, frames], and the actions played."""
+    """Returns [seconds of ALE, seconds of racebeam, frames] of each chunk, and the actions that were played."""
     setting = SETTINGS[name]
     opened, racebeam = both_open(reference, game, setting, options.cpu)
     chunks = draw_chunks(game, opened["legal_actions"], WARM_UP + options.frames // CHUNK, CHUNK // setting.skip)

@@ -1,8 +1,8 @@
-"""Measures what each encoding of the line protocol costs a client: bytes of a field, and the time to decode it.
+"""Measures the cost of each encoding of the line protocol for a client: bytes of a field, and the time to decode it.
 
-Random play with four frames an act. The same texts are decoded by the client in Python (clients/python/racebeam.py) and by one in
-C++ (tests/protocol/decode_bench.cpp); both must have the same bytes in the end. Times are processor time, the least of seven
-rounds. Prints the table of docs/performance.md.
+The games are played randomly, with four frames an act. The client in Python (clients/python/racebeam.py) and one in C++
+(tests/protocol/decode_bench.cpp) decode the same texts, and must get the same bytes. Times are processor time, the
+least of seven rounds. Prints the table of docs/performance.md.
 """
 import argparse
 import pathlib
@@ -25,7 +25,7 @@ ROUNDS = 7
 
 
 def texts_of(rom, field, encoding, acts):
-    """What replies to random acts have in this field."""
+    """The texts of this field in replies to random acts."""
     options = ("--log-level", "warning") + (() if rom.startswith("builtin:") else ("--rom", rom))
     with racebeam.Session.start(str(BUILD / "racebeam"), *options) as session:
         session.load(name_of(rom), seed=1, sticky=0, frame_skip=4)
@@ -42,7 +42,7 @@ def texts_of(rom, field, encoding, acts):
 
 
 def in_python(encoding, size, texts):
-    """Microseconds a text, and the Adler-32 of what the last one led to."""
+    """Returns microseconds per text, and the Adler-32 of the last decoded bytes."""
     best = None
     for _ in range(ROUNDS):
         array = bytearray(size)
@@ -83,8 +83,8 @@ def main():
     parser = argparse.ArgumentParser(prog="scripts/bench encodings", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--games", nargs="+", default=["pong", "seaquest", "ms_pacman"], metavar="GAME",
-                        help="means of these (default: pong seaquest ms_pacman)")
-    parser.add_argument("--acts", type=int, default=300, help="of each game (default 300)")
+                        help="games whose mean is printed (default: pong seaquest ms_pacman)")
+    parser.add_argument("--acts", type=int, default=300, help="acts of each game (default 300)")
     arguments = parser.parse_args()
     subprocess.run([ROOT / "scripts/build", "decode_bench"], check=True, stdout=sys.stderr)
     roms = list(dict.fromkeys(image(game) for game in arguments.games))

@@ -1,4 +1,4 @@
-"""A picture of ratios: a bar a game, the shortest first, as SVG."""
+"""Draws ratios as SVG: a bar for each game, the shortest first."""
 import html
 import math
 
@@ -12,7 +12,7 @@ def text(x, y, words, size=11, anchor="start", weight="normal"):
 
 
 def draw(ratios, heading):
-    """The SVG, as text. ratios: {game: ratio to the reference}."""
+    """Returns the SVG as text. ratios: {game: ratio to the reference}."""
     rows = sorted(ratios.items(), key=lambda row: row[1])
     mean = math.exp(sum(map(math.log, ratios.values())) / len(ratios))
     end = max(10, math.ceil(rows[-1][1]))

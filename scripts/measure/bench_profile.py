@@ -1,8 +1,8 @@
-"""Where a frame's time goes: instructions a frame, by part of the machine, counted under valgrind.
+"""Counts the instructions of a frame under valgrind, by part of the machine.
 
-Instructions are not time, but they are the same in every run. Random play of all 18 actions; the frames
-before the counted ones warm up what is remembered or translated. The program is built with the preset
-`profile`, which is `release` with the lines of the source (build/profile).
+Instructions are not time, but they are the same in every run. All 18 actions are played randomly. The frames
+before the counted ones fill caches and translate code. The program is built with the preset `profile`
+(build/profile), which is `release` with line numbers.
 """
 import argparse
 import re
@@ -12,7 +12,7 @@ import bench_settings
 import callgrind
 import cartridges
 
-# A part of the machine and the files that it is made of; the first that fits counts.
+# A part of the machine, and a pattern for its files. The first pattern that matches counts.
 PARTS = (
     ("CPU, translated code", re.escape(callgrind.MADE_AT_RUN_TIME)),
     ("CPU, translator", r"emulator/translator/(?!bus_calls)"),
@@ -33,17 +33,17 @@ def parse_arguments():
     parser = argparse.ArgumentParser(prog="scripts/bench profile", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("game", metavar="GAME")
-    parser.add_argument("--frames", type=int, default=120, metavar="N", help="frames that are counted (default 120)")
+    parser.add_argument("--frames", type=int, default=120, metavar="N", help="counted frames (default 120)")
     parser.add_argument("--before", type=int, default=600, metavar="N", help="frames before them (default 600)")
     parser.add_argument("--setting", choices=bench_settings.SETTINGS, default="every",
                         help="as in scripts/bench core (default every)")
     parser.add_argument("--cpu", choices=["auto", "interpreter", "translator"],
-                        help="what runs the instructions (passed on to racebeam bench)")
-    parser.add_argument("--files", action="store_true", help="by source file too")
-    parser.add_argument("--functions", type=int, default=0, metavar="N", help="the N dearest functions too")
+                        help="how instructions are executed (passed to racebeam bench)")
+    parser.add_argument("--files", action="store_true", help="also print source files")
+    parser.add_argument("--functions", type=int, default=0, metavar="N", help="also print the N functions with the most instructions")
     options = parser.parse_args()
     if min(options.frames, options.before) < 4:
-        parser.error("--frames and --before are at least 4")
+        parser.error("--frames and --before must be at least 4")
     return options
 
 
@@ -67,7 +67,7 @@ def main():
     if not callgrind.available():
         sys.exit("bench: valgrind is missing; scripts/setup installs it")
     try:
-        # As it is measured, with whatever this processor offers.
+        # With all the SIMD that this processor has, as in measurements.
         counts = callgrind.count(cartridges.ROOT / "build/profile/racebeam", options.game, setting,
                                  options.before, options.frames, options.cpu, environment={})
     except (LookupError, RuntimeError) as error:

@@ -1,13 +1,13 @@
 """The reference's side of a measurement: ALE, through ale-py, in a process of its own.
 
-It answers the same commands as `racebeam bench --commands`, in the same words (cli/bench/bench_session.hpp), and
-one more, with which a measurement begins:
+It accepts the same commands as `racebeam bench --commands`, with the same answers (cli/bench/bench_session.hpp), and
+one more, which begins a measurement:
 
-  open SKIP LOOK IMAGE    a new machine: frames of an act, 1 if the screen is looked at, the image's file
+  open SKIP LOOK IMAGE    a new machine: frames of an act, 1 if the screen is observed, the image's file
 
-Processor time of this process is counted. The loop and the calls in Python count for ALE: about 0.2
-microseconds an act, and 0.4 for the copy of a screen, where a frame takes 40 to 130 (racebeam shows its
-screen in place).
+The processor time of this process is measured. It includes the loop and the calls in Python: about 0.2
+microseconds an act, and 0.4 for the copy of a screen, while a frame takes 40 to 130. (racebeam's screen is
+read in place.)
 """
 import json
 import pathlib

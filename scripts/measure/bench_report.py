@@ -1,4 +1,4 @@
-"""What scripts/bench core found: a summary in a page, each game's figures in a file of their own, and a picture."""
+"""Writes the results of scripts/bench core: a summary in a document, each game's figures in another, and a picture."""
 import math
 import os
 import pathlib
@@ -29,7 +29,7 @@ def output(*command):
 
 
 def compiler(binary):
-    """As the CMake cache beside the program names it."""
+    """The compiler, as the CMake cache beside the program names it."""
     cache = pathlib.Path(binary).parent / "CMakeCache.txt"
     found = re.search(r"^CMAKE_CXX_COMPILER:\w+=(.*)$", cache.read_text(), re.M) if cache.exists() else None
     return output(found[1], "--version").splitlines()[0] if found else "unknown"
@@ -52,7 +52,7 @@ def settings_in(results):
 
 
 def summary(results):
-    """{setting: (geomean, the worst ratio, whose it is)}; resets and snapshots are settings here."""
+    """Returns {setting: (geomean, worst ratio, its game)}; resets and saved states count as settings."""
     columns = {HEADINGS[name]: {game: found[name]["ratio"] for game, found in results["games"].items()}
                for name in settings_in(results)}
     if all("states" in found for found in results["games"].values()):
@@ -114,7 +114,7 @@ def page(results):
 
 
 def figures(results):
-    """The document that has every game's figures."""
+    """The document with every game's figures."""
     parts = ["# Figures of all games", "Written by `scripts/bench core --write`, not by hand. "
              "[performance.md](../performance.md) says how\nthey are measured.", circumstances(results)]
     if settings_in(results):
@@ -125,7 +125,7 @@ def figures(results):
 
 
 def write(results):
-    """Writes summary, figures and picture into the documents. Raises OSError if the page lacks its markers."""
+    """Writes summary, figures and picture. Raises OSError if the document lacks its markers."""
     before, begin, rest = PAGE.read_text().partition(BEGIN)
     _, end, after = rest.partition(END)
     if not (begin and end):

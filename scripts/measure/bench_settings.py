@@ -1,4 +1,4 @@
-"""What is measured: the settings in which games are played, and the actions."""
+"""The settings and the actions of measurements."""
 import random
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 class Setting:
     heading: str
     skip: int   # frames of an act
-    look: bool  # at the screen after each act
+    look: bool  # observe the screen after each act
 
 
 SETTINGS = {"every": Setting("Screen of every frame", 1, True),
@@ -16,7 +16,7 @@ SETTINGS = {"every": Setting("Screen of every frame", 1, True),
 
 
 def draw_actions(game, legal_actions, count):
-    """Like a player's: an action is held for four acts on average. A game's are the same each time."""
+    """Draws actions like a player's: each is held for four acts on average. A game's are the same each time."""
     generator, actions, action = random.Random(game), [], 0
     for _ in range(count):
         if generator.random() < 0.25:

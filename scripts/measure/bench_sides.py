@@ -1,4 +1,4 @@
-"""The two processes that are measured beside each other. Both read commands and answer with a line of JSON each."""
+"""The two processes of a comparison. Each reads commands, and answers each with a line of JSON."""
 import json
 import os
 import pathlib
@@ -13,7 +13,7 @@ SEED = 123  # as bench_reference.py; both sides play without sticky actions
 
 
 def one_processor():
-    """Both sides run on the same one: what else happens there hits both, and a slower one is slower for both."""
+    """Pins both sides to one processor, so that other work on it disturbs both."""
     os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
 

@@ -1,10 +1,13 @@
-"""Measures what the line protocol costs over standard streams, a Unix socket and TCP.
+"""Measures the cost of the line protocol over standard streams, a Unix socket and TCP.
 
-Steps (one act, answered with reward, ends, lives, RAM and the screen as runs) of one client, beside an echo server with
-plain sockets that sends the same bytes, and beside the same session in process, without a wire. Then the bytes a frame by
-encoding, and a batch of 64 machines beside one. Rates are by the clock, medians of nine rounds, ratios medians of those within a
-round; microseconds are processor time of the serving process for a step, which others on the machine disturb less. Client and server have a processor each
-("apart"), so that every wait ends with waking somebody up, or are put where the system likes ("free"), often on one.
+A step is one act, answered with reward, ends, lives, RAM and the screen as runs. Steps of one client are compared with an
+echo server on plain sockets that sends the same bytes, and with the same session in process. Then follow the bytes a
+frame by encoding, and 64 machines in one session compared with one.
+
+Rates are of elapsed time: medians of nine rounds. Ratios are medians of the ratios within a round. Microseconds are
+processor time of the serving process for a step, which other processes disturb less. Client and server either have a
+processor each ("apart"), so that every wait ends with waking a thread. Or the system places them ("free"), often on
+one processor.
 """
 import argparse
 import glob
@@ -28,13 +31,13 @@ TRANSPORTS = ("stdio", "unix", "tcp")
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="scripts/bench wire", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--games", nargs="+", default=GAMES, metavar="GAME", help="for the bytes (default: ten)")
-    parser.add_argument("--speed-games", nargs="+", default=["pong", "seaquest"], metavar="GAME", help="for the steps")
-    parser.add_argument("--steps", type=int, default=4000, help="of one round (default 4000)")
+    parser.add_argument("--games", nargs="+", default=GAMES, metavar="GAME", help="games for the bytes (default: ten)")
+    parser.add_argument("--speed-games", nargs="+", default=["pong", "seaquest"], metavar="GAME", help="games for the steps")
+    parser.add_argument("--steps", type=int, default=4000, help="steps of one round (default 4000)")
     parser.add_argument("--placement", nargs="+", default=["apart", "free"], choices=["apart", "free"],
-                        help="of client and server on the processors (default: both)")
+                        help="placement of client and server on the processors (default: both)")
     parser.add_argument("--ahead", type=int, nargs="+", default=[1, 16],
-                        help="requests that are under way at a time; 1 waits for each reply (default 1 16)")
+                        help="requests in flight; 1 waits for each reply (default 1 16)")
     return parser.parse_args()
 
 
@@ -49,7 +52,7 @@ def name_of(path):
 
 
 class Session:
-    """One on standard streams."""
+    """A session on standard streams."""
 
     def __init__(self, rom, *options):
         self.process = subprocess.Popen([RACEBEAM, "serve", "--stdio", "--rom", rom, "--log-level", "warning", *options],
@@ -71,7 +74,7 @@ class Session:
 
 
 def ratio(own, *others):
-    """Beside the slowest of the others in the same round; the median of the rounds."""
+    """The median over rounds of the ratio to the slowest of the others in the same round."""
     return statistics.median(rates[0] / min(rates[1:]) for rates in zip(own["rates"], *(other["rates"] for other in others)))
 
 
@@ -108,8 +111,8 @@ def print_bytes(games, frames=1000):
 
 
 def print_batch(game, machines=64):
-    """Many machines in one session beside one in process, with the same fields and settings. Who has two requests under way
-    sends the actions of a step before the reply to the step before is read; who has one waits for each reply."""
+    """Compares many machines in one session with one in process, with the same fields and settings. With two requests in
+    flight, a client sends the actions of a step before it reads the reply to the previous step."""
     rom = image(game)
     print(f"\n{name_of(rom)}, {machines} machines in one session on {os.cpu_count()} processors, steps/s and times one in process")
     for ahead, words in itertools.product((1, 2), ("reward ends", "reward ends lives ram screen:rle",

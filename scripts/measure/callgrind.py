@@ -1,8 +1,7 @@
-"""Counts the instructions of a play under valgrind's callgrind: the same in every run, on a busy machine too.
+"""Counts instructions under valgrind's callgrind. The counts are the same in every run, also on a busy machine.
 
-Counted is the function `measured_act` of `racebeam bench --commands` (cli/bench/bench_session.cpp): neither
-power-on, nor resets, nor the acts that come before. Code that is made while the program runs is counted as
-any other.
+Only the function `measured_act` of `racebeam bench --commands` is counted (cli/bench/bench_session.cpp): not
+power-on, resets, or earlier acts. Translated code is counted like any other.
 """
 import collections
 import os
@@ -18,7 +17,7 @@ import cartridges
 
 COUNTED = "*measured_act*"
 MADE_AT_RUN_TIME = "(made at run time)"
-# What may be chosen by the processor is set to what there is on all of them.
+# Selects the variants of vectorised functions that every processor can run.
 PLAIN = {"RACEBEAM_SIMD": "plain"}
 
 
@@ -38,9 +37,10 @@ def available():
 
 
 def count(binary, game, setting, before, frames, cpu=None, environment=PLAIN):
-    """Instructions of `frames` frames after `before` frames of random play.
+    """Counts the instructions of `frames` frames after `before` frames of random play.
 
-    Raises LookupError without an image of the game, RuntimeError, with its last words, if the program fails."""
+    Raises LookupError if there is no image of the game, and RuntimeError, with its last lines, if the program fails.
+    """
     actions = bench_settings.draw_actions(game, range(18), (before + frames) // setting.skip)
     first = before // setting.skip
     commands = "".join(f"{command} {' '.join(map(str, part))}\n"
@@ -62,10 +62,10 @@ def count(binary, game, setting, before, frames, cpu=None, environment=PLAIN):
 
 
 def read(path):
-    """The counts in a file of callgrind's, by source file and by function, without what callees cost.
+    """Reads the counts in a file of callgrind, by source file and by function, without those of callees.
 
-    What is inlined counts for its own file; from outside the tree (the standard library), for the function it
-    is in.
+    Inlined code counts for its own file. If that is not in the tree (the standard library), it counts for the function
+    that it is inlined into.
     """
     counts = Counts()
     names = {"ob": {}, "fl": {}, "fn": {}}
@@ -101,7 +101,7 @@ def read(path):
 
 
 def place(file, own_file, thing, home):
-    """The path in the tree, else the program or library it is in, else that it is code made at run time."""
+    """The path in the tree, else the program or library, else MADE_AT_RUN_TIME."""
     for candidate in (file, own_file):
         if candidate.startswith(home):
             return os.path.normpath(candidate.removeprefix(home))

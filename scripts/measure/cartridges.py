@@ -1,11 +1,11 @@
-"""Where the tools find cartridge images: our own are built in, others are in RACEBEAM_ROMS, else in ale-py."""
+"""Finds cartridge images: our own are built in, others are in RACEBEAM_ROMS, else in ale-py."""
 import importlib.util
 import os
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OURS = ("beamfall", "updraft")
-WITHOUT_RULE = ("combat", "joust", "maze_craze", "warlords")  # the reference has images of them, and can't play them
+WITHOUT_RULE = ("combat", "joust", "maze_craze", "warlords")  # the reference has images of them, but cannot play them
 
 
 def folder():
@@ -21,19 +21,19 @@ def folder():
 
 
 def games():
-    """All that the reference can play and that there are images of, sorted."""
+    """The games that the reference can play and that there are images of, sorted."""
     place = folder()
     names = [] if place is None else sorted(path.stem for path in place.glob("*.bin"))
     return [name for name in names if name not in WITHOUT_RULE]
 
 
 def image(game):
-    """What --rom takes. Raises LookupError, with a sentence, for a game that there is no image of."""
+    """The argument of --rom. Raises LookupError, with a sentence, if there is no image of the game."""
     if game in OURS:
         return f"builtin:{game}"
     place = folder()
     if place is None:
-        raise LookupError(f"there is no image of {game}: neither RACEBEAM_ROMS nor an ale-py in .venv has images "
+        raise LookupError(f"there is no image of {game}: there are none in RACEBEAM_ROMS, nor in an ale-py in .venv "
                           f"(scripts/reference installs it); our own games are {' and '.join(OURS)}")
     path = place / f"{game}.bin"
     if not path.is_file():

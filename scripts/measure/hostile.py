@@ -1,8 +1,8 @@
-"""scripts/load --hostile: sessions that ask for as much as they can, and what a bystander notices of it.
+"""scripts/load --hostile: sessions that request as much as they can, and their effect on a bystander.
 
-A server with two threads and 512 MiB serves 64 attackers. Each does one of ATTACKS over and over: it connects, attacks and
-leaves. A bystander with a game of its own acts every few milliseconds, and /healthz is asked for. In the end the server is
-told to stop, in the middle of it all. The goals are in GOALS; one that is missed makes the exit status 1.
+A server with two threads and 512 MiB serves 64 attackers. Each repeats one of ATTACKS: it connects, attacks and
+disconnects. A bystander with a game of its own acts every few milliseconds, and requests /healthz. At the end, the server
+is told to stop during the attacks. If one of GOALS is missed, the exit status is 1.
 """
 import base64
 import collections
@@ -22,7 +22,7 @@ SESSIONS, THREADS, GRACE, MEMORY = 64, 2, 2, 512
 TOKEN = b"the-token-of-the-hostile-load"
 GOALS = {"bystander p99": 20, "/healthz p99": 50, "memory": MEMORY, "SIGTERM": GRACE + 1}  # ms, ms, MiB, s
 
-LONG = b"load beamfall as=tetris sticky=0 max_episode_frames=0"  # beamfall, with rules that end no episode
+LONG = b"load beamfall as=tetris sticky=0 max_episode_frames=0"  # beamfall, with rules that never end an episode
 SKIPPING = LONG + b" frame_skip=1000"
 
 
@@ -37,7 +37,7 @@ def load_inline(image):
 
 
 class Session:
-    """A client's connection. Timeouts are part of the attacks: they end a wait, not the session."""
+    """A client's connection. Timeouts are part of the attacks: they end a wait, but not the session."""
 
     replies = collections.Counter()  # of all sessions
 
@@ -59,7 +59,7 @@ class Session:
             self.replies["(not read by the server)"] += 1
 
     def read(self, seconds):
-        """Whatever comes within so long; None once the server has closed its end."""
+        """Returns what is received within `seconds`, or None after the server has closed its end."""
         self.socket.settimeout(seconds)
         try:
             data = self.socket.recv(1 << 18)
@@ -70,7 +70,7 @@ class Session:
         return data or None
 
     def ask(self, *lines):
-        """Waits for the replies, 5 seconds at most for each piece of them."""
+        """Waits for the replies, at most 5 seconds for each part of them."""
         self.send(*lines)
         ends = 0
         while ends < len(lines):
@@ -220,7 +220,7 @@ def connecting(session):
     time.sleep(0.02)
 
 
-STRANGERS = {wrong_tokens, connecting}  # who do not give the token
+STRANGERS = {wrong_tokens, connecting}  # attacks without the token
 
 
 def keep_attacking(function, port, folder):
@@ -241,7 +241,7 @@ def keep_attacking(function, port, folder):
 
 
 def attack_all(port, folder, told, answers):
-    """A process of attackers, which tells what they got so far and goes on."""
+    """A process of attackers. It reports their replies from time to time."""
     os.nice(5)
     functions = list(ATTACKS.values())
     for number in range(SESSIONS):
@@ -255,11 +255,11 @@ def raise_priority():
     try:
         os.setpriority(os.PRIO_PROCESS, 0, -15)
     except PermissionError:
-        print("load: without the right to raise the priority, the bystander's figures are the system's, too", file=sys.stderr)
+        print("load: cannot raise the priority: the bystander's figures include delays of the system", file=sys.stderr)
 
 
 def watch(ask_once, pause, told, answers):
-    """A process that times `ask_once()` until it is told to end; sends milliseconds."""
+    """A process that times `ask_once()` until it is stopped, and sends milliseconds."""
     raise_priority()
     waits = []
     while not told.poll():
@@ -301,7 +301,7 @@ class Health:
 
 
 class Helper:
-    """A process beside the server."""
+    """Starts a process next to the server."""
 
     def __init__(self, function, *arguments):
         self.told, there = multiprocessing.Pipe()
@@ -328,14 +328,14 @@ def start_server(build, folder):
     server = subprocess.Popen(command, stdin=subprocess.DEVNULL)
     while not ready.exists():
         if server.poll() is not None:
-            sys.exit("load: the server does not start")
+            sys.exit("load: the server did not start")
         time.sleep(0.02)
     port, http = (int(found) for found in re.findall(r":(\d+)$", ready.read_text(), re.MULTILINE)[:2])
     return server, port, http, records, limited
 
 
 def peak_memory(server):
-    """MiB."""
+    """In MiB."""
     with open(f"/proc/{server.pid}/status") as status:
         return next(int(line.split()[1]) for line in status if line.startswith("VmHWM")) / 1024
 

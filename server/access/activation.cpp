@@ -51,7 +51,7 @@ std::vector<InheritedSocket> inherited_sockets() {
   const auto process = number_in("LISTEN_PID"), count = number_in("LISTEN_FDS");
   if (!process || !count || *process != ::getpid()) return {};
   if (*count < 0 || *count > kMostSockets)
-    throw std::runtime_error("LISTEN_FDS is " + std::to_string(*count) + "; there are 0 to 1000");
+    throw std::runtime_error("LISTEN_FDS is " + std::to_string(*count) + "; it must be 0 to 1000");
   const auto named = names();
   std::vector<InheritedSocket> sockets;
   for (int number = 0; number < *count; ++number) {
@@ -71,7 +71,7 @@ void notify_manager(const std::string& state) {
   if (name.empty() || name.size() >= sizeof address.sun_path) return;
   address.sun_family = AF_UNIX;
   std::ranges::copy(name, address.sun_path);
-  if (name.front() == '@') address.sun_path[0] = '\0';  // of the abstract name space
+  if (name.front() == '@') address.sun_path[0] = '\0';  // in the abstract name space
   const int socket = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (socket < 0) return;
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());

@@ -1,4 +1,4 @@
-// Sockets that systemd, or who follows its convention, has opened for this process (sd_listen_fds(3)).
+// Sockets that systemd, or another manager with its convention, opened for this process (sd_listen_fds(3)).
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@ namespace racebeam {
 
 struct InheritedSocket {
   int descriptor;
-  std::string name;  // of LISTEN_FDNAMES; "unknown" without, as in systemd
+  std::string name;  // from LISTEN_FDNAMES; "unknown" without it, as in systemd
 };
 
-// Those of LISTEN_FDS, if LISTEN_PID says that they are for this process; none otherwise. Throws
-// std::runtime_error when the variables make no sense.
+// The sockets of LISTEN_FDS, if LISTEN_PID is this process; else none. Throws std::runtime_error if the
+// variables are invalid.
 std::vector<InheritedSocket> inherited_sockets();
 
-// To who started the server, if it wants to know (sd_notify(3)): "READY=1", "STOPPING=1". Never fails.
+// Sends a state to the manager of the service, if it has asked for that (sd_notify(3)): "READY=1",
+// "STOPPING=1". Never fails.
 void notify_manager(const std::string& state);
 
 }  // namespace racebeam

@@ -4,7 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // needed by Asio 1.74
 
 #include <boost/asio/ip/address.hpp>
 
@@ -41,7 +41,7 @@ std::optional<TcpAddress> parse_tcp(std::string_view text) {
   return TcpAddress{host, *port};
 }
 
-// A path may be written as in a URL: unix:///run/s is /run/s.
+// A path may have the form of a URL: unix:///run/s is /run/s.
 std::string path_of(std::string_view text) {
   cut(text, "//");
   return std::string(text);
@@ -98,9 +98,9 @@ Endpoint parse_endpoint(const std::string& text) {
   }
   throw std::invalid_argument(
       "'" + text +
-      "' is not an address to listen on; there are tcp://HOST:PORT and tls://HOST:PORT (an IP address or "
+      "' is not an address to listen on; accepted are tcp://HOST:PORT and tls://HOST:PORT (an IP address or "
       "localhost; port 0 picks a free one), unix:PATH, systemd or systemd:NAME, stdio and pipes:PREFIX; "
-      "classic+ before one speaks the classic protocol there");
+      "classic+ before an address selects the classic protocol");
 }
 
 TcpAddress parse_host_and_port(const std::string& text) {

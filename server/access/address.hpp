@@ -1,4 +1,4 @@
-// Where to serve, as the command line has it.
+// The addresses that a server listens on, as the command line gives them.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@ struct UnixAddress {
   std::string path;
 };
 
-// Sockets that systemd has opened for us: all, or those of the name (systemd.socket(5), FileDescriptorName).
+// Sockets that systemd has opened: all, or those of a name (systemd.socket(5), FileDescriptorName).
 struct InheritedAddress {
   std::string name;
 };
 
 struct StandardStreams {};
 
-// PREFIX_out to write to and PREFIX_in to read from; both are made if they are missing, and left behind.
+// PREFIX_out for replies and PREFIX_in for requests. Missing pipes are created; the pipes remain at the end.
 struct Pipes {
   std::string prefix;
 };
 
-// ale_fifo_out and ale_fifo_in, which the client makes: when ale_fifo_out is missing the classic server
-// writes a plain file of that name, and when ale_fifo_in is missing it ends.
+// ale_fifo_out and ale_fifo_in, which the client creates. As the classic server: if ale_fifo_out is missing,
+// writes a regular file of that name; if ale_fifo_in is missing, ends.
 struct AlePipes {};
 
 using Address = std::variant<TcpAddress, UnixAddress, InheritedAddress, StandardStreams, Pipes, AlePipes>;
@@ -40,17 +40,17 @@ struct Endpoint {
   bool tls = false;
 };
 
-// [classic+][tls+]ADDRESS, where ADDRESS is tcp://HOST:PORT, unix:PATH, systemd, systemd:NAME, stdio or
-// pipes:PREFIX; tls:// is short for tls+tcp://. Throws std::invalid_argument with a sentence.
+// Parses [classic+][tls+]ADDRESS, where ADDRESS is tcp://HOST:PORT, unix:PATH, systemd, systemd:NAME, stdio
+// or pipes:PREFIX. tls:// is short for tls+tcp://. Throws std::invalid_argument with a sentence.
 Endpoint parse_endpoint(const std::string& text);
 
 TcpAddress parse_host_and_port(const std::string& text);  // throws std::invalid_argument
 
-// As parse_endpoint() reads them.
+// In the format of parse_endpoint().
 std::string to_string(const Address& address);
 std::string to_string(const Endpoint& endpoint);
 
 bool is_stream(const Address& address);     // one session, over streams that block
-bool is_loopback(const std::string& host);  // only this machine can reach it
+bool is_loopback(const std::string& host);  // only reachable from this machine
 
 }  // namespace racebeam

@@ -26,7 +26,7 @@ std::shared_ptr<ssl::context> Tls::context() const {
 std::shared_ptr<ssl::context> Tls::read() const {
   auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
   context->set_options(ssl::context::no_tlsv1 | ssl::context::no_tlsv1_1 | ssl::context::no_compression);
-  // Nobody is there to be asked for the password of a key.
+  // No one can be asked for the password of a key.
   context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string(); });
   error_code error;
   constexpr std::size_t kLargestFile = 1 << 20;

@@ -1,10 +1,10 @@
-// The certificate that a server shows, and its key.
+// The server's certificate and its key.
 #pragma once
 
 #include <memory>
 #include <mutex>
 #include <string>
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // needed by Asio 1.74
 
 #include <boost/asio/ssl/context.hpp>
 
@@ -12,13 +12,13 @@ namespace racebeam {
 
 class Tls {
  public:
-  // PEM files: a chain of certificates, the server's first, and its key. TLS 1.2 and later are spoken.
+  // Reads PEM files: a chain of certificates, the server's first, and its key. Accepts TLS 1.2 and later.
   // Throws std::runtime_error with a sentence.
   Tls(std::string certificate, std::string key);
 
-  void read_again();  // throws like the constructor; what was before stays then
+  void read_again();  // throws as the constructor, and then changes nothing
 
-  // For a connection that begins; it keeps it for as long as it lasts.
+  // The context for a new connection, which holds it during its lifetime.
   std::shared_ptr<boost::asio::ssl::context> context() const;
 
  private:

@@ -62,7 +62,7 @@ bool Tokens::admits(std::string_view token) const {
 Tokens::Digest Tokens::digest_of(std::string_view token) {
   Digest digest{};
   if (EVP_Digest(token.data(), token.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
-    throw std::runtime_error("libcrypto has no SHA-256 here");
+    throw std::runtime_error("libcrypto does not provide SHA-256");
   return digest;
 }
 
@@ -75,7 +75,7 @@ std::vector<Tokens::Digest> Tokens::read(const std::string& path) {
     if (is_comment(text)) continue;
     if (!is_token(text)) {
       throw std::runtime_error(path + ", line " + std::to_string(number) +
-                               ": a token has 16 to 1024 printable characters and no blanks");
+                               ": a token must have 16 to 1024 printable characters and no blanks");
     }
     digests.push_back(digest_of(text));
   }

@@ -1,4 +1,4 @@
-// Who may play: the tokens of a file. They can be read again while the server runs.
+// The tokens that clients may use, from a file. They can be read again while the server runs.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@ namespace racebeam {
 
 class Tokens {
  public:
-  // A file with a token a line: 16 to 1024 printable characters without blanks. Empty lines and those that
-  // begin with # are comments. Throws std::runtime_error with a sentence that names the line.
+  // Reads a file with one token a line: 16 to 1024 printable characters without blanks. Empty lines, and
+  // lines that begin with #, are ignored. Throws std::runtime_error with a sentence that names the line.
   explicit Tokens(std::string path);
 
-  void read_again();  // throws like the constructor; the tokens of before stay then
+  void read_again();  // throws as the constructor, and then changes nothing
   std::size_t count() const;
 
-  // From any thread. How long it takes does not tell how much of the token was right.
+  // Thread-safe. The time does not depend on how much of the token is right.
   bool admits(std::string_view token) const;
 
  private:
@@ -28,7 +28,7 @@ class Tokens {
 
   std::string path_;
   mutable std::mutex mutex_;
-  std::vector<Digest> digests_;  // SHA-256: all of one length, so that comparing them takes one time
+  std::vector<Digest> digests_;  // SHA-256: all have one length, so that comparisons take constant time
 };
 
 }  // namespace racebeam

@@ -9,7 +9,7 @@ namespace ip = boost::asio::ip;
 using namespace std::chrono_literals;
 
 constexpr auto kFirstDelay = 100ms;
-constexpr auto kMemory = 10min;  // of a wrong token
+constexpr auto kMemory = 10min;  // how long a wrong token is remembered
 constexpr std::size_t kMostSources = 4096;
 constexpr int kMostDoublings = 16;
 

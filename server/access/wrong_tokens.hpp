@@ -1,7 +1,7 @@
-// Slows down clients that guess tokens. After a wrong token, tokens from the same address are looked at one
-// at a time, whatever connections they come over, with a pause before each: 100 ms, then twice as long with
-// each wrong token in a row. Right tokens wait alike, since an answer that comes sooner would tell which are
-// wrong. Other addresses never wait, and waiting keeps no thread.
+// Slows down clients that guess tokens. After a wrong token, tokens from the same address are checked one at
+// a time, whatever their connection. Before each there is a delay: 100 ms, doubled with each wrong token in a
+// row. Right tokens are delayed, too: an earlier answer would tell which are wrong. Other addresses are never
+// delayed, and a delay holds no thread.
 #pragma once
 
 #include <chrono>
@@ -9,13 +9,13 @@
 #include <mutex>
 #include <string>
 #include <unordered_map>
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // needed by Asio 1.74
 
 #include <boost/asio/ip/address.hpp>
 
 namespace racebeam {
 
-// From any thread.
+// Thread-safe.
 class WrongTokens {
  public:
   using Clock = std::chrono::steady_clock;
@@ -23,31 +23,31 @@ class WrongTokens {
 
   explicit WrongTokens(Delay longest) : longest_(longest) {}
 
-  // What counts as one address: one of IPv4, or the first 64 bits of one of IPv6, which one client has for
-  // itself.
+  // What counts as one address: an IPv4 address, or the first 64 bits of an IPv6 address, because one client
+  // usually has all of these.
   static std::string source_of(const boost::asio::ip::address& address);
 
-  // How long a token from there has to wait before it may ask again. 0: it may be looked at now, and the next
-  // one has to wait for the pause after it.
+  // The delay of a token from there before the next call of wait(). 0: it may be checked now, and the next
+  // one is delayed.
   Delay wait(const std::string& source);
-  int count(const std::string& source);     // one was wrong; how many in a row
-  void forgive(const std::string& source);  // one was right
+  int count(const std::string& source);     // reports a wrong token; returns how many in a row
+  void forgive(const std::string& source);  // reports a right token
 
  private:
   struct Row {
     int wrong = 0;
-    Clock::time_point latest;  // that one was wrong
-    Clock::time_point next;    // that one may be looked at
+    Clock::time_point latest;  // of the last wrong token
+    Clock::time_point next;    // when the next token may be checked
   };
   Delay pause(int wrong) const;
   void make_room();
 
   const Delay longest_;
   std::mutex mutex_;
-  std::unordered_map<std::string, Row> rows_;  // by source; those of long ago are forgotten
+  std::unordered_map<std::string, Row> rows_;  // by source; old ones are removed
 };
 
-// One client that has not shown a right token yet.
+// A client that has not sent a right token yet.
 class Guesser {
  public:
   Guesser(WrongTokens& all, std::string source) : all_(&all), source_(std::move(source)) {}
@@ -55,7 +55,8 @@ class Guesser {
   const std::string& source() const { return source_; }
   WrongTokens::Delay wait() { return all_->wait(source_); }
 
-  // So many of its tokens have been wrong by now. Returns how many are new, and how many there were in a row.
+  // wrong: how many of its tokens have been wrong. Returns how many of them are new, and how many there were
+  // in a row.
   std::pair<int, int> heard(int wrong);
   void admitted() { all_->forgive(source_); }
 

@@ -4,7 +4,7 @@ namespace racebeam {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLong = 50us;  // of a request
+constexpr auto kLong = 50us;  // a request above this is long
 
 Client::Client(Socket connection, Loop& home, std::string who)
     : socket(std::move(connection)), loop(home), name(std::move(who)) {

@@ -1,11 +1,11 @@
-// Somebody who came in over a socket.
+// A connected client and its session's bookkeeping.
 #pragma once
 
 #include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // needed by Asio 1.74
 
 #include <boost/asio.hpp>
 
@@ -20,7 +20,8 @@ using Protocol = boost::asio::generic::stream_protocol;
 using Socket = Protocol::socket;
 using Clock = std::chrono::steady_clock;
 
-// Counts as a session of its loop until the end. What is not const is touched on the loop's thread only.
+// Counts as a session of its loop during its lifetime. Members that are not const are used on the loop's
+// thread only.
 class Client {
  public:
   Client(Socket connection, Loop& home, std::string who);
@@ -28,7 +29,7 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  void came_in();  // to the loop's clients
+  void came_in();  // adds it to the loop's clients
   void left();
 
   void is_active() {
@@ -37,36 +38,37 @@ class Client {
   }
   void received(std::size_t bytes);
   void sent(std::size_t bytes);
-  bool sleeps() const { return sleeps_; }  // before its reply is there: the last took long
+  // The client probably sleeps until its reply, because its last request was long.
+  bool sleeps() const { return sleeps_; }
 
-  // Ends the session: what it waits for is cancelled, and it is told why. One that does not take the news
-  // within two seconds is cut off by the next end().
+  // Ends the session: cancels what it waits for, and sends it the error. A client that does not read the
+  // error within two seconds is disconnected by the next end().
   void end(Code code, const std::string& sentence);
   bool ending() const { return !farewell_.empty(); }
   const std::string& farewell() const { return farewell_; }  // a reply of the line protocol
   const std::string& reason() const { return reason_; }      // for the log
 
-  // Once in each pause: the session gives back what memory it can.
+  // Called once in each pause: the session releases caches.
   void rest();
-  std::function<void()> on_rest;  // empty: there is nothing to give back
+  std::function<void()> on_rest;  // empty: there is nothing to release
 
   Clock::time_point came() const { return came_; }
-  Clock::time_point active() const { return active_; }  // when something came or went
+  Clock::time_point active() const { return active_; }  // when bytes were last received or sent
 
   Socket socket;
   Loop& loop;
   const std::string name;
-  std::optional<Guesser> guesser;     // as long as a token is needed
-  std::optional<Lobby::Place> place;  // the same
-  bool admitted = false;              // has shown what is needed to play
-  bool held_back = false;             // its token waits, for wrong ones from the same address
-  bool working = false;  // it waits for us: a slice of its requests is done, the next has yet to come
-  Usage usage;           // of the loop
+  std::optional<Guesser> guesser;     // while a token is required
+  std::optional<Lobby::Place> place;  // while a token is required
+  bool admitted = false;              // it has given its token, or needs none
+  bool held_back = false;             // its token is delayed, because of wrong ones from the same address
+  bool working = false;               // a slice of its requests is done, and the next is pending
+  Usage usage;                        // of the event loop
 
  private:
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};
   bool rests_ = false;
-  bool quick_ = false;  // it asked again at once
+  bool quick_ = false;  // its next request came at once
   bool sleeps_ = false;
   std::string farewell_, reason_;
 };

@@ -22,15 +22,15 @@ using net::use_awaitable;
 using namespace std::chrono_literals;
 using TlsStream = net::ssl::stream<Socket&>;
 
-// A short reply fits into the socket's buffer: sent at once, it costs one call of the system, and no turn of
-// the event loop. The rest, or all, is left to async_write.
+// Sends at once what fits into the socket's buffer. For a short reply, that is one system call, and no turn
+// of the event loop. The rest is left to async_write.
 std::size_t send_at_once(Socket& socket, std::string_view text) {
   error_code full;
   return socket.write_some(net::buffer(text), full);
 }
 std::size_t send_at_once(TlsStream&, std::string_view) { return 0; }
 
-// In pieces, each of which shows that the client still reads.
+// Sends in pieces. Each piece that is accepted shows that the client still reads.
 template <typename Stream>
 net::awaitable<void> send_rest(Stream& stream, Client& client, std::string_view text) {
   constexpr std::size_t kPiece = 1 << 16;
@@ -53,7 +53,7 @@ auto read_some(TlsStream& stream, net::mutable_buffer space, Socket::message_fla
   return stream.async_read_some(space, std::move(token));
 }
 
-// Bytes that came; 0: no more will.
+// Receives bytes. Returns their number; 0: there will be no more.
 template <typename Stream>
 net::awaitable<std::size_t> receive(Stream& stream, Client& client, std::span<char> space,
                                     Socket::message_flags flags = 0) {
@@ -64,7 +64,7 @@ net::awaitable<std::size_t> receive(Stream& stream, Client& client, std::span<ch
   co_return count;
 }
 
-// The last word, when it is the server that ends the session.
+// Sends the last error, if the server ends the session.
 template <typename Stream>
 net::awaitable<void> take_leave(Stream& stream, Client& client) {
   error_code ignored;
@@ -78,21 +78,21 @@ RequestPeeker look_ahead(TlsStream&) { return RequestPeeker(nullptr); }
 
 bool found_more(RequestPeeker& ahead, Client& client, LineSession& session) {
   const std::size_t count = client.ending() ? 0 : ahead.look(session.space());
-  if (count == 0) return false;  // the end and errors are left to receive()
+  if (count == 0) return false;  // receive() handles the end and errors
   client.received(count);
   session.received(count);
   return true;
 }
 
-// A client that writes a request in pieces may hold the next one back until this one is acknowledged (Nagle's
-// algorithm), which the system puts off by 40 ms. It has to be told each time.
+// A client that writes a request in pieces may delay the next one until this one is acknowledged (Nagle's
+// algorithm). The system delays acknowledgements by 40 ms. The option must be set each time.
 void acknowledge(Socket& socket) {
   error_code is_unix;
   socket.set_option(net::detail::socket_option::boolean<IPPROTO_TCP, TCP_QUICKACK>(true), is_unix);
 }
 
-// Before a token may be looked at. In between it is seen that the session is to end, or that a right token
-// from the same address has ended the waiting.
+// Delays the check of a token. Returns early if the session is to end, or if a right token from the same
+// address has ended the delay.
 net::awaitable<void> hold_back(Client& client) {
   constexpr WrongTokens::Delay kBetweenLooks = 100ms;
   net::steady_timer timer(client.socket.get_executor());
@@ -125,7 +125,7 @@ net::awaitable<void> take_turn(Client& client) {
   client.working = false;
 }
 
-// Works until the session has a reply or wants input.
+// Works until the session has a reply or needs input.
 net::awaitable<void> work(Client& client, PacedClassic& session) {
   Turns& turns = client.loop.turns;
   Departure departure;
@@ -143,7 +143,7 @@ net::awaitable<void> work(Client& client, PacedClassic& session) {
 template <typename Stream>
 net::awaitable<void> serve_connection(Stream& stream, Client& client, PacedClassic& session, Metrics&) {
   error_code error;
-  bool piece = false;  // of a line
+  bool piece = false;  // part of a line
   while (!session.ended()) {
     co_await work(client, session);
     if (const auto text = session.reply()) {
@@ -161,7 +161,7 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, PacedClass
   }
 }
 
-// As long as a recording needs for a few frames, of which its queue has more.
+// Waits as long as a recording needs for a few frames; its queue has room for more.
 net::awaitable<void> await_recording(Client& client) {
   net::steady_timer timer(client.socket.get_executor(), 1ms);
   client.working = true;
@@ -169,8 +169,8 @@ net::awaitable<void> await_recording(Client& client) {
   client.working = false;
 }
 
-// Between two slices of a long request, or of many that were sent ahead, the loop's other sessions have their
-// turn. Of the latter a slice has some parts, each of which ends with replies that are sent.
+// Between two slices of a long request, or of many that were sent ahead, other sessions of the loop have
+// their turn. Requests that were sent ahead are split further: each part ends by sending its replies.
 template <typename Stream>
 net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSession& session,
                                       Metrics& metrics) {
@@ -178,7 +178,7 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
   RequestPeeker ahead = look_ahead(stream);
   Departure departure;
   Turns& turns = client.loop.turns;
-  bool piece = false;  // all that came last is a piece of a line
+  bool piece = false;  // all that was received last is part of a line
   for (int parts = 0;;) {
     if (!turns.may_work(client.usage)) co_await take_turn(client);
     const bool more = session.run();
@@ -223,7 +223,7 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
   }
 }
 
-// A client that is slow to close its end is not waited for.
+// Limits how long a client may take to close its end.
 class Patience {
  public:
   explicit Patience(std::shared_ptr<Client> client) : timer_(client->socket.get_executor(), 2s) {
@@ -237,7 +237,7 @@ class Patience {
   net::steady_timer timer_;
 };
 
-// Closing with input unread would make the system throw away what the client has not read yet.
+// Closing a socket with unread input would make the system discard output that the client has not read yet.
 net::awaitable<void> close_gently(std::shared_ptr<Client> client) {
   error_code error;
   client->socket.shutdown(Socket::shutdown_send, error);
@@ -248,7 +248,7 @@ net::awaitable<void> close_gently(std::shared_ptr<Client> client) {
   }
 }
 
-// What a client's session does in a pause, as long as there is the session.
+// Releases a session's caches in a pause, during the lifetime of the session.
 class Resting {
  public:
   Resting(Client& client, std::function<void()> rest) : client_(client) { client_.on_rest = std::move(rest); }
@@ -292,7 +292,7 @@ net::awaitable<void> play_over_tls(std::shared_ptr<Client> client, const Service
   co_await stream.async_handshake(TlsStream::server, net::redirect_error(use_awaitable, error));
   if (error) {
     ++metrics.refused_tls;
-    throw std::runtime_error("no TLS came about: " + error.message());
+    throw std::runtime_error("TLS handshake failed: " + error.message());
   }
   co_await play(stream, *client, service, metrics);
   const Patience patience(client);

@@ -16,7 +16,7 @@ using net::use_awaitable;
 using namespace std::chrono_literals;
 
 void set_options(Socket& socket) {
-  error_code ignored;  // a Unix socket knows no delay
+  error_code ignored;  // a Unix socket has no such option
   socket.set_option(net::ip::tcp::no_delay(true), ignored);
   socket.set_option(net::socket_base::keep_alive(true), ignored);
   socket.non_blocking(true, ignored);
@@ -34,12 +34,12 @@ bool has_memory_for_one_more(const Service& service) {
   return !memory || memory->has(kSession);
 }
 
-// Of a token that waits: it has to be looked at before the time for it is over.
+// The longest delay of a token: it must be checked before the handshake's timeout.
 WrongTokens::Delay longest_delay(const ServerSettings& settings) {
   return std::min<WrongTokens::Delay>(5s, 500ms * settings.handshake_seconds);
 }
 
-// A client that has left already has no address.
+// The address of a client that has disconnected already is unknown.
 std::string source_of(const Socket& socket) {
   error_code gone;
   const Protocol::endpoint peer = socket.remote_endpoint(gone);
@@ -120,12 +120,12 @@ void ConnectionAcceptor::check(const Listener& listener) const {
   }
   if (!listener.endpoint().tls) {
     log_warning(name +
-                " can be reached from other machines, without TLS: who sees the packets can read the "
-                "tokens and play in others' names; tls:// and --tls-cert encrypt");
+                " can be reached from other machines, without TLS: tokens can be read from the packets, and "
+                "used by others; tls:// and --tls-cert encrypt");
   }
 }
 
-// The file system guards a Unix socket.
+// Permissions of the file system protect a Unix socket.
 const Service& ConnectionAcceptor::service_of(const Listener& listener) const {
   if (listener.endpoint().classic) return *services_.classic;
   return guarded_ && !listener.is_local() ? *guarded_ : *services_.line;
@@ -161,7 +161,7 @@ net::awaitable<void> ConnectionAcceptor::welcome(Listener& listener) {
     Socket socket =
         co_await listener.acceptor().async_accept(loop.context, net::redirect_error(use_awaitable, error));
     if (closed_) break;
-    if (error) {  // out of descriptors, most likely; it may pass
+    if (error) {  // most likely out of descriptors, which may pass
       log_warning("cannot take a client on " + listener.name() + ": " + error.message());
       co_await pause();
       continue;
@@ -171,12 +171,13 @@ net::awaitable<void> ConnectionAcceptor::welcome(Listener& listener) {
   }
 }
 
-// Where there are enough sessions, one without a token makes room: it is over as soon as its loop has time.
+// If there are too many sessions, the oldest one without a token is closed. It ends as soon as its loop
+// handles that.
 std::optional<std::string> ConnectionAcceptor::obstacle(const Service& service) {
   if (!has_memory_for_one_more(service)) return "the server's sessions hold all the memory that they may";
   if (metrics_.sessions_open < settings_.max_sessions) return std::nullopt;
   const std::string full =
-      "there are " + std::to_string(settings_.max_sessions) + " sessions, as many as this server takes";
+      "there are " + std::to_string(settings_.max_sessions) + " sessions, the limit of this server";
   if (!lobby_->make_room(full + "; those without a token go first")) return full;
   ++metrics_.ended_busy;
   return std::nullopt;

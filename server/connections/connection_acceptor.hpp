@@ -1,4 +1,4 @@
-// Lets clients in: who may, where, and how many.
+// Accepts connections, within the limits of the server.
 #pragma once
 
 #include <list>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // needed by Asio 1.74
 #include <vector>
 
 #include <boost/asio/awaitable.hpp>
@@ -23,24 +23,25 @@ namespace racebeam {
 
 class ConnectionAcceptor {
  public:
-  // Listens on every socket of the settings; all outlive it. Throws std::runtime_error for what can't be had
-  // or is not safe.
+  // Listens on every socket of the settings. All parameters must outlive it. Throws std::runtime_error for
+  // addresses that cannot be used, or are not safe.
   ConnectionAcceptor(const ServerSettings& settings, const Services& services, Loops& loops,
                      Metrics& metrics);
 
   std::vector<std::string> names() const;  // of the listeners
   bool empty() const { return listeners_.empty(); }
-  void open();        // clients are welcome from now on
-  void close();       // no more come in
-  void read_again();  // tokens and certificate; what is wrong is logged, and the old ones stay
+  void open();        // accepts clients from now on
+  void close();       // accepts no more
+  void read_again();  // tokens and certificate; errors are logged, and the old ones stay in use
 
  private:
   void listen(const Endpoint& endpoint);
   void listen_inherited(const Endpoint& endpoint, const std::string& name);
-  void check(const Listener& listener) const;  // that it is safe
+  void check(const Listener& listener) const;  // throws unless it is safe
   const Service& service_of(const Listener& listener) const;
   boost::asio::awaitable<void> welcome(Listener& listener);
-  std::optional<std::string> obstacle(const Service& service);  // to one more session
+  // The reason against one more session; nothing if there is none.
+  std::optional<std::string> obstacle(const Service& service);
   void admit(Socket socket, Loop& loop, const Listener& listener, int number);
 
   const ServerSettings& settings_;
@@ -51,9 +52,9 @@ class ConnectionAcceptor {
   WrongTokens wrong_tokens_;
   const std::shared_ptr<Lobby> lobby_ = std::make_shared<Lobby>();
   std::optional<Tls> tls_;
-  std::optional<Service> guarded_;  // the line protocol, for those who have a token
+  std::optional<Service> guarded_;  // the line protocol, with tokens required
   std::list<Listener> listeners_;
-  std::set<int> taken_;  // of the descriptors that we inherited
+  std::set<int> taken_;  // inherited descriptors that are in use
   bool closed_ = false;
 };
 

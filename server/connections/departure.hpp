@@ -1,4 +1,4 @@
-// Finds out whether a client is still there while a long request is under way.
+// Detects clients that disconnect during a long request.
 #pragma once
 
 #include "server/connections/client.hpp"
@@ -7,10 +7,11 @@ namespace racebeam {
 
 class Departure {
  public:
-  // Without waiting. A client that has only closed its sending end is still there: it may read the reply. On
-  // TCP that looks like a client that has closed all, until the server sends something. So the server then
-  // sends a byte of urgent data now and then: receivers leave it out of the stream, unless they ask for it
-  // (SO_OOBINLINE), and the system of a client that has gone answers with a reset, which the next call sees.
+  // Does not block. A client that has only closed its sending end has not gone: it may read the reply. On
+  // TCP, that looks like a client that has closed everything, until the server sends something. The server
+  // therefore sends a byte of urgent data now and then. Receivers leave it out of the stream, unless they
+  // request it (SO_OOBINLINE). The system of a client that has gone answers with a reset, which the next call
+  // detects.
   bool has_gone(Socket& socket);
 
  private:

@@ -37,7 +37,7 @@ Page page_of(const Request& request, const HttpPages& pages) {
     return {http::status::method_not_allowed, "only GET and HEAD\n"};
   if (path == "/healthz") return {http::status::ok, "ok\n"};
   if (path == "/metrics") return {http::status::ok, pages.metrics()};
-  if (path != "/readyz") return {http::status::not_found, "there are /healthz, /readyz and /metrics\n"};
+  if (path != "/readyz") return {http::status::not_found, "accepted are /healthz, /readyz and /metrics\n"};
   if (pages.ready()) return {http::status::ok, "ready\n"};
   return {http::status::service_unavailable, "stopping\n"};
 }
@@ -67,7 +67,7 @@ Http::Http(net::io_context& loop, const TcpAddress& address, HttpPages pages)
   if (error) throw std::runtime_error("cannot listen on " + named(address) + ": " + error.message());
   name_ = named({address.host, acceptor_.local_endpoint().port()});
   if (!is_loopback(address.host))
-    log_warning(name_ + " can be reached from other machines: all who can may read the metrics");
+    log_warning(name_ + " can be reached from other machines, which can then read the metrics");
   net::co_spawn(loop, welcome(), net::detached);
 }
 
@@ -88,14 +88,14 @@ net::awaitable<void> Http::welcome() {
   }
 }
 
-// Connections that ask for nothing must not keep out those that do.
+// Closes the oldest connection, so that idle ones do not keep out others.
 void Http::make_room() {
   if (connections_.size() < kMostConnections) return;
-  connections_.front()->close();  // which ends what it waits for
+  connections_.front()->close();  // cancels what it waits for
   connections_.pop_front();
 }
 
-// One request after the other, until the client closes, is silent for too long, or sends what is no HTTP.
+// Answers requests until the client closes, times out, or sends no valid HTTP.
 net::awaitable<void> Http::serve(Connection connection) {
   boost::beast::tcp_stream& stream = *connection;
   boost::beast::flat_buffer buffer;

@@ -1,12 +1,12 @@
-// Health and metrics for those who run a server, over HTTP:
-// /healthz 200 while the process lives; /readyz 200, or 503 once it is told to stop; /metrics for Prometheus.
+// Health and metrics over HTTP. /healthz: 200 while the process lives. /readyz: 200, or 503 after the server
+// was told to stop. /metrics: for Prometheus.
 #pragma once
 
 #include <functional>
 #include <list>
 #include <memory>
 #include <string>
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // needed by Asio 1.74
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
@@ -24,8 +24,8 @@ struct HttpPages {
 
 class Http {
  public:
-  // Listens from now on, and serves when the loop runs. Throws std::runtime_error for an address that can't
-  // be had.
+  // Listens from now on, and serves while the loop runs. Throws std::runtime_error if the address cannot be
+  // used.
   Http(boost::asio::io_context& loop, const TcpAddress& address, HttpPages pages);
 
   const std::string& name() const { return name_; }  // http://HOST:PORT
@@ -40,7 +40,8 @@ class Http {
   boost::asio::ip::tcp::acceptor acceptor_;
   HttpPages pages_;
   std::string name_;
-  std::list<Connection> connections_;  // the one whose latest request, or coming, is longest ago is the first
+  // Ordered by the latest request, or else the connection; the oldest is first.
+  std::list<Connection> connections_;
 };
 
 }  // namespace racebeam

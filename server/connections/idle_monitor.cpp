@@ -13,7 +13,7 @@ using std::chrono::seconds;
 using namespace std::chrono_literals;
 
 constexpr auto kBetweenLooks = 250ms;
-constexpr auto kPause = 2s;  // of a client, after which its session is at rest
+constexpr auto kPause = 2s;  // of a client, after which its session releases its caches
 
 std::string why_no_token(const Client& client, int handshake_seconds) {
   const std::string time = std::to_string(handshake_seconds) + " seconds";
@@ -53,7 +53,7 @@ void IdleMonitor::look_at(Client& client) {
   const auto now = Clock::now();
   const auto idle = seconds(settings_.idle_seconds), handshake = seconds(settings_.handshake_seconds);
   if (client.ending()) {
-    client.end(Code::kIdle, {});  // for good
+    client.end(Code::kIdle, {});  // with its second call, the client is disconnected
   } else if (!client.admitted && now - client.came() > handshake) {
     ++metrics_.ended_handshake;
     client.end(Code::kUnauthorized, why_no_token(client, settings_.handshake_seconds));

@@ -1,8 +1,8 @@
-// Looks after sessions from time to time, so that none costs a timer of its own: idle ones, and those that do
-// not show that they may play, are ended.
+// Examines all sessions from time to time, so that none needs a timer. Ends sessions that are idle, and those
+// that have not given a token in time.
 #pragma once
 
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // needed by Asio 1.74
 
 #include <boost/asio/awaitable.hpp>
 
@@ -13,7 +13,8 @@ namespace racebeam {
 
 class IdleMonitor {
  public:
-  IdleMonitor(const ServerSettings& settings, Loops& loops, Metrics& metrics)  // which outlive it
+  // The parameters must outlive it.
+  IdleMonitor(const ServerSettings& settings, Loops& loops, Metrics& metrics)
       : settings_(settings), loops_(loops), metrics_(metrics) {}
 
   void start();    // on each loop

@@ -15,7 +15,7 @@ using net::ip::tcp;
 using Unix = net::local::stream_protocol;
 using boost::system::error_code;
 
-// A socket file outlives its server; nobody answers there any more.
+// A socket file remains after its server has died, and refuses connections.
 void remove_stale(const std::string& path) {
   std::error_code unknown;
   if (!std::filesystem::exists(path, unknown)) return;
@@ -23,7 +23,7 @@ void remove_stale(const std::string& path) {
   net::io_context context;
   error_code error;
   Unix::socket probe(context, Unix());
-  probe.non_blocking(true);  // a server that is busy has a full queue: the system would wait for it
+  probe.non_blocking(true);  // a busy server has a full queue, for which connect() would wait
   probe.connect(Unix::endpoint(path), error);
   if (error == net::error::connection_refused) std::filesystem::remove(path);
 }
@@ -85,7 +85,7 @@ void Listener::bind(const Protocol::endpoint& endpoint) {
   if (error) throw std::runtime_error("cannot listen on " + name_ + ": " + error.message());
 }
 
-// Where it really listens, whoever has opened the socket.
+// Finds the actual address, also of an inherited socket.
 void Listener::describe() {
   const Protocol::endpoint here = acceptor_.local_endpoint();
   local_ = here.protocol().family() == AF_UNIX;

@@ -1,8 +1,8 @@
-// One address where clients come in.
+// One address at which the server accepts connections.
 #pragma once
 
 #include <string>
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // needed by Asio 1.74
 
 #include <boost/asio.hpp>
 
@@ -17,11 +17,11 @@ using Acceptor = boost::asio::basic_socket_acceptor<Protocol>;
 
 class Listener {
  public:
-  // Listens from now on, on a TCP or Unix address. Throws std::runtime_error for one that can't be had. The
-  // socket file of a server that died is replaced; that of a live one is not.
+  // Listens from now on, on a TCP or Unix address. Throws std::runtime_error if that cannot be used. The
+  // socket file of a server that died is replaced; that of a live server is not.
   Listener(const boost::asio::any_io_executor& executor, const Endpoint& endpoint);
 
-  // A socket that listens already; its file, if it has one, is not ours to remove.
+  // A socket that listens already. Its file, if it has one, is not removed.
   Listener(const boost::asio::any_io_executor& executor, const Endpoint& endpoint,
            const InheritedSocket& inherited);
 
@@ -33,10 +33,10 @@ class Listener {
   const std::string& name() const { return name_; }  // the address, with the port that was picked
   std::string full_name() const { return (endpoint_.classic ? "classic+" : "") + name_; }
   const Endpoint& endpoint() const { return endpoint_; }
-  bool is_local() const { return local_; }  // a Unix socket: the file system says who may come
+  bool is_local() const { return local_; }  // a Unix socket, protected by the file system
   bool is_loopback() const;                 // only this machine can reach it
 
-  void close();  // whoever comes from now on is refused by the system
+  void close();  // from now on, the system refuses connections
 
  private:
   void listen(const TcpAddress& address);

@@ -1,5 +1,5 @@
-// Sessions whose clients have yet to give a token, in the order in which they came. Where there are as many
-// sessions as there may be, the first of them makes room.
+// Sessions whose clients have not given a token yet, in the order of their arrival. When the limit of
+// sessions is reached, the first of them is closed.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,16 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // needed by Asio 1.74
 
 namespace racebeam {
 
 class Client;
 
-// From any thread.
+// Thread-safe.
 class Lobby : public std::enable_shared_from_this<Lobby> {
  public:
-  // A client's, from its first byte to its token, or to its end.
+  // A client's place: held from its first byte to its token, or to its end.
   class Place {
    public:
     Place(std::shared_ptr<Lobby> lobby, std::uint64_t number) : lobby_(std::move(lobby)), number_(number) {}
@@ -30,19 +30,19 @@ class Lobby : public std::enable_shared_from_this<Lobby> {
     const std::uint64_t number_;
   };
 
-  void enter(const std::shared_ptr<Client>& client);  // on the thread that has made it
+  void enter(const std::shared_ptr<Client>& client);  // on the thread that has made `client`
 
-  // Ends the session that has been without a token for longest, with this sentence. False: all have given
-  // one.
+  // Ends the session that has been without a token for longest, with this sentence. Returns false if all
+  // sessions have given one.
   bool make_room(const std::string& sentence);
 
  private:
   void leave(std::uint64_t number);
-  std::shared_ptr<Client> take_first();  // null: there is none
+  std::shared_ptr<Client> take_first();  // null: the lobby is empty
 
   std::mutex mutex_;
   std::uint64_t entered_ = 0;
-  std::map<std::uint64_t, std::weak_ptr<Client>> waiting_;  // by when they came
+  std::map<std::uint64_t, std::weak_ptr<Client>> waiting_;  // by order of arrival
 };
 
 }  // namespace racebeam

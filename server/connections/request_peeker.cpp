@@ -20,13 +20,13 @@ Socket::message_flags RequestPeeker::flags(bool client_sleeps) const {
 std::size_t RequestPeeker::look(std::span<char> space) {
   if (socket_ == nullptr || space.empty()) return 0;
   error_code nothing;
-  if (seen_ > 0 && socket_->available(nothing) == seen_) return 0;  // nothing new: it stays where it is
+  if (seen_ > 0 && socket_->available(nothing) == seen_) return 0;  // nothing new was received
   take();
   seen_ = socket_->receive(net::buffer(space.data(), space.size()), Socket::message_peek, nothing);
   return seen_;
 }
 
-// A socket that fails now fails for the next reader, too.
+// If the socket fails here, it fails for the next reader, too.
 void RequestPeeker::take() {
   std::array<char, 4096> unused;
   while (seen_ > 0) {

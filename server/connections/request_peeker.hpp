@@ -1,7 +1,7 @@
-// Requests that a client has sent ahead, found while replies to those before them still wait to be sent. They
-// are read, but left with the system until the replies are on their way: taking them out makes it wake the
-// client up for nothing, on a Unix socket, and send an acknowledgement of its own, on TCP. With the replies,
-// the client is woken up and the acknowledgement goes along.
+// Finds requests that a client has sent ahead, while replies to earlier ones still wait to be sent. The
+// requests are copied, but stay in the system's buffer until the replies are sent. Removing them earlier
+// would wake the client for nothing, on a Unix socket, or send a separate acknowledgement, on TCP. With the
+// replies, both happen anyway.
 #pragma once
 
 #include <cstddef>
@@ -13,20 +13,21 @@ namespace racebeam {
 
 class RequestPeeker {
  public:
-  explicit RequestPeeker(Socket* socket);  // null: there is none to look into, nothing is found
+  explicit RequestPeeker(Socket* socket);  // null: look() finds nothing
 
-  // Bytes that have come by now, also seen by the next reader until take(); 0: none, or nothing will come.
+  // Copies bytes that have been received. The next reader sees them again until take(). Returns their number;
+  // 0: none, or the end.
   std::size_t look(std::span<char> space);
-  void take();  // what look() has found; before anybody else reads
+  void take();  // removes what look() has found; before other reads
 
-  // For who reads next, and waits for it. A client that sleeps until its reply is there is not woken up
-  // before, either, if its request is looked at only: the flag says so, and what was read is to be told.
+  // Flags for the next blocking read. If the client sleeps until its reply, they only copy its request, so
+  // that it is not woken early. The caller must then tell how much was read.
   Socket::message_flags flags(bool client_sleeps) const;
   void was_read(Socket::message_flags flags, std::size_t count) { seen_ = flags != 0 ? count : 0; }
 
  private:
   Socket* socket_;
-  bool wakes_ = false;  // the system wakes the client up when its request is taken
+  bool wakes_ = false;  // the system wakes the client when its request is removed
   std::size_t seen_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a server offers: machines, and how to talk to them.
+// The services of a server: machines, and the protocols for them.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,12 @@ namespace racebeam {
 
 using Service = std::variant<ClassicService, LineService>;
 
-// One for each protocol that is spoken on some endpoint.
+// Null for a protocol that no endpoint uses.
 struct Services {
   std::optional<Service> classic, line;
 };
 
-// For the log: a session can be played again when its seed is known.
+// For the log: with its seed, a session can be repeated.
 inline std::string describe(const Environment& machine) {
   return machine.game().name + ", seed " + std::to_string(machine.settings().random_seed);
 }

@@ -17,14 +17,14 @@ namespace racebeam {
 using namespace std::chrono_literals;
 
 // Exit statuses.
-constexpr int kClientGone = 1;  // it stopped reading in the middle
+constexpr int kClientGone = 1;  // it stopped reading
 constexpr int kRefused = 1;     // the first error of a strict session
 
 // The session, made before its streams are opened.
 class StreamSession::Conversation {
  public:
   virtual ~Conversation() = default;
-  virtual int hold(BlockingPair& streams, const Halt& halt) = 0;  // the exit status
+  virtual int hold(BlockingPair& streams, const Halt& halt) = 0;  // returns the exit status
   virtual std::string description() const = 0;
 };
 
@@ -77,7 +77,7 @@ class StreamSession::LineConversation final : public Conversation {
   std::string description() const override { return "the line protocol"; }
 
  private:
-  bool read_at_once(BlockingPair& streams) {  // what has come by now; not the end
+  bool read_at_once(BlockingPair& streams) {  // what has been received by now, without the end
     const auto count = streams.read_at_once(session_.space());
     if (!count || *count == 0) return false;
     meter_.bytes_in.add(static_cast<std::int64_t>(*count));
@@ -108,7 +108,7 @@ class StreamSession::ClassicConversation final : public Conversation {
   std::string description() const override { return describe(session_.machine()); }
 
  private:
-  bool converse(BlockingPair& streams, const Halt& halt);  // false: the client stopped reading
+  bool converse(BlockingPair& streams, const Halt& halt);  // returns false if the client stopped reading
 
   Meter& meter_;
   PacedClassic session_;
@@ -175,13 +175,13 @@ void StreamSession::run() {
     log(LogLevel::kError, error.what());
     status_ = 1;
   }
-  conversation_.reset();  // what it records is kept before anybody hears of the end
+  conversation_.reset();  // commits its recordings before the end is reported
   --metrics_.sessions_open;
   ended_ = true;
   on_end_();
 }
 
-// Each open waits for the client's; a client that opens them in the other order waits for ever.
+// Each open waits for the client's. A client that opens them in the other order waits for ever.
 bool StreamSession::connect() {
   const std::string what = conversation_->description();
   if (std::holds_alternative<StandardStreams>(address_)) {

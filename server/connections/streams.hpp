@@ -1,5 +1,5 @@
-// One session over a pair of byte streams that were there before us: standard streams, named pipes.
-// They may be of any kind, files too, so that reading and writing simply block, on a thread of their own.
+// One session over a pair of existing byte streams: standard streams or named pipes. They may be of any kind,
+// also files, so that reads and writes block, on a thread of their own.
 #pragma once
 
 #include <atomic>
@@ -18,8 +18,8 @@ namespace racebeam {
 
 class StreamSession {
  public:
-  // Makes pipes that are missing and what the session needs, so that who starts the server hears at once when
-  // it can't be had: throws std::runtime_error or std::invalid_argument. All outlive the session.
+  // Creates missing pipes, and what the session needs, so that errors appear at the start. Throws
+  // std::runtime_error or std::invalid_argument. All parameters must outlive the session.
   StreamSession(const Endpoint& endpoint, const Service& service, std::chrono::microseconds busy_poll,
                 Metrics& metrics);
   ~StreamSession();
@@ -28,14 +28,14 @@ class StreamSession {
 
   const std::string& name() const { return name_; }
 
-  // Serves, on a thread; calls `ended` there when all is over.
+  // Serves on a thread of its own; calls `ended` there at the end.
   void start(std::function<void()> ended);
 
   bool ended() const { return ended_; }
-  int status() const { return status_; }  // of the process, once ended: see the help of racebeam serve
+  int status() const { return status_; }  // of the process, at the end: see the help of racebeam serve
 
-  // No further request is read; one that is under way is finished. To be called until ended(): each call
-  // wakes the thread up, if it waits. With `at_once`, what is under way is given up.
+  // Reads no more requests; a request in progress is finished. Must be called repeatedly until ended(): each
+  // call wakes the thread, if it blocks. With `at_once`, the request in progress is cancelled.
   void stop(bool at_once);
 
  private:

@@ -20,7 +20,8 @@ constexpr std::array kNames = {"debug", "info", "warning", "error", "off"};
 
 std::atomic<LogFormat> format = LogFormat::kText;
 
-// What a client sent may be in it. A line has to fit into a page, which a pipe takes whole or not at all.
+// Makes text safe that may contain bytes of a client. A line must fit into a page, which a pipe accepts as a
+// whole or not at all.
 std::string printable(std::string_view text) {
   constexpr std::size_t kLongest = 1000;
   std::string clean(text.substr(0, kLongest));
@@ -34,10 +35,10 @@ std::string as_json(LogLevel level, const std::string& sentence, std::initialize
   line["level"] = kNames[static_cast<std::size_t>(level)];
   line["message"] = printable(sentence);
   for (const LogField& field : fields) line[std::string(field.key)] = printable(field.value);
-  return line.dump().substr(1);  // the time comes before it, from the pattern
+  return line.dump().substr(1);  // the pattern writes the time before it
 }
 
-// What stands behind the pattern.
+// The part of a line after the pattern's output.
 std::string payload(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields) {
   if (format == LogFormat::kJson) return as_json(level, sentence, fields);
   const char* mark = level == LogLevel::kWarning ? "warning: " : level == LogLevel::kError ? "error: " : "";
@@ -45,7 +46,8 @@ std::string payload(LogLevel level, const std::string& sentence, std::initialize
 }
 
 std::string tell_of_lost(std::int64_t lines) {
-  return payload(LogLevel::kWarning, std::to_string(lines) + " lines of the log are lost: nobody read it",
+  return payload(LogLevel::kWarning,
+                 std::to_string(lines) + " lines of the log are lost: its reader is too slow",
                  {{"event", "lost"}});
 }
 

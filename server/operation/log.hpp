@@ -1,4 +1,4 @@
-// What the server says to the person who started it: one line an event, on standard error.
+// The server's log for its operator: one line for each event, on standard error.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@ enum class LogFormat {
   kJson   // {"time":"2026-01-31T12:00:00.123Z","level":"info","message":"SENTENCE",...}
 };
 
-// Before there are threads. Without it: text, from information upwards.
+// Call it before threads start. Without it, the format is text and the level info.
 void set_up_log(LogLevel least, LogFormat format);
 
-// What a program that reads the log wants to find without understanding the sentence; shown in JSON.
+// A value for programs that read the log; only JSON shows it.
 struct LogField {
   std::string_view key, value;
 };
 
-// From any thread; lines never mix. Bytes that are no printable ASCII become '?', and what is very long is
-// cut. Never waits: see log_sink.hpp.
+// Thread-safe; lines never mix. Bytes other than printable ASCII become '?', and long lines are truncated.
+// Never blocks: see log_sink.hpp.
 void log(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields = {});
 
-void write_log();  // lines for which there was no room, if there is now
+void write_log();  // writes waiting lines, if there is room now
 std::int64_t log_lines_lost();
 
 inline void log(const std::string& sentence, std::initializer_list<LogField> fields = {}) {

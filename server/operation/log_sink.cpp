@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kLastMoment = 200ms;
 
-// May wait for ever. What can't be written, on a full disk, is as good as written.
+// May block for ever. Bytes that cannot be written, as on a full disk, are dropped.
 void write_whole(int descriptor, std::string_view line) {
   while (!line.empty()) {
     const ssize_t count = ::write(descriptor, line.data(), line.size());
@@ -30,7 +30,7 @@ void write_whole(int descriptor, std::string_view line) {
 
 }  // namespace
 
-// The thread shares it, and is left alone with it in the end: it may hang in a write for ever.
+// The thread shares the sink, and may outlive its owner: it can hang in a write for ever.
 std::shared_ptr<LogSink> LogSink::start(int descriptor, Kind kind,
                                         std::function<std::string(std::int64_t)> tell) {
   std::shared_ptr<LogSink> sink(new LogSink(descriptor, kind, std::move(tell)));
@@ -76,7 +76,7 @@ void LogSink::lose_oldest() {
   ++lost_;
 }
 
-// Where they are missing, before the lines that are left.
+// Reports lost lines at their place, before the remaining ones.
 void LogSink::tell_of_lost() {
   const std::string sentence = tell_(std::exchange(untold_, 0));
   add({{}, "racebeam", spdlog::level::warn, sentence});
@@ -109,13 +109,13 @@ void LogSink::write_file() {
   }
 }
 
-// A pipe or a terminal with any room has it for a line of a page, unless somebody else writes there, too.
+// A pipe or a terminal with any room accepts a line of a page, unless another process writes there, too.
 bool LogSink::has_room() const {
   pollfd state{descriptor_, POLLOUT, 0};
   return ::poll(&state, 1, 0) > 0;
 }
 
-// What can't be written, since nobody is there any more, is as good as written.
+// Bytes that cannot be written, because there is no reader any more, are dropped.
 bool LogSink::write(std::string& line) {
   const ssize_t count = write_some(line);
   if (count < 0) return errno != EAGAIN && errno != EINTR;

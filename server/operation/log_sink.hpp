@@ -1,7 +1,7 @@
-// Where the lines of the log go: standard error, which may be a pipe that nobody empties, or a file on a disk
-// that hangs. No thread that serves ever waits for it: what it has no room for waits here, up to a limit,
-// beyond which the oldest lines are lost and counted. The system can't tell whether a file has room: a thread
-// of its own writes it.
+// The destination of the log: standard error. It may be a pipe without a reader, or a file on a hanging disk.
+// Threads that serve never wait for it. Lines for which there is no room wait here, up to a limit; beyond it,
+// the oldest lines are dropped and counted. The system cannot tell whether a file has room, so a file has a
+// thread that writes it.
 #pragma once
 
 #include <spdlog/sinks/base_sink.h>
@@ -22,15 +22,15 @@ class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
   static constexpr std::size_t kMostWaiting = 1024;  // lines
 
-  enum class Kind { kFile, kSocket, kOther };  // of what is behind a descriptor
+  enum class Kind { kFile, kSocket, kOther };  // the kind of the descriptor
   static Kind kind_of(int descriptor);
 
-  // `tell` makes the sentence, in the log's format, that tells how many lines were lost.
+  // tell: makes the line, in the log's format, that reports how many lines were lost.
   static std::shared_ptr<LogSink> start(int descriptor, Kind kind,
                                         std::function<std::string(std::int64_t)> tell);
 
-  void close();                                // at the end: gives what waits one more moment
-  std::int64_t lost() const { return lost_; }  // lines, from any thread
+  void close();                                // at the end: waits for a moment for the remaining lines
+  std::int64_t lost() const { return lost_; }  // lines; thread-safe
 
  protected:
   void sink_it_(const spdlog::details::log_msg& message) override;
@@ -39,23 +39,23 @@ class LogSink final : public spdlog::sinks::base_sink<std::mutex> {
  private:
   LogSink(int descriptor, Kind kind, std::function<std::string(std::int64_t)> tell);
 
-  void write_file();  // until it is closed
+  void write_file();  // until the sink is closed
   void add(const spdlog::details::log_msg& message);
   void lose_oldest();
   void tell_of_lost();
   bool has_room() const;
-  bool write(std::string& line);  // false: no room; what was not written is left in it
+  bool write(std::string& line);  // returns false if there is no room; the rest of the line stays in it
   ssize_t write_some(const std::string& line) const;
 
   const int descriptor_;
   const Kind kind_;
   const std::function<std::string(std::int64_t)> tell_;
   std::deque<std::string> waiting_;
-  bool begun_ = false;       // the first that waits is written in part
-  std::int64_t untold_ = 0;  // lines that were lost since it was last told
+  bool begun_ = false;       // the first waiting line is written in part
+  std::int64_t untold_ = 0;  // lines lost since the last report
   std::atomic<std::int64_t> lost_ = 0;
 
-  // Of a file, under the mutex of the base.
+  // For a file; under the mutex of the base.
   std::condition_variable changed_;
   bool writing_ = false, closed_ = false;
 };

@@ -53,7 +53,8 @@ void Metrics::append_requests(std::string& out) const {
 }
 
 void Metrics::append_latencies(std::string& out) const {
-  append_head(out, "request_seconds", "histogram", "From the whole line of a request to its whole reply.");
+  append_head(out, "request_seconds", "histogram",
+              "Time from the end of a request's line to the end of its reply.");
   std::int64_t below = 0;
   for (std::size_t i = 0; i <= kLatencyBounds.size(); ++i) {
     below += sum([i](const Meter& meter) -> auto& { return meter.latencies[i]; });
@@ -67,7 +68,7 @@ void Metrics::append_latencies(std::string& out) const {
 
 std::string Metrics::text() const {
   std::string out;
-  append_head(out, "sessions_open", "gauge", "Sessions now.");
+  append_head(out, "sessions_open", "gauge", "Sessions that are open.");
   append_value(out, "sessions_open", sessions_open.load());
   append_head(out, "sessions_total", "counter", "Sessions that began, by protocol.");
   append_value(out, "sessions_total{protocol=\"line\"}", sessions_line.load());
@@ -80,7 +81,7 @@ std::string Metrics::text() const {
   append_value(out, "sessions_ended_total{reason=\"handshake\"}", ended_handshake.load());
   append_value(out, "sessions_ended_total{reason=\"stopping\"}", ended_stopping.load());
   append_value(out, "sessions_ended_total{reason=\"busy\"}", ended_busy.load());
-  append_head(out, "wrong_tokens_total", "counter", "Tokens from clients that were wrong.");
+  append_head(out, "wrong_tokens_total", "counter", "Wrong tokens from clients.");
   append_value(out, "wrong_tokens_total", wrong_tokens.load());
   append_head(out, "frames_total", "counter", "Frames that machines have run for requests.");
   append_value(out, "frames_total", sum([](const Meter& meter) -> auto& { return meter.frames; }));
@@ -88,7 +89,8 @@ std::string Metrics::text() const {
   append_value(out, "received_bytes_total", sum([](const Meter& meter) -> auto& { return meter.bytes_in; }));
   append_head(out, "sent_bytes_total", "counter", "Bytes to clients, without TLS.");
   append_value(out, "sent_bytes_total", sum([](const Meter& meter) -> auto& { return meter.bytes_out; }));
-  append_head(out, "log_lines_lost_total", "counter", "Lines of the log that nobody read in time.");
+  append_head(out, "log_lines_lost_total", "counter",
+              "Lines of the log that were dropped because its reader is slow.");
   append_value(out, "log_lines_lost_total", log_lines_lost());
   append_requests(out);
   append_latencies(out);

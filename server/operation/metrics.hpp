@@ -1,4 +1,4 @@
-// The numbers of a server, in the text format of Prometheus.
+// The metrics of a server, in the text format of Prometheus.
 #pragma once
 
 #include <atomic>
@@ -12,11 +12,11 @@ namespace racebeam {
 
 class Metrics {
  public:
-  Meter& add_meter();  // for a thread that serves; before others read
+  Meter& add_meter();  // for a thread that serves; before other threads read
 
-  std::string text() const;  // from any thread
+  std::string text() const;  // thread-safe
 
-  // Any thread counts.
+  // Counted by any thread:
   std::atomic<std::int64_t> sessions_open = 0, sessions_classic = 0, sessions_line = 0;
   std::atomic<std::int64_t> refused_busy = 0, refused_tls = 0, wrong_tokens = 0;
   std::atomic<std::int64_t> ended_idle = 0, ended_handshake = 0, ended_stopping = 0, ended_busy = 0;

@@ -27,8 +27,8 @@ constexpr std::string_view kHead =
 
 [[noreturn]] void refuse(const std::string& path) {
   throw std::runtime_error("--ready-file " + path +
-                           " is there, and is no ready file: its first line does not begin with '" +
-                           std::string(kMark) + "'; name another, or remove it");
+                           " exists, and is not a ready file: its first line does not begin with '" +
+                           std::string(kMark) + "'; choose another name, or remove it");
 }
 
 bool begins_with_mark(int file) {
@@ -37,11 +37,11 @@ bool begins_with_mark(int file) {
          std::string_view(text.data(), text.size()) == kMark;
 }
 
-// The descriptor of a ready file; -1: there is no file. Nothing but a plain file is opened, and no link is
-// followed.
+// Opens a ready file. Returns its descriptor, or -1 if there is no file. Opens only regular files, and
+// follows no link.
 int open_ours(const std::string& path) {
   struct stat found {};
-  if (::lstat(path.c_str(), &found) != 0) return -1;  // what else is wrong shows when it is written
+  if (::lstat(path.c_str(), &found) != 0) return -1;  // other errors show when it is written
   if (!S_ISREG(found.st_mode)) refuse(path);
   const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (file < 0 && errno == ENOENT) return -1;

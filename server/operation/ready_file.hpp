@@ -1,7 +1,6 @@
-// Tells those who wait for a server where it listens: a file with an address a line, there whole or not at
-// all. Its first line says what it is. A file that does not begin so is never touched. The server holds a
-// lock (flock) on its file for as long as it lives: that of a server that died is told from that of a live
-// one.
+// Publishes the server's addresses: a file with one address a line, which appears as a whole. Its first line
+// identifies it; a file without that line is never changed. The server holds a lock (flock) on its file
+// during its lifetime. So the file of a server that died can be told from that of a live one.
 #pragma once
 
 #include <string>
@@ -11,16 +10,17 @@
 
 namespace racebeam {
 
-// Removes what a server that died has left: those who wait must not find that one's addresses. That of a live
-// server stays. Throws std::runtime_error for what is no ready file. An empty path names none.
+// Removes the file of a server that died, so that clients do not find its addresses. The file of a live
+// server is not changed. Throws std::runtime_error if the file is not a ready file. Does nothing for an empty
+// path.
 void remove_stale_ready_file(const std::string& path);
 
 class ReadyFile {
  public:
-  // Writes it; takes the place of a live server's. Throws std::runtime_error for a file that is not one of
-  // ours, or when it can't be written.
+  // Writes the file, and replaces that of a live server. Throws std::runtime_error if the file is not a ready
+  // file, or cannot be written.
   ReadyFile(const std::string& path, const std::vector<std::string>& addresses);
-  ~ReadyFile();  // removes it, unless it is a successor's
+  ~ReadyFile();  // removes it, unless it is another server's
   ReadyFile(const ReadyFile&) = delete;
   ReadyFile& operator=(const ReadyFile&) = delete;
 

@@ -1,4 +1,4 @@
-// Whether a person sits in front.
+// Whether a descriptor is a terminal.
 #pragma once
 
 #include <sys/ioctl.h>
@@ -6,9 +6,9 @@
 
 namespace racebeam {
 
-// How wide the terminal behind `file` is; 0 if it is none.
+// The width of the terminal `file` in columns; 0 if it is not a terminal.
 inline int terminal_columns(int file) {
-  constexpr int kUsual = 80;  // where it does not say
+  constexpr int kUsual = 80;  // if the terminal does not tell
   if (::isatty(file) == 0) return 0;
   winsize size{};
   return ::ioctl(file, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsual;

@@ -1,4 +1,4 @@
-// A file that this server has made, told from that of a successor under the same name.
+// A file that this server has made. It is removed only if it has not been replaced under the same name.
 #pragma once
 
 #include <sys/stat.h>
@@ -11,17 +11,17 @@ namespace racebeam {
 
 class UnlinkOnExit {
  public:
-  UnlinkOnExit() = default;  // none
+  UnlinkOnExit() = default;  // no file
   explicit UnlinkOnExit(std::string path) : path_(std::move(path)), mark_(mark_of(path_)) {}
 
-  // Unless it is gone, or another's. Once.
+  // Removes the file, unless it is gone or replaced. Only once.
   void remove() {
     const Mark mark = std::exchange(mark_, {});
     if (mark.number != 0 && mark_of(path_) == mark) ::unlink(path_.c_str());
   }
 
  private:
-  // The system gives the number of a file that was removed to the next one; the time differs.
+  // The system may give the inode number of a removed file to the next one; the time then differs.
   struct Mark {
     ino_t number = 0;
     time_t seconds = 0;

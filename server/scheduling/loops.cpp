@@ -8,7 +8,7 @@
 
 namespace racebeam {
 
-// While it polls, all sessions of the loop have their turn, not only the one that is waited for.
+// While a loop polls, all its sessions get their turn, not only the one that it polls for.
 void Loop::run() {
   const auto stay = boost::asio::make_work_guard(context);
   while (!context.stopped()) {

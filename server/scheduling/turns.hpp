@@ -1,8 +1,8 @@
-// Shares an event loop out: a session that has used the loop much lately waits until the sessions that ask
-// briefly have been served, and then for those that have used it less.
+// Schedules the sessions of an event loop. A session that has used the loop much lately waits for sessions
+// with short requests, and then for those that have used it less.
 #pragma once
 
-#include <utility>  // Asio 1.74 forgets it
+#include <utility>  // needed by Asio 1.74
 #include <vector>
 
 #include <boost/asio/awaitable.hpp>
@@ -17,8 +17,8 @@ class Turns {
  public:
   using Clock = Usage::Clock;
 
-  // Whether a session may work at once: when it is its turn, when it has the loop to itself, and when it asks
-  // briefly.
+  // Whether a session may work at once: because it is its turn, it is alone on the loop, or its request is
+  // short.
   bool may_work(const Usage& usage) const {
     if (next_ == &usage) return true;
     if (last_ == &usage && waiting_.empty()) return true;
@@ -31,14 +31,14 @@ class Turns {
     next_ = nullptr;
   }
 
-  // Returns when it is the session's turn. In between, the loop handles what else is ready.
+  // Returns when it is the session's turn. Meanwhile, the loop handles other events.
   boost::asio::awaitable<void> wait(const Usage& usage);
 
   bool empty() const { return waiting_.empty(); }
-  void wake_next();  // the one that has used the loop least; there is one
+  void wake_next();  // the session that has used the loop least; there must be one
 
  private:
-  static constexpr double kBrief = 0.001;  // seconds lately
+  static constexpr double kBrief = 0.001;  // seconds of recent use
 
   struct Waiting {
     const Usage* usage;
@@ -46,8 +46,8 @@ class Turns {
   };
 
   std::vector<Waiting> waiting_;
-  const Usage* last_ = nullptr;  // that has worked
-  const Usage* next_ = nullptr;  // whose turn it is; null: there is none
+  const Usage* last_ = nullptr;  // the session that worked last
+  const Usage* next_ = nullptr;  // whose turn it is; null: no session's
 };
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-// How much of its event loop a session has used lately.
+// How much a session has used its event loop lately.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ class Usage {
     at_ = now;
   }
 
-  // Seconds of work, of which each counts half for every kHalfLife that has passed since.
+  // Seconds of work, each weighted by a half for every kHalfLife since.
   double lately(Clock::time_point now) const {
     return sum_ * std::exp2(-std::chrono::duration<double>(now - at_).count() / kHalfLife);
   }

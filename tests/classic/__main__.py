@@ -1,8 +1,9 @@
-"""Compares `racebeam classic` with ALE 0.6.0, live: the same lines are sent to both, and all that they answer is compared.
+"""Compares `racebeam classic` with ALE 0.6.0: sends the same lines to both, and compares their output.
 
-The reference is a build of ALE's tag v0.6.0, made outside of this tree; give the path of its program `ale`. Each run has
-actions, settings, saves, loads and resets of its own, drawn from its seed. Its name says all of that: --run plays it again.
-Status: 0 all identical, 1 something is not, 2 the command line makes no sense, 77 there is nothing to compare with.
+The reference is a build of ALE's tag v0.6.0, made outside of this tree; give the path of its program `ale`.
+The actions, settings, saves, loads and resets of a run are drawn from its seed. The run's name contains all
+of that: --run repeats it. Status: 0 all identical, 1 a run differs, 2 usage error, 77 there is nothing to
+compare with.
 """
 
 import argparse
@@ -14,7 +15,7 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 from images import SKIPPED, folder, image, images
-from kept import write as write_kept
+from recorded import write as write_recorded
 from run import Run, drawn
 from session import BINARY, difference, play
 
@@ -26,13 +27,13 @@ def parse_arguments():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
     add("--reference", required=True, metavar="PATH", help="the program `ale` of ALE 0.6.0")
-    add("--games", metavar="A,B", help="only these games (default: all that there are images of)")
-    add("--seed", type=int, help="of the first series of runs (default: drawn, and printed)")
+    add("--games", metavar="A,B", help="only these games (default: all with an image)")
+    add("--seed", type=int, help="seed of the first series of runs (default: random, and printed)")
     add("--seeds", type=int, default=3, metavar="N", help="runs of each game (default 3)")
-    add("--lines", type=int, default=1000, metavar="N", help="of a run (default 1000)")
-    add("--run", action="append", metavar="NAME", help="this run alone, by the name that a report gives it; repeatable")
-    add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs at once (default: one a processor)")
-    add("--keep", type=pathlib.Path, metavar="FILE", help="write digests of what the reference said")
+    add("--lines", type=int, default=1000, metavar="N", help="lines of a run (default 1000)")
+    add("--run", action="append", metavar="NAME", help="only this run, by its name in a report; repeatable")
+    add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="runs in parallel (default: one for each processor)")
+    add("--record", type=pathlib.Path, metavar="FILE", help="write digests of the reference's output")
     return parser.parse_args()
 
 
@@ -54,7 +55,7 @@ def drawn_runs(options):
 
 
 def compare(reference, run):
-    """The run, its verdict, and what the reference answered."""
+    """Returns the run, its verdict, and the reference's output."""
     path = image(run.game)
     try:
         expected = play([reference], run, path)
@@ -76,13 +77,13 @@ def main():
         print(f"scripts/check/classic-conformance: {error}", file=sys.stderr)
         return 2
     results = compare_all(options, runs)
-    if options.keep:
-        write_kept(options.keep, {run: expected for run, verdict, expected in results if expected and verdict != UNKNOWN})
+    if options.record:
+        write_recorded(options.record, {run: expected for run, verdict, expected in results if expected and verdict != UNKNOWN})
     return report({run: verdict for run, verdict, _ in results})
 
 
 def compare_all(options, runs):
-    """What compare() found, for all runs; tells of differences as they come."""
+    """Returns the results of compare() for all runs. Prints differences as they are found."""
     results = []
     with ThreadPoolExecutor(options.jobs) as pool:
         for result in pool.map(lambda run: compare(options.reference, run), runs):
@@ -94,7 +95,7 @@ def compare_all(options, runs):
 
 
 def report(verdicts):
-    """Counts; the exit status."""
+    """Prints the counts. Returns the exit status."""
     unknown = sorted({run.game for run, verdict in verdicts.items() if verdict == UNKNOWN})
     played = {run: verdict for run, verdict in verdicts.items() if verdict != UNKNOWN}
     differing = sorted({run.game for run, verdict in played.items() if verdict != IDENTICAL})

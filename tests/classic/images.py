@@ -1,4 +1,5 @@
-"""Cartridge images, from RACEBEAM_ROMS or from the ale-py that scripts/reference installs; named as the games are."""
+"""Cartridge images, from RACEBEAM_ROMS or from the ale-py that scripts/reference installs. Files have the
+games' names."""
 
 import os
 import pathlib
@@ -8,13 +9,13 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
 def folder():
-    """Where they are, or would be."""
+    """The folder of the images, which may not exist."""
     found = sorted((SOURCE / ".venv/lib").glob("python*/site-packages/ale_py/roms"))
     return pathlib.Path(os.environ.get("RACEBEAM_ROMS") or (found[0] if found else SOURCE / ".venv"))
 
 
 def images():
-    """The games that there are images of, sorted."""
+    """The games with an image, sorted."""
     return sorted(path.stem for path in folder().glob("*.bin"))
 
 

@@ -1,7 +1,7 @@
-"""One run: a game, settings of the server, and the lines that a client says.
+"""One run: a game, settings of the server, and the client's lines.
 
-A run's name says all that makes it what it is: `pong:seed=7,skip=4,lines=500` is the same run on every machine. What it
-does not name is at its default.
+A run's name contains everything that determines it: `pong:seed=7,skip=4,lines=500` is the same run on every
+machine. Settings that it does not name have their defaults.
 """
 
 import pathlib
@@ -58,7 +58,7 @@ class Run(NamedRun):
             yield f"{pressed[0] if special is None else special},{pressed[1]}"
 
     def special(self, generator, depth):
-        """What the client asks for in place of an action; None: nothing."""
+        """The client's request in place of an action; None: an action."""
         if generator.randrange(1000) < self.resets:
             return RESET
         if generator.randrange(1000) >= self.specials:
@@ -73,7 +73,7 @@ def truth(value):
 
 
 def drawn(game, seed, lines):
-    """A run of the game in settings that the seed draws."""
+    """A run of the game, with settings that are drawn from the seed."""
     generator = random.Random(f"settings {game} {seed}")
     return Run(game, skip=generator.choice(SKIPS), sticky=generator.choice(STICKIES), averaging=generator.randrange(2),
                full=int(generator.random() < 0.2), limit=generator.choice((0, 0, generator.randrange(60, 1200))),

@@ -1,4 +1,4 @@
-"""A run in one server: what it says, and where two servers say different things."""
+"""A run in one server: its output, and where the outputs of two servers differ."""
 
 import os
 import subprocess
@@ -13,7 +13,7 @@ SHOWN = 8  # bytes of RAM that a report names
 
 @dataclass(frozen=True)
 class Answer:
-    """All that a server said."""
+    """All output of a server."""
     status: int
     output: bytes
     errors: str
@@ -24,14 +24,14 @@ class Answer:
 
 
 def play(command, run, image):
-    """The answer of the server that `command` begins, without its options. Raises subprocess.TimeoutExpired."""
+    """The output of the server with this command, without its options. Raises subprocess.TimeoutExpired."""
     said = "".join(line + "\n" for line in run.said()).encode()
     done = subprocess.run([*command, *run.options(), image], input=said, capture_output=True, timeout=PATIENCE)
     return Answer(done.returncode, done.stdout, done.stderr.decode(errors="replace").strip())
 
 
 def difference(run, expected, found):
-    """A sentence: where `found` first says something else than `expected`; None where it does not."""
+    """A sentence on where `found` first differs from `expected`; None if it does not."""
     if expected.output == found.output and expected.status == found.status:
         return None
     for number, (wanted, had) in enumerate(zip(expected.lines, found.lines)):
@@ -43,7 +43,7 @@ def difference(run, expected, found):
 
 
 def after(run, number):
-    """What the client said before the server's line of that number; 0 is the size of the screen."""
+    """The client's line before the server's line of that number; 0 is the size of the screen."""
     said = ["nothing", *run.said()]
     return f"after '{said[number]}'" if number < len(said) else "at the end"
 

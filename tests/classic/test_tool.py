@@ -1,4 +1,5 @@
-"""The tool finds what is different, and nothing else. Its reference here is racebeam itself, as it is or set differently."""
+"""The tool finds differences, and reports nothing else. Its reference here is racebeam itself, with the same
+or other settings."""
 
 import os
 import pathlib
@@ -28,7 +29,7 @@ class Tool(unittest.TestCase):
         return path
 
     def compare(self, command, *options):
-        """Status and output of the tool, beside a reference that runs `command`."""
+        """Status and output of the tool, with `command` as the reference."""
         done = subprocess.run(
             [sys.executable, "-B", TOOL, "--reference", self.reference(command), "--lines", "200", *options],
             env={**os.environ, "RACEBEAM_ROMS": str(self.folder), "RACEBEAM_BINARY": BINARY}, capture_output=True, text=True)
@@ -53,11 +54,11 @@ class Tool(unittest.TestCase):
         self.assertIn("1 games that the reference does not know: beamfall", output)
         self.assertIn("0 of 0 runs identical", output)
 
-    def test_what_is_kept_is_what_the_reference_said(self):
-        from kept import digest, read
+    def test_the_record_is_the_output_of_the_reference(self):
+        from recorded import digest, read
         from session import play
-        self.compare(f"exec '{BINARY}' classic \"$@\"", "--seed", "1", "--seeds", "2", "--keep", str(self.folder / "kept"))
-        runs = read(self.folder / "kept")
+        self.compare(f"exec '{BINARY}' classic \"$@\"", "--seed", "1", "--seeds", "2", "--record", str(self.folder / "recorded"))
+        runs = read(self.folder / "recorded")
         self.assertEqual(len(runs), 2)
         for run, wanted in runs:
             self.assertEqual(digest(play([BINARY, "classic"], run, str(IMAGE))), wanted)

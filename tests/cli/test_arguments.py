@@ -1,4 +1,5 @@
-"""Command lines and images that make no sense: one clear line on standard error, an exit status, nothing played."""
+"""Invalid command lines and images: one clear line on standard error, an exit status, and no game is
+played."""
 
 import gzip
 import os
@@ -21,7 +22,7 @@ class Case(unittest.TestCase):
 
 
 class ControlCharacters(Case):
-    """A terminal would obey them; they are shown by their bytes, and a complaint stays one line."""
+    """A terminal would execute them. They are printed as bytes, and a message remains one line."""
 
     NAME = "red\x1b[31m\nnext\x9b1m"
     SHOWN = r"red\\x1b\[31m\\x0anext\\xc2\\x9b1m"

@@ -1,4 +1,4 @@
-"""racebeam bench: what it reports, and that its settings do the work they say."""
+"""racebeam bench: its report, and the effect of its settings."""
 
 import json
 import unittest
@@ -83,10 +83,10 @@ class Bench(unittest.TestCase):
             with self.subTest(line=line):
                 status, _, errors = run("bench", "--rom", GAME, "--commands", data=line.encode())
                 self.assertEqual((status, len(errors)), (1, 1), errors)
-                self.assertIn(f"not understood: '{line}'; play A..., check A..., reset N and save N are", errors[0])
+                self.assertIn(f"unknown command '{line}'; accepted are play A..., check A..., reset N and save N", errors[0])
         status, _, errors = run("bench", "--rom", GAME, "--commands", "--frame-skip", "4", data=b"play 1")
         self.assertEqual(status, 1)
-        self.assertIn("--screen last or none goes with --frame-skip 4", errors[0])
+        self.assertIn("give --screen last or none with --frame-skip 4", errors[0])
 
     def test_the_text_names_the_same_figures(self):
         status, printed, errors = run("bench", "--rom", GAME, "--frames", "60", "--audio")

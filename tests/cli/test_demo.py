@@ -1,4 +1,4 @@
-"""scripts/demo, on the program that was built: its status, and what it leaves behind."""
+"""scripts/demo with the program that was built: its status, and the files that it leaves."""
 
 import os
 import shutil

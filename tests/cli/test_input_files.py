@@ -1,4 +1,4 @@
-"""Files that the user names, in all commands: what is no file is refused at once, whatever it is for."""
+"""Files that the user names, in all commands: anything but a regular file is refused at once."""
 
 import os
 import re
@@ -82,8 +82,8 @@ class Refused(unittest.TestCase):
         os.mkfifo(os.path.join(self.folder, "ale.cfg"))
         status, _, errors = self.run_racebeam("classic", "-config", self.pipe, "-game_controller", "fifo", GAME)
         self.assertEqual((status, len(errors)), (0, 3), errors)
-        self.assertIn("ale.cfg: this is a pipe, not a file; going on without it", errors[0])
-        self.assertIn(f"{self.pipe}: this is a pipe, not a file; going on without it", errors[1])
+        self.assertIn("ale.cfg: this is a pipe, not a file; it is ignored", errors[0])
+        self.assertIn(f"{self.pipe}: this is a pipe, not a file; it is ignored", errors[1])
 
     def test_a_hangup_does_not_wait_for_a_token_file_that_became_a_pipe(self):
         path = os.path.join(self.folder, "tokens")

@@ -1,4 +1,4 @@
-"""racebeam png: the picture holds what the client's line says."""
+"""racebeam png: the picture shows the screen of the client's line."""
 
 import os
 import struct
@@ -23,7 +23,7 @@ def run_lengths(pixels):
 
 
 def read_png(data):
-    """Width, height and the rows of an 8-bit RGB picture that is not interlaced."""
+    """Width, height and rows of an 8-bit RGB picture without interlacing."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, packed = 8, b""
     while at < len(data):
@@ -115,10 +115,10 @@ class Png(unittest.TestCase):
         screen = run_lengths(self.pixels)
         self.refused(1, "odd number of digits", screen[:-1])
         self.refused(1, "has no length", screen[:-2])
-        self.refused(1, "no number of rows", screen[:-4])
+        self.refused(1, "not whole rows", screen[:-4])
         self.refused(1, "'XY' in the screen", "XY" + screen[2:])
         self.refused(1, "without --full", bytes(self.pixels).hex()[:-2], "--full")
-        self.refused(1, "no number of rows", "00FF" * 100000)
+        self.refused(1, "not whole rows", "00FF" * 100000)
 
     def test_words_that_make_no_sense_are_refused(self):
         screen = run_lengths(self.pixels)

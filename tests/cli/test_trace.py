@@ -1,4 +1,4 @@
-"""racebeam trace on our own game: the format of its lines, where actions come from, and actions that can't be played."""
+"""racebeam trace on our own game: the format of its lines, the sources of actions, and invalid actions."""
 
 import gzip
 import os
@@ -62,7 +62,7 @@ class Lines(unittest.TestCase):
         self.assertEqual(played(), played("--rules", "fixed"))  # nothing is wrong with our own game
         status, _, errors = trace("--rules", "ale-0.11")
         self.assertEqual(status, 2)
-        self.assertIn("--rules: 'ale-0.11' is not known; there are ale-0.12 and fixed", errors[0])
+        self.assertIn("--rules: 'ale-0.11' is not known; accepted are ale-0.12 and fixed", errors[0])
 
     def test_a_frame_skip_of_two_is_every_second_frame(self):
         every = [line.split()[-2:] for line in played(data=b"3 3 4 4 1 1 10 10 " * 10) if line[0] == "A"]
@@ -161,10 +161,10 @@ class Refusals(unittest.TestCase):
         self.refused("line 2: the action is missing", 0, b"A 1 0 0\nA\n")
 
     def test_a_write_that_can_t_be_made(self):
-        self.refused("line 2: RAM has the bytes 0 to 127, not 128", 0, b"1\nM 128 0\n")
-        self.refused("line 1: RAM has the bytes 0 to 127, not -1", 0, b"M -1 0\n")
-        self.refused("line 1: a byte is 0 to 255, not 256", 0, b"M 1 256\n")
-        self.refused("line 1: 'M' takes an index and a value", 0, b"M 1\n")
+        self.refused("line 2: the index of a byte of RAM must be 0 to 127, not 128", 0, b"1\nM 128 0\n")
+        self.refused("line 1: the index of a byte of RAM must be 0 to 127, not -1", 0, b"M -1 0\n")
+        self.refused("line 1: the value of a byte must be 0 to 255, not 256", 0, b"M 1 256\n")
+        self.refused("line 1: 'M' requires an index and a value", 0, b"M 1\n")
 
     def test_a_strength_that_is_none(self):
         for word in (b"3@", b"3@x", b"3@nan", b"3@inf", b"3@1001"):

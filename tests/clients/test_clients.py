@@ -1,4 +1,4 @@
-"""The clients play over the line protocol, and read every encoding back."""
+"""The clients play over the line protocol, and decode every encoding."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""What was recorded shows what was played: read back by Pillow, and by hand."""
+"""Recordings show what was played: they are read back by Pillow, and by hand."""
 
 import glob
 import os
@@ -36,7 +36,7 @@ class Recordings(unittest.TestCase):
         self.folder.cleanup()
 
     def play(self, kind, name="a"):
-        """Records; returns the path, and of each frame the doubled picture and the sound."""
+        """Records. Returns the path, and for each frame the doubled picture and the sound."""
         self.session.record(kind, name)
         shown = [self.session.act(frame // 5 % 18) for frame in range(FRAMES)]
         path = os.path.join(self.folder.name, self.session.stop_recording()["recorded"])

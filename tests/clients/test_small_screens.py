@@ -1,4 +1,5 @@
-"""grey84 and its stacks are what OpenCV and the reference's vector environment make, byte for byte."""
+"""grey84 and its stacks equal the output of OpenCV and of the reference's vector environment, byte for
+byte."""
 
 import os
 import sys
@@ -41,7 +42,8 @@ class OpenCv(unittest.TestCase):
 
 
 class VectorEnvironment(unittest.TestCase):
-    """Until the end of an episode: there the reference shows a picture that mixes frames of two acts."""
+    """Until the end of an episode: at that point the reference shows a picture that mixes frames of two
+    acts."""
 
     def compare(self, game, seed, **options):
         reference = AtariVectorEnv(game, num_envs=1, use_fire_reset=False, reward_clipping=False, **options)

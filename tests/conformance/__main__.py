@@ -1,9 +1,10 @@
-"""Compares racebeam with ALE, frame by frame, on fresh random play. See docs/conformance.md for what is compared.
+"""Compares racebeam with ALE, frame by frame, on new random actions. docs/conformance.md says what is
+compared.
 
-Without options all games are played in the default settings, 20,000 frames with each of two seeds, and 2,000 frames in
-every other setting: less than an hour on two cores. Results are kept in build/conformance; where a run differs, its
-picture and its actions too. Status: 0 all identical, 1 something is not, 2 the command line makes no sense, 77 there is
-nothing to compare with, 130 stopped.
+Without options, all games are played: 20,000 frames in the default settings with each of two seeds, and
+2,000 frames in every other setting. That takes less than an hour on two cores. Results are stored in
+build/conformance; for a run that differs, also its picture and its actions. Status: 0 all identical, 1 a run
+differs, 2 usage error, 77 there is nothing to compare with, 130 interrupted.
 """
 
 import pathlib
@@ -41,24 +42,24 @@ def parse_arguments():
     parser = argparse.ArgumentParser(prog="scripts/conformance", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
-    add("--frames", type=int, default=20000, metavar="N", help="of a run in the default settings (default 20000)")
+    add("--frames", type=int, default=20000, metavar="N", help="frames of a run in the default settings (default 20000)")
     add("--other-frames", type=int, metavar="N",
-        help="of a run in another setting (default 2000, or --frames if fewer)")
-    add("--seed", help="of the first series of runs; 'date' takes today's (default: drawn, and printed)")
+        help="frames of a run in another setting (default 2000, or --frames if fewer)")
+    add("--seed", help="seed of the first series of runs; 'date': today's date (default: random, and printed)")
     add("--seeds", type=int, default=2, metavar="N", help="series in the default settings (default 2)")
-    add("--games", metavar="A,B", help="only these games (default: all that there are images of)")
+    add("--games", metavar="A,B", help="only these games (default: all with an image)")
     add("--settings", choices=["default", "sample", "all"], default="all",
-        help="default: the default settings; sample: these, and one other drawn for each game; all (the default)")
-    add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="processes at once (default: one a processor)")
-    add("--run", action="append", metavar="NAME", help="this run alone, by the name that a report gives it; repeatable")
-    add("--resume", action="store_true", help="go on with the results that are kept")
+        help="default: the default settings; sample: these, and a random one for each game; all (the default)")
+    add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="processes in parallel (default: one for each processor)")
+    add("--run", action="append", metavar="NAME", help="only this run, by its name in a report; repeatable")
+    add("--resume", action="store_true", help="continue from the stored results")
     add("--out", type=pathlib.Path, default=ours.SOURCE / "build/conformance", metavar="FOLDER",
-        help="where results, pictures and the report go (default build/conformance)")
-    add("--publish", action="store_true", help="write docs/conformance.md, too")
+        help="folder for results, pictures and the report (default build/conformance)")
+    add("--publish", action="store_true", help="also write docs/conformance.md")
     add("--racebeam-options", default="", metavar="WORDS",
-        help="options for racebeam's side alone, as --racebeam-options='--system-seed 1'")
+        help="options for racebeam only, such as --racebeam-options='--system-seed 1'")
     add("--forms", action="store_true",
-        help=f"play each run in all forms of racebeam's machine, too: {', '.join(ours.FORMS)}")
+        help=f"also play each run in all variants of racebeam: {', '.join(ours.FORMS)}")
     return parser, parser.parse_args()
 
 
@@ -105,7 +106,7 @@ def chosen_runs(options, seeds):
 
 
 def as_result(run, result):
-    """A sentence in place of a result is why the comparison did not come back."""
+    """A result that is a sentence is the reason why the comparison failed."""
     if not isinstance(result, str):
         return result
     return {"run": run.name, "verdict": FAILED, "frames": 0, "report": result}
@@ -128,7 +129,7 @@ def compare_all(runs, options, kept):
 
 
 def conclude(runs, options, kept, gaps):
-    """The report; the exit status."""
+    """Writes the report. Returns the exit status."""
     done = [kept.results[run.name] for run in runs if run.name in kept.results]
     identical = sum(result["verdict"] == IDENTICAL for result in done)
     text = markdown(done, kept.identity, shlex.join(["scripts/conformance", *command_line()]), gaps)
@@ -142,7 +143,7 @@ def conclude(runs, options, kept, gaps):
 
 
 def command_line():
-    """As given; where it says nothing of this machine."""
+    """The command line as given, without options that concern this machine."""
     return [word for word in sys.argv[1:] if word not in ("--resume", "--publish")]
 
 

@@ -1,4 +1,4 @@
-"""One run on both sides, line by line; and what to say about the first line that differs."""
+"""One run on both sides, line by line, and a report on the first line that differs."""
 
 import itertools
 import shlex
@@ -20,7 +20,7 @@ def fields(line):
 
 
 def differing_fields(theirs, line):
-    """(field, reference, racebeam) of all that differ."""
+    """(field, reference, racebeam) of all fields that differ."""
     if line.split()[:1] != theirs.split()[:1]:
         return [("event", theirs.split()[0], line[:1])]
     a, b = fields(theirs), fields(line)
@@ -33,7 +33,7 @@ def differing_bytes(theirs, mine):
 
 
 def differing_lists(game, reference):
-    """(list, reference, racebeam) of what the game offers."""
+    """(list, reference, racebeam) of the lists that the game offers."""
     listed = ours.catalogue().get(rule_of(game), {})
     sort = lambda key, values: sorted(values) if key in ("modes", "difficulties") else values
     return [(key, theirs, listed.get(key)) for key, theirs in reference.lists().items()
@@ -72,7 +72,7 @@ class Comparison:
         return self.verdict(IDENTICAL, reference.frames, "")
 
     def difference_of(self, form, lines):
-        """What another form of our machine prints else than these lines, or nothing."""
+        """The first difference between these lines and those of another variant of racebeam, or nothing."""
         options, variables = ours.FORMS[form]
         other = ours.play(self.run, self.image, self.steps, [*self.extra, *options], variables)
         for number, (line, theirs) in enumerate(itertools.zip_longest(lines, other.lines)):
@@ -94,7 +94,7 @@ class Comparison:
         return "\n".join([f"first difference in {where}", table(differences), *evidence])
 
     def evidence(self, reference, number, sight):
-        """The differing bytes of RAM, a picture, and the commands that show it again."""
+        """The bytes of RAM that differ, a picture, and the commands that reproduce the difference."""
         stem = self.folder / self.run.name.replace(":", "-").replace(",", "-").replace("=", "")
         self.folder.mkdir(parents=True, exist_ok=True)
         script = stem.with_name(stem.name + ".actions")

@@ -1,4 +1,4 @@
-"""Cartridge images, from RACEBEAM_ROMS or from ale-py; and the games that the reference has no rule for."""
+"""Cartridge images, from RACEBEAM_ROMS or from ale-py, and the games that the reference has no rule for."""
 
 import os
 import pathlib
@@ -6,9 +6,9 @@ import tempfile
 
 import ale_py
 
-# The reference runs an image that it has no rule for when the file has the name of a game it knows: with that game's
-# rule and actions, but with the image's own properties. These machines are compared as VENTURE, whose rule needs no
-# mode program and hardly ever ends an episode on them.
+# The reference can run an image without a rule if the file has the name of a known game. It then uses that
+# game's rule and actions, but the image's own properties. These images are compared as VENTURE, whose rule
+# needs no mode program and hardly ever ends an episode on them.
 HOST = "venture"
 WITHOUT_RULE = ("combat", "joust", "maze_craze", "warlords")
 
@@ -19,17 +19,17 @@ def folder():
 
 
 def games():
-    """All that there are images of, sorted."""
+    """The games with an image, sorted."""
     return sorted(path.stem for path in folder().glob("*.bin"))
 
 
 def rule_of(game):
-    """The game whose rule it is played by."""
+    """The game whose rule is used."""
     return HOST if game in WITHOUT_RULE else game
 
 
 class Image:
-    """`path` is where both sides read it, for as long as this lives."""
+    """`path` is where both sides read the image, during the lifetime of this object."""
 
     def __init__(self, game):
         self.path, self.link = folder() / f"{game}.bin", None

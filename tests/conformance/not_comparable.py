@@ -1,4 +1,5 @@
-"""What the reference can't be compared in, and why. The plan leaves it out of a run, and the report counts it.
+"""What cannot be compared with the reference, and why. The plan leaves it out of a run, and the report
+counts it.
 
 The findings are in docs/spec/environment.md, 5, docs/spec/games/README.md and docs/spec/palette.md.
 """
@@ -9,7 +10,7 @@ from dataclasses import dataclass, replace
 @dataclass(frozen=True)
 class Gap:
     games: tuple
-    key: str  # the field of Run that is put back to 0
+    key: str  # the field of Run that is reset to 0
     reason: str
 
 
@@ -22,7 +23,7 @@ NOT_COMPARABLE = (
 
 
 def comparable(run):
-    """The run without what can't be compared in it, and the gaps that this leaves."""
+    """Returns the run without what cannot be compared in it, and the gaps that this leaves."""
     gaps = [gap for gap in NOT_COMPARABLE if run.game in gap.games and getattr(run, gap.key)]
     for gap in gaps:
         run = replace(run, **{gap.key: 0})

@@ -14,7 +14,7 @@ from run import step_word
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BINARY = os.environ.get("RACEBEAM_BINARY", str(SOURCE / "build/release/racebeam"))
 PATIENCE = 300  # seconds
-# The forms of the machine that must be the same, beside the one that this processor gets: options, environment.
+# Variants of racebeam that must be equal to the default one: options, environment.
 FORMS = {
     "interpreter": (["--cpu", "interpreter"], {}),
     "translator": (["--cpu", "translator"], {}),
@@ -27,7 +27,7 @@ def version():
 
 
 def digest():
-    """Of the program: results of one program say nothing about another."""
+    """A digest of the program. Results of one program are not valid for another."""
     return hashlib.sha256(pathlib.Path(BINARY).read_bytes()).hexdigest()[:16]
 
 
@@ -66,14 +66,14 @@ def play(run, image, steps, extra=(), variables={}):
 
 @dataclass
 class Sight:
-    """All that can be seen at one line of a run."""
+    """All output for one line of a run."""
     screen: bytes
     rgb: bytes
     ram: bytes
 
 
 def look(run, image, steps, line, extra=()):
-    """What is seen at that line, or None if the program doesn't get there."""
+    """The output for that line, or None if the program does not reach it."""
     lines = play(run, image, steps, [*extra, "--ram", "--screen-of", str(line)]).lines
     for position, text in enumerate(lines):
         if text.startswith(f"S {line} "):

@@ -1,4 +1,4 @@
-"""Two screens beside each other in one PNG, and where they differ."""
+"""Two screens side by side in one PNG, and their difference."""
 
 import struct
 import zlib
@@ -14,7 +14,7 @@ def chunk(kind, data):
 
 
 def png(pixels):
-    """The file of an array of height x width x 3 bytes."""
+    """Writes an array of height x width x 3 bytes to a file."""
     height, width, _ = pixels.shape
     rows = b"".join(b"\0" + row.tobytes() for row in pixels)
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
@@ -22,7 +22,7 @@ def png(pixels):
 
 
 def write_comparison(path, screen, rgb, other_screen, other_rgb):
-    """Reference, racebeam, difference. Returns how many pixels differ."""
+    """Draws reference, racebeam and difference. Returns how many pixels differ."""
     shape = len(other_screen) // 160, 160
     other = numpy.frombuffer(other_rgb, numpy.uint8).reshape(*shape, 3)
     rows = min(len(rgb), len(other))  # heights may differ, too

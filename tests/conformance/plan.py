@@ -1,4 +1,4 @@
-"""Which runs the suite consists of."""
+"""The runs of the suite."""
 
 import itertools
 import random
@@ -9,12 +9,12 @@ from not_comparable import comparable
 from run import Run
 
 SKIPS, STICKIES, AVERAGINGS = (1, 4), (0, 0.25), (0, 1)
-# In settings other than the default, what else is tried, and in how many runs of 100.
+# In settings other than the default: what else is tried, and in how many of 100 runs.
 EXTRAS = (("writes", 25), ("limit", 25), ("lifeloss", 12), ("strengths", 50))
 
 
 def variants(game):
-    """(mode, difficulty): the default, each other mode, each other difficulty. None is the default, left alone."""
+    """(mode, difficulty): the default, each other mode, each other difficulty. None is the default."""
     rule = ours.catalogue()[rule_of(game)]
     modes = [mode for mode in rule["modes"] if mode != rule["default_mode"]]
     difficulties = [difficulty for difficulty in rule["difficulties"] if difficulty != 0]
@@ -22,7 +22,7 @@ def variants(game):
 
 
 def with_extras(run):
-    """The run, with what chance adds to it."""
+    """The run, with random extras."""
     generator, values = random.Random(f"extras {run.name}"), {}
     for key, percent in EXTRAS:
         if generator.randrange(100) < percent:
@@ -31,14 +31,14 @@ def with_extras(run):
 
 
 def other_runs(game, seed, frames):
-    """One run in each setting but the default one."""
+    """One run in each setting except the default one."""
     for (mode, difficulty), skip, sticky, averaging in itertools.product(variants(game), SKIPS, STICKIES, AVERAGINGS):
         if (mode, difficulty, skip, sticky, averaging) != (None, None, 1, 0, 0):
             yield with_extras(Run(game, mode, difficulty, skip, sticky, averaging, seed=seed, frames=frames))
 
 
 def plan(games, settings, seeds, frames, other_frames):
-    """The runs, big ones first, and (name of a run, gap) for all that had to be left out of one."""
+    """The runs, long ones first, and (name of a run, gap) for everything that was left out of one."""
     runs = [Run(game, seed=seed, frames=frames) for seed in seeds for game in games]
     for game in games:
         others = list(other_runs(game, seeds[0], other_frames))

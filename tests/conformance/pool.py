@@ -1,4 +1,4 @@
-"""Work on all processors: a process for each piece, so that one that dies or hangs takes nothing with it."""
+"""Runs work on all processors, a process for each item. A process that dies or hangs affects no other."""
 
 import multiprocessing
 import multiprocessing.connection
@@ -20,7 +20,8 @@ class Task:
         outbox.close()
 
     def work(self, function, outbox):
-        """In the child. It has a group of its own: an interrupt is for the parent, which then ends the whole group."""
+        """In the child. It gets its own process group: an interrupt only reaches the parent, which then ends
+        the group."""
         os.setpgid(0, 0)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, signal.SIG_DFL)
@@ -29,7 +30,7 @@ class Task:
         outbox.send(function(self.item))
 
     def result(self):
-        """What the function returned; a sentence (str) if it did not come back."""
+        """The result of the function, or a sentence (str) if it failed."""
         try:
             result = self.inbox.recv()
         except EOFError:
@@ -57,7 +58,8 @@ class Task:
 
 
 def results(function, items, jobs, patience):
-    """(item, result) as they come. A result is what `function(item)` returned, or a sentence if it didn't return."""
+    """Yields (item, result) as they are finished. A result is what `function(item)` returned, or a sentence
+    if it failed."""
     waiting, running = list(reversed(items)), []
     try:
         while waiting or running:

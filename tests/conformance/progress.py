@@ -1,4 +1,4 @@
-"""What a person sees while the suite runs: a bar on a terminal, a line now and then elsewhere."""
+"""Progress of the suite: a bar on a terminal, elsewhere a line from time to time."""
 
 import shutil
 import sys

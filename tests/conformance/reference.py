@@ -1,4 +1,4 @@
-"""ALE, driven in this process through ale-py, as a black box: a run as the lines that `racebeam trace` prints of it."""
+"""Runs ALE in this process through ale-py, as a black box. The output has the format of `racebeam trace`."""
 
 import zlib
 
@@ -40,7 +40,7 @@ class Reference:
         ale.setBool("sound_obs", True)
 
     def lists(self):
-        """What the game offers, as `racebeam games --json` says it."""
+        """The lists of the game, as `racebeam games --json` prints them."""
         names = lambda actions: [action.name for action in actions]
         return {"modes": sorted(self.ale.getAvailableModes()),
                 "difficulties": sorted(self.ale.getAvailableDifficulties()),
@@ -48,7 +48,7 @@ class Reference:
                 "minimal_actions": names(self.ale.getMinimalActionSet())}
 
     def lines(self, steps):
-        """The lines, and where each step is: nothing is played before its line is asked for."""
+        """Yields the lines, and where each step is. A step is played when its line is requested."""
         yield "R" + self.observation()
         for kind, first, second in steps:
             if kind == "M":

@@ -1,4 +1,4 @@
-"""docs/conformance.md, made of results and of nothing else."""
+"""Writes docs/conformance.md from the results."""
 
 import collections
 import datetime

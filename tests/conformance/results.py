@@ -1,11 +1,11 @@
-"""What has been found so far, kept in a file from which a run can be resumed: a line of JSON each."""
+"""Results so far, in a file from which a run can be resumed: one line of JSON each."""
 
 import json
 import os
 
 
 class Results:
-    """`identity` names what was compared: results of another program, or another reference, are not taken up."""
+    """identity: what is compared. Results of another program, or another reference, are not resumed."""
 
     def __init__(self, path, identity, resume):
         self.path, self.results = path, {}
@@ -17,7 +17,7 @@ class Results:
         self.file = open(path, "a")
 
     def resumed(self, identity):
-        """The identity kept in the file, and its results. Raises ValueError if they are about something else."""
+        """The identity in the file, and its results. Raises ValueError if the identity differs."""
         header, *lines = self.path.read_text().splitlines()
         kept = json.loads(header)
         for key in ("program", "reference", "options", "forms"):

@@ -1,7 +1,7 @@
-"""One run of the suite: a game, its settings, a seed, a number of frames; and what is played in it.
+"""One run of the suite: a game, its settings, a seed and a number of frames; and its actions.
 
-A run's name says all that makes it what it is: `pong:skip=4,sticky=0.25,averaging=1,seed=7,frames=2000` is the same run
-on every machine. What isn't named is at its default.
+A run's name contains everything that determines it: `pong:skip=4,sticky=0.25,averaging=1,seed=7,frames=2000`
+is the same run on every machine. Settings that it does not name have their defaults.
 """
 
 import pathlib
@@ -36,7 +36,7 @@ class Run(NamedRun):
 
     @property
     def setting(self):
-        """The cell of the table of settings that the run belongs to."""
+        """The cell of the table of settings to which the run belongs."""
         return self.mode, self.difficulty, self.skip, self.sticky, self.averaging
 
     @property
@@ -49,11 +49,11 @@ class Run(NamedRun):
 
     @property
     def generator_seed(self):
-        """Of sticky actions; never 0, which some take for "from the clock"."""
+        """The seed of sticky actions; never 0, which may mean "from the clock"."""
         return random.Random(f"generator {self.name}").randrange(1, 1 << 31)
 
     def steps(self):
-        """What is played: ("A", action, strength) and ("M", index, value)."""
+        """The steps: ("A", action, strength) and ("M", index, value)."""
         generator, action = random.Random(f"steps {self.name}"), 0
         for _ in range(self.acts):
             if self.writes and generator.random() < WRITE:
@@ -68,6 +68,6 @@ def action_word(action, strength):
 
 
 def step_word(step):
-    """A step as `racebeam trace` reads it."""
+    """A step in the format of `racebeam trace`."""
     kind, first, second = step
     return f"M {first} {second}" if kind == "M" else action_word(first, second)

@@ -1,4 +1,5 @@
-"""The suite itself: it must find what differs, say where, show it, and never count what it did not compare."""
+"""The suite itself: it must find and locate differences, reproduce them, and never count what it did not
+compare."""
 
 import pathlib
 import sys
@@ -29,7 +30,8 @@ from run import Run
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 GAME = "pong"
-FREEWAY = ("--games", "freeway", "--racebeam-options=--system-seed 1")  # it shows what was in memory at power-on
+# its screen depends on memory at power-on
+FREEWAY = ("--games", "freeway", "--racebeam-options=--system-seed 1")
 
 
 class Suite(unittest.TestCase):
@@ -51,7 +53,7 @@ class Suite(unittest.TestCase):
                           *words, **more)
 
     def kept(self):
-        """The whole lines of the results."""
+        """The complete lines of the results."""
         return [json.loads(line) for line in (self.out / "results.jsonl").read_text().split("\n")[:-1]]
 
 
@@ -150,7 +152,7 @@ class Keeping(Suite):
     def test_resuming_plays_only_what_is_missing(self):
         self.short("--seeds", "2")
         path = self.out / "results.jsonl"
-        path.write_text(path.read_text()[:-30])  # stopped while it wrote
+        path.write_text(path.read_text()[:-30])  # interrupted while it wrote
         status, printed = self.suite("--games", GAME, "--settings", "default", "--seeds", "2", "--frames", "60",
                                      "--resume")
         self.assertEqual(status, 0, printed)

@@ -61,7 +61,7 @@ def numbers(text):
 
 
 def fault(root, citation):
-    """What is wrong with a citation, or None."""
+    """The error in a citation, or None."""
     name, wanted, heading, cases = citation.groups()
     if re.match(r",? sections?\b", citation.string[citation.end():]):
         return "a section is cited by its number alone, after a comma"
@@ -89,7 +89,7 @@ def citations(path, text):
 
 
 def faults(root=ROOT):
-    """The number of citations below `root`, and a line for each that leads nowhere."""
+    """Returns the number of citations below `root`, and a line for each whose target does not exist."""
     count, wrong = 0, []
     for path in files(root):
         if path.suffix in WITHOUT_COMMENTS:

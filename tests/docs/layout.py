@@ -1,4 +1,5 @@
-"""What every document of this tree keeps to: links and paths that exist, lines of 100 columns, tables with headings."""
+"""Rules for every document of this tree: links and paths exist, lines have at most 100 columns, tables have
+headings."""
 
 import re
 
@@ -10,7 +11,7 @@ TREE_PATH = re.compile(r"`([a-z.][\w.-]*/[\w./-]*\w\.(?:cpp|hpp|inc|md|py|txt|to
 
 
 def link_faults(root, path, text):
-    """Links to files that are not there, outside the tree, or to headings that the file does not have."""
+    """Links to missing files, out of the tree, or to missing headings."""
     for number, target in markdown.links(text):
         if re.match(r"[a-z]+:", target):  # an address; nothing is fetched
             continue
@@ -25,8 +26,8 @@ def link_faults(root, path, text):
 
 
 def path_faults(root, document, text):
-    """Paths in backticks that are not there, from the root of the tree or from the document's folder. Names in
-    capitals stand for any name, and are left out."""
+    """Paths in backticks that do not exist, relative to the root of the tree or to the document's folder.
+    Names in capitals are placeholders, and are left out."""
     for number, line in markdown.prose(text):
         for path in TREE_PATH.findall(line):
             ours = (root / path.split("/")[0]).is_dir() and not re.search(r"NAME|TARGET", path)
@@ -35,7 +36,7 @@ def path_faults(root, document, text):
 
 
 def width_faults(text):
-    """Lines of prose that are too wide. Tables, code, and what cannot be broken may be."""
+    """Lines of prose that are too wide. Tables, code, and what cannot be broken may be wider."""
     for number, line in markdown.prose(text):
         unbreakable = " " not in re.sub(r"`[^`]*`", "x", line.strip())
         if len(line) > WIDTH and not line.lstrip().startswith("|") and not unbreakable:
@@ -52,7 +53,7 @@ def table_faults(text):
 
 
 def faults(root=ROOT):
-    """The number of documents below `root`, and a line for each thing that is wrong in them."""
+    """Returns the number of documents below `root`, and a line for each error in them."""
     wrong = []
     for path in documents(root):
         text = (root / path).read_text()

@@ -1,4 +1,5 @@
-"""What the tests of documents know of Markdown: headings and their anchors, links, tables, paragraphs."""
+"""The Markdown that the tests of documents understand: headings and their anchors, links, tables,
+paragraphs."""
 
 import dataclasses
 import re
@@ -42,13 +43,13 @@ def sections(text):
 
 
 def anchor(heading):
-    """The anchor that a heading gets on the forges: lower case, hyphens for blanks, no punctuation."""
+    """The anchor of a heading on the usual forges: lower case, hyphens for blanks, no punctuation."""
     text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).lower()
     return re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
 
 
 def anchors(text):
-    """All anchors of a document; the second heading of one name gets `-1`, and so on."""
+    """All anchors of a document. The second heading of the same name gets `-1`, and so on."""
     found, seen = set(), {}
     for section in sections(text):
         name = anchor(section.heading)
@@ -58,7 +59,7 @@ def anchors(text):
 
 
 def links(text):
-    """(line number, target) of each link and picture; a link's text may go over a line's end."""
+    """(line number, target) of each link and picture. The text of a link may continue in the next line."""
     lines = {number: re.sub(r"`[^`]*`", "", line) for number, line in prose(text)}
     whole = "\n".join(lines.get(number, "") for number in range(1, max(lines, default=0) + 1))
     for link in re.finditer(r"\[[^\]]*\]\(([^)\s]+)\)", whole):

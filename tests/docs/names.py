@@ -1,4 +1,5 @@
-"""One name in one namespace is one type: two make the program ill-formed, and no compiler has to say so."""
+"""Each type has a name of its own in its namespace. Two definitions make the program ill-formed, without a
+diagnostic."""
 
 import collections
 import pathlib
@@ -15,7 +16,8 @@ DEFINES = re.compile(r"(?:struct|class|enum|enum class|union) (?:alignas\(\w+\) 
 
 
 def types(path):
-    """The types that a file defines outside of other types and of unnamed namespaces, by their full names."""
+    """The types that a file defines outside of other types and of unnamed namespaces, with their full
+    names."""
     namespaces = []
     for line in path.read_text().splitlines():
         if found := OPENS.match(line):
@@ -27,7 +29,7 @@ def types(path):
 
 
 def defined_twice(root):
-    """The names of which there are several definitions, with the files that hold them."""
+    """Names with several definitions, and the files of these."""
     files = collections.defaultdict(list)
     for folder in FOLDERS:
         for path in sorted((root / folder).rglob("*.[hc]pp")):
@@ -42,7 +44,7 @@ class Names(unittest.TestCase):
 
 
 class Check(unittest.TestCase):
-    """That the check finds what it looks for, and nothing else."""
+    """Tests of the check itself."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

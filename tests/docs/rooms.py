@@ -1,4 +1,4 @@
-"""The tree's shape: folders that one can look over, and links that stay inside."""
+"""The tree's shape: folders of limited size, and links that stay inside the tree."""
 
 import os
 import pathlib
@@ -7,7 +7,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_SUBJECTS = 25
-NOT_OURS = {"build", "__pycache__"}  # and what begins with a dot
+NOT_OURS = {"build", "__pycache__"}  # and names that begin with a dot
 DATA = ("games/catalogue", "fuzz/corpora", "docs/spec")  # folders of files of one kind
 
 
@@ -19,7 +19,7 @@ def folders(root):
 
 
 def subjects(inside, files):
-    """A header and its source are one subject; so is a folder."""
+    """The subjects of a folder. A header and its source are one; so is a folder."""
     return {pathlib.Path(name).stem for name in files} | set(inside)
 
 
@@ -34,19 +34,19 @@ def crowded(root):
 
 
 def leaving_links(root):
-    """The symbolic links that are absolute, or point at something outside `root`."""
+    """Symbolic links that are absolute, or lead out of `root`."""
     links = [root / path / name for path, inside, files in folders(root) for name in inside + files
              if (root / path / name).is_symlink()]
     return [link.relative_to(root).as_posix() for link in links
             if os.path.isabs(os.readlink(link)) or not link.resolve().is_relative_to(root.resolve())]
 
 
-# A room, and one that uses it and that it must not use.
+# A room, and a room above it that it must not use.
 ONE_WAY = {"protocol/line": "protocol/line/commands"}
 
 
 def arrows_back(root):
-    """The files that include something of a room that is above their own."""
+    """Files that include a file of a room above their own."""
     return [path.relative_to(root).as_posix() for room, user in ONE_WAY.items()
             for path in sorted((root / room).glob("*.[hc]pp")) if f'#include "{user}/' in path.read_text()]
 
@@ -63,7 +63,7 @@ class Tree(unittest.TestCase):
 
 
 class Checks(unittest.TestCase):
-    """That the two checks find what they look for."""
+    """Tests of the two checks themselves."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

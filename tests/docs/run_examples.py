@@ -52,7 +52,7 @@ def run(command, folder):
 
 
 def check(name):
-    """The number of examples of a document, and of those that print something else than it says."""
+    """Returns the number of examples of a document, and of those whose output differs from it."""
     with open(os.path.join(SOURCE, name)) as file:
         found = examples(file.read())
     wrong = 0

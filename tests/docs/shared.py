@@ -1,4 +1,4 @@
-"""What all machines share and can change is what docs/architecture.md lists. Usage: shared.py LIBRARY..."""
+"""docs/architecture.md lists all mutable objects that machines share. Usage: shared.py LIBRARY..."""
 
 import pathlib
 import re
@@ -9,8 +9,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LISTED = ROOT / "docs/architecture.md"
 
-# Made once, then read alone: the functions and objects that hold them.
-CONSTANTS = {"PixelMask::kBelow", "blend", "simd", "refusal"}
+# Functions and objects that hold values which are computed once, and then only read.
+CONSTANTS = {"PixelMask::kBelow", "blend", "simd", "executable_memory_error"}
 
 MEMBER = re.compile(r"^(?P<file>\S+\.cpp)\.o: +file format")
 OBJECT = re.compile(r"^[0-9a-f]+ .{6}O \.(?:bss|data|tm_clone)\S*\s+[0-9a-f]+\s+(?:\.hidden )?(?P<name>.*)$")
@@ -18,7 +18,7 @@ OWN = re.compile(r"^racebeam::(?:\(anonymous namespace\)::)?(?P<name>[\w:]+)")
 
 
 def writable(libraries):
-    """Pairs of a source file's name and an object of ours that lies in memory that can be written."""
+    """Pairs of a source file's name and an object of ours in writable memory."""
     file = None
     listing = subprocess.run(["objdump", "--syms", "--demangle", *libraries], check=True, capture_output=True, text=True)
     for line in listing.stdout.splitlines():

@@ -1,4 +1,4 @@
-"""Comments cite documents and sections that exist; and the check of that finds what does not."""
+"""Comments cite documents and sections that exist. Also tests the check itself."""
 
 import pathlib
 import tempfile
@@ -24,7 +24,7 @@ DOCUMENT = """# Chip
 
 
 def problems(source, name="part.cpp"):
-    """What the check says of a tree that has DOCUMENT as the specification of a chip, and this source."""
+    """The output of the check for a tree with DOCUMENT as the specification of a chip, and this source."""
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         (root / "docs/spec").mkdir(parents=True)

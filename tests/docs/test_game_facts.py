@@ -1,6 +1,6 @@
-"""The specification's facts of each game (docs/spec/games/README.md, 1) are those of the program.
+"""The program's facts of each game equal those of the specification (docs/spec/games/README.md, 1).
 
-The program reads its own game files (games/catalogue), so the two can be compared.
+The program reads its own game files (games/catalogue), so that the two can be compared.
 """
 
 import json

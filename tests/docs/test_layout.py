@@ -1,4 +1,4 @@
-"""Links and paths lead somewhere, lines fit, tables have headings; and the check of that finds what does not."""
+"""Links and paths exist, lines fit, tables have headings. Also tests the check itself."""
 
 import pathlib
 import tempfile
@@ -10,7 +10,7 @@ OTHER = "# Other\n\n## 1. One `thing`, and more\n"
 
 
 def problems(text):
-    """What the check says of a tree that has this text as a document, beside OTHER."""
+    """The output of the check for a tree with this text as a document, and OTHER."""
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         (root / "docs").mkdir()

@@ -1,4 +1,4 @@
-"""The files of this tree that the tests of documents read."""
+"""The files of this tree that tests of documents read."""
 
 import os
 import pathlib
@@ -8,7 +8,8 @@ NOT_OURS = {"build", "__pycache__"}  # and all that begin with a dot, but .githu
 
 
 def files(root=ROOT):
-    """Paths of all files below `root`, relative to it, in order; build trees, environments and git's apart."""
+    """Paths of all files below `root`, relative to it, in order, without those of builds, environments and
+    git."""
     found = []
     for folder, folders, names in os.walk(root):
         folders[:] = [name for name in folders

@@ -1,5 +1,5 @@
-// A machine on the bench: a board whose registers are reached by hand at chosen cycles, or whose processor
-// runs a few instructions at a time. Frames open and close as in Console::step().
+// A test bench: a board whose registers can be accessed at chosen cycles, or whose CPU runs a few
+// instructions at a time. Frames open and close as in Console::step().
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,7 @@ struct Bench {
   }
 
  private:
-  // Whatever uses the machine in a step goes through here, so that end_step() can have it done once more.
+  // Every access in a step goes through here, so that end_step() can repeat it.
   std::uint8_t act(std::function<std::uint8_t(Bench&)> action) {
     if (step_.empty()) {
       at_begin_ = state;
@@ -65,8 +65,8 @@ struct Bench {
   };
   std::unique_ptr<Whole> whole_;  // too large for a stack
   std::size_t current_ = 0;
-  State at_begin_;  // of the step
-  std::vector<std::function<std::uint8_t(Bench&)>> step_;  // what was done in it
+  State at_begin_;                                         // of the step
+  std::vector<std::function<std::uint8_t(Bench&)>> step_;  // the accesses of the step
 
  public:
   Board& board = whole_->board;
@@ -94,7 +94,7 @@ struct Bench {
   }
   std::uint8_t read(int line, int x, unsigned address) { return read_at(line * kLineCycles + x, address); }
 
-  // The same by the processor, with STA and LDA in RAM: what it does on its own way to the TIA is included.
+  // The same by the CPU, with STA and LDA in RAM, so that the CPU's path to the TIA is included.
   void store_at(int cycle, unsigned reg, unsigned value) {
     act([=](Bench& bench) {
       bench.cpu.A = static_cast<std::uint8_t>(value);
@@ -109,21 +109,21 @@ struct Bench {
     });
   }
 
-  // The processor's view: plain memory, or a device.
+  // A read as the CPU sees it: plain memory, or a device.
   std::uint8_t see(unsigned address, int cycle = 0) {
     const std::uint8_t* page = board.map.page_of(static_cast<std::uint16_t>(address));
     return page != nullptr ? page[address & 0x3F] : read_at(cycle, address);
   }
 
-  // Ends a step, as an instruction limit would: the frame goes on in the next one, which begins with the next access.
-  // Where Console::step() would run the processor again, all that was done is done again.
+  // Ends a step as the instruction limit does: the frame continues in the next step, which begins with the
+  // next access. Where Console::step() would run the CPU again, all accesses are repeated.
   void end_step() {
     if (step_.empty()) return;
     board.end_step();
     if (board.needs_exact_step()) {
       state = at_begin_;
       board.map_memory();
-      board.begin_step(picture(), &pictures()[current_ ^ 1], whole_->log, Pixels::kExact);
+      board.begin_step(picture(), &pictures()[current_ ^ 1], whole_->log, RenderMode::kExact);
       for (const auto& action : step_) action(*this);
       board.end_step();
     }
@@ -154,7 +154,7 @@ struct Bench {
     board.map_memory();
   }
 
-  // Puts another moment's machine in place; the pictures stay.
+  // Restores a machine of another moment; the pictures stay.
   void restore(const State& saved) {
     board.restore(saved);
   }

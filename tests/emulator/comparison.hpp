@@ -1,4 +1,4 @@
-// The machine's TIA and the model of reference_tia.hpp side by side, through the same accesses.
+// Runs the machine's TIA and the model of reference_tia.hpp through the same accesses, and compares them.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace racebeam::test {
 
-// kPush: a write as JSR and BRK make them, two in one cycle.
+// kPush: a write of JSR or BRK, which make two in one cycle.
 struct Access {
   enum Kind { kWrite, kPush, kLatches, kInput } kind;
   int cycle;

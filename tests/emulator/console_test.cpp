@@ -62,7 +62,7 @@ Bytes fetches_what_the_bus_holds(std::uint8_t n) {
 }
 
 TEST_CASE(
-    "Whoever looks at RAM or writes it leaves the byte on the bus, from which an opcode may be fetched") {
+    "Reads and writes of RAM from outside leave the byte on the bus, from which an opcode may be fetched") {
   constexpr std::uint8_t kJam = 0x12, kRolA = 0x2A;
   Machine looked_at(fetches_what_the_bus_holds(kJam)), written(fetches_what_the_bus_holds(kRolA));
   for (Machine* machine : {&looked_at, &written}) {
@@ -90,7 +90,7 @@ TEST_CASE("A restored machine goes on as the saved one did") {
     first.push_back(machine.digest());
   }
   CHECK(first[0] != first[1]);
-  CHECK(std::equal(current.begin(), current.end(), pictures.current->pixels().begin()));  // not drawn over
+  CHECK(std::equal(current.begin(), current.end(), pictures.current->pixels().begin()));  // not overwritten
 
   machine.console.restore(saved);
   CHECK(std::memcmp(&saved, &machine.console.state(), sizeof saved) == 0);
@@ -211,7 +211,7 @@ TEST_CASE("Paddles of the right port, and a pot of no resistance") {
   bench.state.inputs.paddle = {0, 0, 0, 27450};
   bench.write_at(0, VBLANK, 0x80);
   CHECK((bench.read_at(3, 8) & 0x80) == 0x00);   // left: a joystick has no pots
-  CHECK((bench.read_at(3, 10) & 0x80) == 0x80);  // no resistance: charged even while it is dumped
+  CHECK((bench.read_at(3, 10) & 0x80) == 0x80);  // no resistance: charged even while it is discharged
   CHECK((bench.read_at(3, 11) & 0x80) == 0x00);
   bench.write_at(100, VBLANK, 0x00);
   CHECK((bench.read_at(622, 11) & 0x80) == 0x00);  // 522 cycles
@@ -273,7 +273,7 @@ TEST_CASE(
   CHECK(machine.console.state().frame.open == 1);
   machine.console.step();
   CHECK(machine.console.state().frame.open == 0);
-  // Nothing is drawn before line 34, and then with what is written by then.
+  // Nothing is drawn before line 34; then all writes up to there have taken effect.
   CHECK(first_pixels(machine.console, {0, 1, 33, 51, 101, 209}) == std::vector{32, 32, 32, 50, 100, 208});
 
   Machine fresh(kCountsLines);

@@ -1,4 +1,4 @@
-// A program that has gone astray and never ends its frame: the clocks of such a frame never overflow.
+// A program that never ends its frame: the clocks of that frame never overflow.
 #include <catch2/catch.hpp>
 
 #include "emulator/console.hpp"

@@ -58,7 +58,7 @@ TEST_CASE("A reset keeps the stored action, unlike that of ALE 0.12") {
   }
 }
 
-// Holds its frame open as long as RESET is held: after a reset, it is not finished.
+// Holds its frame open while RESET is held, so that it is unfinished after a reset.
 std::shared_ptr<const Image> waiting_image() {
   constexpr std::uint8_t kProgram[] = {
       0xAD, 0x82, 0x02,  // F000 wait  LDA SWCHB

@@ -1,4 +1,4 @@
-// docs/spec/console.md, "More cases": what actions do at the ports, and what a reset's steps come to.
+// docs/spec/console.md, "More cases": the effect of actions at the ports, and of the steps of a reset.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -23,7 +23,7 @@ constexpr Reset kResets[] = {
     {"breakout", "f34f08e5", 3, 72}, {"qbert", "484b0076", 2, 60},  {"tetris", "b0e1ee07", 2, 60},
 };
 
-// How many of the steps of an environment's reset close a frame.
+// How many steps of an environment's reset close a frame.
 int completed_frames(const Image& image, const Game& game, int soft_resets) {
   SystemGenerator random(4753849);
   Console console(image.bytes, game.properties_for(image.md5), random);
@@ -86,7 +86,7 @@ TEST_CASE("Paddle buttons are stick directions, and swapping paddles swaps them"
   CHECK(pins_after(swapped, 0, 19) == Pins{0x7F, true, true});
 }
 
-// Case 5. Three frames, then one that stops the processor on line 100.
+// Case 5. Three frames, then one that halts the CPU on line 100.
 std::shared_ptr<const std::vector<std::uint8_t>> jamming_image() {
   constexpr std::uint8_t kProgram[] = {
       0xA9, 0x2E, 0x85, 0x09,                          // F000      LDA #$2E, STA COLUBK

@@ -1,4 +1,4 @@
-// Environment::set_drawing() changes nothing that can be seen, whenever somebody looks.
+// Environment::set_drawing() does not affect what can be observed, at any time.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -12,7 +12,7 @@ namespace {
 
 std::vector<std::uint8_t> bytes_of(std::span<const std::uint8_t> bytes) { return {bytes.begin(), bytes.end()}; }
 
-// Machines that draw in every way act as one, and now and then a look at them shows the same.
+// Machines with all settings of drawing behave the same. From time to time, their pictures are compared.
 void check(const std::shared_ptr<const Image>& image, const std::shared_ptr<const Game>& game, bool averaging, int acts) {
   Settings settings;
   settings.frame_skip = 1;
@@ -46,11 +46,11 @@ void check(const std::shared_ptr<const Image>& image, const std::shared_ptr<cons
   }
 }
 
-TEST_CASE("Which frames are drawn can't be seen") {
+TEST_CASE("Which frames are drawn has no observable effect") {
   for (const bool averaging : {false, true}) check(test::counter_image(), test::game(), averaging, 500);
 }
 
-TEST_CASE("Which frames of a commercial game are drawn can't be seen") {
+TEST_CASE("Which frames of a commercial game are drawn has no observable effect") {
   for (const char* name : {"seaquest", "pong", "tetris", "montezuma_revenge", "elevator_action", "journey_escape", "robotank"}) {
     const auto game = find_game(name);
     const auto image = test::needed_rom_of(name);
@@ -60,7 +60,7 @@ TEST_CASE("Which frames of a commercial game are drawn can't be seen") {
   }
 }
 
-TEST_CASE("Who watches sees each frame drawn, whatever is drawn otherwise") {
+TEST_CASE("A watcher sees each frame drawn, whatever is drawn otherwise") {
   Settings settings;
   settings.frame_skip = 4;
   Environment each(test::counter_image(), test::game(), settings);

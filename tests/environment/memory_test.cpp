@@ -1,4 +1,4 @@
-// States that come and go leave nothing behind.
+// Saved states that are released leave no memory allocated.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -33,7 +33,7 @@ TEST_CASE("A hundred thousand restores leave the process as large as it was") {
   const long before = resident_kilobytes();
   REQUIRE(before > 0);
   restore(100000);
-#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer keeps what is let go
+#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer keeps released memory
   CHECK(resident_kilobytes() - before < 1024);
 #endif
 }

@@ -1,9 +1,10 @@
-// Interpreted and translated, the same is shown; saved_state_fuzz_test.cpp has the same for altered states.
+// The interpreter and the translator give the same output. saved_state_fuzz_test.cpp tests the same for
+// altered states.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <list>
 
-#include "games/digest.hpp"
+#include "games/md5.hpp"
 #include "tests/environment/steered.hpp"
 #include "tests/support/random_image.hpp"
 
@@ -22,7 +23,7 @@ bool show_the_same(const Environment& one, const Environment& other) {
 
 using Code = std::vector<std::uint8_t>;
 
-constexpr std::size_t kResult = 1;  // index of the RAM that the programs here leave something in
+constexpr std::size_t kResult = 1;  // index of the RAM for results of the programs
 
 // LDA #2, VSYNC on, two lines, off; JMP to the start.
 Code with_frame(Code code, std::uint8_t page) {
@@ -46,7 +47,7 @@ std::shared_ptr<const Image> image_reading_low_page() {
   return image_of(std::move(code));
 }
 
-// One image, asked for under each scheme; all machines are there at once and share what can be shared.
+// One image under each scheme. All machines exist at once, and share what can be shared.
 TEST_CASE("An image that runs under several schemes at once shows what it shows interpreted") {
   const auto image = image_reading_low_page();
   struct Two {
@@ -68,8 +69,8 @@ TEST_CASE("An image that runs under several schemes at once shows what it shows 
   CHECK(result(machines.front()) != result(*std::next(machines.begin())));
 }
 
-// Each frame: starts in bank 1, goes to bank 0 by this read in the midst of straight code, keeps 1 + the bank,
-// and goes back.
+// Each frame starts in bank 1, goes to bank 0 by this read within straight code, stores 1 + the bank, and
+// goes back.
 std::shared_ptr<const Image> ua_image(Code code) {
   const std::size_t bank_at = code.size() + 1;
   // LDA #1 + bank, STA, LDA $0240

@@ -1,5 +1,5 @@
-// Checksums taken from ALE 0.12, on commercial images (docs/spec/environment.md, 17; docs/spec/console.md,
-// "How to check").
+// Checksums of ALE 0.12, with commercial images (docs/spec/environment.md, 17; docs/spec/console.md, "How to
+// check").
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <optional>
@@ -249,7 +249,7 @@ struct Start {
   std::uint32_t audio;
 };
 
-// docs/spec/console.md: RAM and screen there are the other way round.
+// In docs/spec/console.md, RAM and screen are in the reverse order.
 constexpr Start kStarts[] = {
     {"seaquest",
      "240bfbac5163af4df5ae713985386f92",

@@ -1,4 +1,4 @@
-// Whose rules: Settings::rules, the second player's rewards, and our own rules on the real images.
+// Settings::rules, the second player's rewards, and our own rules on commercial images.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -113,8 +113,8 @@ TEST_CASE("Klax counts across the wrap of a score in the cartridge's memory") {
 
 struct OurGame {
   const char* name;
-  int address;               // of the mode in RAM
-  int (*shown)(int mode);    // what is there
+  int address;             // of the mode in RAM
+  int (*shown)(int mode);  // its expected value
 };
 
 TEST_CASE("every mode of our own rules is set up, in any order, and its game runs") {
@@ -205,7 +205,7 @@ TEST_CASE("Warlords counts rounds won, and five of them are the match") {
   CHECK(std::min(total.a, total.b) < 5);
 }
 
-TEST_CASE("who leaves the maze wins: the other loses") {
+TEST_CASE("the player that leaves the maze wins: the other loses") {
   const auto image = test::needed_rom_of("maze_craze");
   if (!image) return;
   for (const int winner : {0xCE, 0xCF}) {
@@ -219,7 +219,7 @@ TEST_CASE("who leaves the maze wins: the other loses") {
   }
 }
 
-// Whether the screen tells what B does.
+// Whether the screen depends on B's actions.
 bool b_plays(Environment& environment, int right = 21, int left = 22) {
   const auto start = environment.save(true);
   std::vector<std::vector<std::uint8_t>> seen_first;

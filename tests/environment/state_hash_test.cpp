@@ -29,7 +29,7 @@ bool all_different(std::vector<std::uint64_t> hashes) {
   return std::ranges::adjacent_find(hashes) == hashes.end();
 }
 
-// States that differ in a counter are the hardest that a search meets: three bytes of 536.
+// States that differ in a counter only are the hardest for a hash: three bytes of 536.
 TEST_CASE("A million states that differ in a counter have different hashes") {
   State state = some_state();
   std::vector<std::uint64_t> hashes, low_halves;
@@ -39,7 +39,7 @@ TEST_CASE("A million states that differ in a counter have different hashes") {
     low_halves.push_back(hashes.back() & 0xFFFFFFFF);
   }
   CHECK(all_different(hashes));
-  // Of 32 bits, 116 pairs are expected to meet; in a hash of good quality not many more do.
+  // With 32 bits, 116 collisions are expected; a good hash has few more.
   std::ranges::sort(low_halves);
   const auto tail = std::ranges::unique(low_halves);
   CHECK(tail.size() < 200);

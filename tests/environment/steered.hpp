@@ -1,4 +1,4 @@
-// An environment on the counting cartridge, and what can be read from it.
+// An environment with the counting cartridge, and accessors of its RAM.
 #pragma once
 
 #include <random>
@@ -26,7 +26,7 @@ inline int at(const Environment& environment, int address) {
   return environment.ram()[static_cast<std::size_t>(address - 0x80)];
 }
 
-// Taken from the environment's generator so far.
+// Draws that were taken from the environment's generator so far.
 inline std::uint64_t draws(const Environment& environment) {
   const auto random = environment.save(true)->random;
   MersenneTwister counter(environment.settings().random_seed);

@@ -1,4 +1,4 @@
-// Paddles turned with any strength, as ALE 0.12 turns them: figures of 4,000 acts of ale-py 0.12.1, with sticky
+// Paddles turned with any strength, as in ALE 0.12: checksums of 4,000 acts of ale-py 0.12.1, with sticky
 // actions 0.25 and seed 123, in all its paddle games (docs/spec/environment.md, 2).
 #include <array>
 #include <catch2/catch.hpp>

@@ -1,11 +1,11 @@
 #!/bin/sh
-# assemble_homebrew.sh FOLDER NAME: does FOLDER/NAME.asm assemble to exactly FOLDER/NAME.bin? 77: no dasm to ask.
+# assemble_homebrew.sh FOLDER NAME: tests that FOLDER/NAME.asm assembles to exactly FOLDER/NAME.bin. Status 77: dasm is missing.
 set -eu
 folder=$1
 name=$2
 
 if ! command -v dasm >/dev/null; then
-  echo "SKIP: dasm is not installed, so whether $name.bin is what $name.asm assembles to was not checked"
+  echo "SKIP: dasm is not installed; $name.bin was not compared with $name.asm"
   exit 77
 fi
 

@@ -9,7 +9,7 @@
 
 using namespace racebeam;
 
-// Games of which the reference knows nothing but their images' MD5.
+// Games of which the reference only knows the MD5 of their images.
 constexpr std::array<std::string_view, 4> kOurRules = {"combat", "joust", "maze_craze", "warlords"};
 
 TEST_CASE("the catalogue has all games, in order, each name once") {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLowest = std::numeric_limits<int>::min(), kHighest = std::numeric_limits<int>::max();
 
-// Computed from constants, so by the compiler.
+// The value of an expression of constants, which the compiler folds.
 int folded(const std::string& expression) {
   const Game game = game_with_step("reward = " + expression + "\nterminal = 0");
   Rule rule(game);
@@ -21,7 +21,7 @@ int folded(const std::string& expression) {
   return rule.reward();
 }
 
-// With X and Y taken from variables, so by the program.
+// The same with X and Y as variables, so that the program computes it.
 int computed(const std::string& expression, int x, int y) {
   const std::string first = "reset = { X = " + std::to_string(x) + ", Y = " + std::to_string(y) + " }";
   const Game game = game_with_step("both = X + Y\nreward = " + expression + "\nterminal = 0", first);

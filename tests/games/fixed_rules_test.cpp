@@ -1,4 +1,5 @@
-// Corrected rules (docs/rules.md): rewards across the wrap of a score, and what else --rules fixed mends.
+// Corrected rules (docs/rules.md): rewards across the wrap of a score, and other corrections of --rules
+// fixed.
 #include <catch2/catch.hpp>
 
 #include <memory>
@@ -14,7 +15,7 @@ using namespace racebeam;
 
 namespace {
 
-// Decimal digits two a byte, least significant first, and what one of the last place is worth.
+// Decimal digits, two a byte, least significant first; and the value of the last digit.
 struct DecimalScore {
   const char* game;
   std::vector<int> addresses;
@@ -79,7 +80,7 @@ const DecimalScore kDecimalScores[] = {
     {"zaxxon", {0xE9, 0xE8}, 100},
 };
 
-// Scores kept in another way: memory at the highest score and just after the wrap, and what was gained.
+// Scores in other formats: memory at the highest score and just after the wrap, and the gain.
 struct OtherScore {
   const char* game;
   int modulus;
@@ -127,8 +128,8 @@ const OtherScore kOtherScores[] = {
      200},
 };
 
-// Those whose correction is no wrap, or not only; each has a test case below. Klax keeps its score in the
-// cartridge's memory: environment/rules_test.cpp.
+// Games with corrections other than a wrap; each has a test case below. Klax has its score in the cartridge's
+// memory: environment/rules_test.cpp.
 const std::set<std::string> kOthers = {"adventure", "backgammon", "blackjack", "casino",
                                        "kaboom",    "klax",       "word_zapper"};
 
@@ -145,7 +146,7 @@ struct Frames {
   Rule rule;
 };
 
-// Comes by way of the middle: from 0 to the highest score in one frame would be a wrap itself.
+// Goes through the middle, because a step from 0 to the highest score would itself be a wrap.
 int reward_of_second(std::shared_ptr<const Game> game, const std::vector<std::pair<int, int>>& first,
                      const std::vector<std::pair<int, int>>& second) {
   Frames frames(std::move(game));
@@ -162,7 +163,7 @@ std::vector<std::pair<int, int>> all(const std::vector<int>& addresses, int valu
   return bytes;
 }
 
-// What the reference answers across the wrap: most often the gain less the modulus.
+// The reference's reward across the wrap: mostly the gain less the modulus.
 bool is_wrong(int reward, int gain) { return reward < 0 || (reward == 0 && gain > 0); }
 
 std::shared_ptr<const Game> fixed(const char* name) {
@@ -205,7 +206,7 @@ TEST_CASE("away from the wrap a corrected rule gives what the reference's gives"
   }
 }
 
-TEST_CASE("a score that is cleared is no wrap") {
+TEST_CASE("a score that is cleared is not a wrap") {
   const auto bytes = [](int value) { return all({0xBA, 0xB9, 0xB8}, value); };
   CHECK(reward_of_second(fixed("seaquest"), bytes(0x50), bytes(0)) == -505050);
 }

@@ -1,4 +1,4 @@
-// Games made from a few lines of text, and a memory to run their rules on.
+// Games from a few lines of text, and memory for their rules.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Our own games, played on the bare console: what a player must be able to rely on.
+// Our own games on the bare console: what a player relies on.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ class Player {
     console_.inputs().paddle = {kPaddleMiddle, kPaddleMiddle, 0, 0};
     frames(60);
     press_reset();
-    longest = 0, shortest = 1000;  // from here on: the first frames after power-on are what they are
+    longest = 0, shortest = 1000;  // the first frames after power-on may be irregular
   }
 
   void press_reset() {
@@ -55,7 +55,7 @@ class Player {
     }
   }
 
-  // Everything a hand can do, held for a few frames at a time.
+  // All controls of a player, held for a few frames at a time.
   void play_at_random(std::mt19937& random) {
     Inputs& inputs = console_.inputs();
     inputs.joystick[0] = static_cast<std::uint8_t>(random() & 31);

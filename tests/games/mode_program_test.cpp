@@ -9,7 +9,7 @@ using Catch::Contains;
 
 namespace {
 
-// Writes down what it is told; SELECT counts up the byte at $80.
+// Records its calls; SELECT increments the byte at $80.
 struct FakeHost : ModeHost {
   FakeMemory bytes;
   std::string log;
@@ -99,7 +99,7 @@ TEST_CASE("rng draws once each time that its expression is evaluated") {
         "select 11; select 12; select 13; select 4; ");
 }
 
-TEST_CASE("a mode program that does not end is given up, naming game and mode") {
+TEST_CASE("a mode program that does not end is stopped, with an error that names game and mode") {
   const Game game = game_with_setup("while 1 { act NOOP }");
   Rule rule(game);
   FakeHost host;
@@ -108,7 +108,7 @@ TEST_CASE("a mode program that does not end is given up, naming game and mode") 
   CHECK(host.log.size() == std::string("act 0 1; ").size() * kModeTurns);
 }
 
-TEST_CASE("an empty loop that does not end is given up too") {
+TEST_CASE("an empty loop that does not end is stopped, too") {
   const Game game = game_with_setup("while 1 { while 0 { } }");
   Rule rule(game);
   FakeHost host;
@@ -143,8 +143,8 @@ TEST_CASE("Adventure's mode program holds SELECT for a random time, then waits a
   CHECK(host.log == "select 3; act 0 1; select 4; act 0 1; reset; ");
 }
 
-TEST_CASE("what is no mode program is refused with file, line and field") {
-  // The first line of a program stands on line 12 of these files.
+TEST_CASE("an invalid mode program is refused with file, line and field") {
+  // The first line of a program is line 12 of these files.
   CHECK_THAT(error_of("select"), Contains("test.toml:11: mode.setup: expected a value"));
   CHECK_THAT(error_of("soft_reset\nact JUMP"), Contains("test.toml:12: mode.setup: 'JUMP' is not an action"));
   CHECK_THAT(error_of("act RESET"), Contains("'RESET' is not an action"));

@@ -1,4 +1,4 @@
-// The digests that our own games must show, kept beside this file, and the signature of the machine.
+// Compares our own games with their digests in this folder, and prints the signature of the machine.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "games/digest.hpp"
+#include "games/md5.hpp"
 #include "tests/golden/works.hpp"
 
 namespace racebeam::test {
@@ -30,7 +30,7 @@ std::string file_of(const std::string& game) { return RACEBEAM_SOURCE_DIR "/test
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("can't read " + path + "; scripts/check/golden --rebaseline makes it");
+  if (!file) throw std::runtime_error("cannot read " + path + "; scripts/check/golden --rebaseline writes it");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -39,7 +39,7 @@ void write_file(const std::string& path, const std::string& text) {
   if (!(file << text).flush()) throw std::runtime_error("can't write " + path);
 }
 
-// Prints the lines that differ, under the setting that they belong to. Are there none?
+// Prints the lines that differ, with their setting. Returns whether there are none.
 bool same_lines(const std::string& game, const std::string& kept, const std::string& shown) {
   std::istringstream kept_lines(kept), shown_lines(shown);
   std::string kept_line, shown_line, setting;
@@ -81,7 +81,7 @@ std::vector<Work> works_of_signature(const std::vector<std::string>& games,
   return all;
 }
 
-// The same work in so many threads at once, on machines of their own. What all of them showed.
+// Runs the same work in several threads at once, each with its own machines. Returns their output.
 std::string reported_at_once(const std::vector<Work>& works, int threads, bool states) {
   std::vector<std::future<std::string>> reports;
   for (int i = 0; i < threads; ++i)
@@ -94,7 +94,7 @@ std::string reported_at_once(const std::vector<Work>& works, int threads, bool s
   return first;
 }
 
-// One digest of all that is played; the lines themselves say where two compilers part.
+// Prints one digest of all output, or its lines, which show where two builds differ.
 void print_signature(const std::vector<std::string>& games, const SignatureOptions& options) {
   const auto works = works_of_signature(games, options);
   const std::string text = reported_at_once(works, options.at_once, options.states);
@@ -104,23 +104,23 @@ void print_signature(const std::vector<std::string>& games, const SignatureOptio
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Compares what our own games show with tests/golden/GAME.txt");
+  CLI::App app("Compares the output of our own games with tests/golden/GAME.txt");
   std::vector<std::string> games = {"beamfall", "updraft"};
   bool rebaseline = false, signature = false;
   SignatureOptions options;
   const std::map<std::string, CpuKind> cpus = {
       {"auto", CpuKind::kAuto}, {"interpreter", CpuKind::kInterpreter}, {"translator", CpuKind::kTranslator}};
-  app.add_option("GAME", games, "Games that are built in")->check(CLI::IsMember(games));
-  app.add_flag("--rebaseline", rebaseline, "Write the files instead");
+  app.add_option("GAME", games, "Built-in games")->check(CLI::IsMember(games));
+  app.add_flag("--rebaseline", rebaseline, "Write the files instead of comparing");
   app.add_flag("--signature", signature,
                "Print one digest of all games and of programs in every cartridge scheme");
   const auto with_signature = [](CLI::Option* option) { option->needs("--signature"); };
-  with_signature(app.add_flag("--lines", options.lines, "Print what it is the digest of, too"));
-  with_signature(app.add_flag("--images", options.images, "Of all games whose cartridge image is here, too"));
-  with_signature(app.add_flag("--states", options.states, "And of the bytes of the state that each ends in"));
-  with_signature(app.add_option("--cpu", options.cpu, "What runs the instructions")
+  with_signature(app.add_flag("--lines", options.lines, "Also print the lines that the digest is made from"));
+  with_signature(app.add_flag("--images", options.images, "Include all games with a cartridge image"));
+  with_signature(app.add_flag("--states", options.states, "Include the bytes of each final state"));
+  with_signature(app.add_option("--cpu", options.cpu, "How instructions are executed")
                      ->transform(CLI::CheckedTransformer(cpus)));
-  with_signature(app.add_option("--at-once", options.at_once, "So many threads do it at once, and must agree")
+  with_signature(app.add_option("--at-once", options.at_once, "Number of threads that do the work at once, and must agree")
                      ->check(CLI::Range(1, 64)));
   CLI11_PARSE(app, argc, argv);
   if (signature) {

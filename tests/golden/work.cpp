@@ -11,7 +11,7 @@
 namespace racebeam::test {
 namespace {
 
-// What the acts of one line showed.
+// The output of the acts of one line.
 struct Fold {
   std::uint32_t screen = 0, ram = 0, audio = 0;
   long reward = 0;

@@ -1,5 +1,4 @@
-// Fixed work, and what it showed as text: a machine plays by random actions, and each line folds some of its
-// acts.
+// Fixed work and its output as text: a machine plays random actions, and each line is a digest of some acts.
 #pragma once
 
 #include <memory>
@@ -21,9 +20,9 @@ struct Work {
 // The header of the columns.
 extern const std::string kColumns;
 
-// Plays, and gives a line for every `acts_a_line` acts: the number of acts so far, CRC-32 of all screens,
-// RAMs and blocks of sound of these acts, the sum of rewards, the lives after the last, and how many episodes
-// ended. with_state: and a last line with the CRC-32 of the state at the end, in its portable form.
+// Plays, and returns a line for every `acts_a_line` acts. It has the number of acts so far, CRC-32s of all
+// screens, RAMs and blocks of sound, the sum of rewards, the lives after the last act, and the number of
+// ended episodes. with_state: adds a line with the CRC-32 of the final state in its portable form.
 std::string played(const Work& work, bool with_state = false);
 
 }  // namespace racebeam::test

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "games/catalogue.hpp"
-#include "games/digest.hpp"
 #include "games/files/game_file.hpp"
+#include "games/md5.hpp"
 #include "tests/support/random_image.hpp"
 #include "tests/support/roms.hpp"
 
@@ -47,7 +47,7 @@ std::vector<NamedSettings> all_settings() {
           {"classic", classic}};
 }
 
-// Television standards and controllers, for programs that are no game.
+// Television standards and controllers, for programs that are not games.
 std::shared_ptr<const Game> program_game(std::string_view scheme, int number) {
   static constexpr std::array kProperties = {"", "format = \"PAL\"", "format = \"SECAM\"",
                                              "left = \"paddles\"\nystart = 40"};

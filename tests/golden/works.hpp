@@ -1,5 +1,4 @@
-// What is played for the golden digests, and for the signature. No cartridge image is needed that is not
-// ours.
+// The work of the golden digests and of the signature. It only needs our own cartridge images.
 #pragma once
 
 #include <vector>
@@ -11,11 +10,11 @@ namespace racebeam::test {
 // A game of our own, under several settings.
 std::vector<Work> works_of(const std::string& game);
 
-// Random programs, in every scheme and television standard, with sticks and with paddles; and the program
-// that checks the processor (tests/emulator/cpu/functional.asm).
+// Random programs, in every scheme and television standard, with joysticks and with paddles. Also the program
+// that tests the CPU (tests/emulator/cpu/functional.asm).
 std::vector<Work> works_of_programs();
 
-// Every game whose image is here (tests/support/roms.hpp), in its first mode and its last; our own are not among them.
+// Every game with an image (tests/support/roms.hpp) except our own, in its first mode and its last.
 std::vector<Work> works_of_images();
 
 }  // namespace racebeam::test

@@ -1,4 +1,5 @@
-"""scripts/instructions: what is dearer fails, what is cheaper is told, and what can't be compared is skipped."""
+"""scripts/instructions: higher counts fail, lower ones are reported, and counts of other builds are
+skipped."""
 
 import json
 import os

@@ -40,7 +40,7 @@ TEST_CASE("Player B, strengths and repetition") {
   CHECK(parse_action("RIGHT", kAll).strength_b == 0);
 }
 
-TEST_CASE("What is no action is refused with those there are") {
+TEST_CASE("An unknown action is refused with the list of actions") {
   for (const std::string word :
        {"18", "-1", "99999999999", "", "fire", "FIRE ", "1x", "RESET", "40", "/", "1/", "/1", "1/18"}) {
     INFO(word);

@@ -36,7 +36,7 @@ struct Client {
   explicit Client(Environment its_machine, const ClassicOptions& options = {})
       : machine(std::move(its_machine)), session(machine, options) {}
 
-  // Sends the text and returns all that comes back.
+  // Sends the text. Returns all output.
   std::string say(const std::string& text) {
     std::string answers = listen();
     for (std::size_t at = 0; at < text.size();) {
@@ -106,7 +106,7 @@ TEST_CASE("RAM comes before the screen, and every field ends with a colon") {
   CHECK(line.size() == 256 + 1 + 67200 + 1 + 4 + 1);
 }
 
-TEST_CASE("Screens are written as runs unless told otherwise") {
+TEST_CASE("Screens are written as runs by default") {
   Client client;
   client.listen();
   std::string runs;
@@ -147,7 +147,7 @@ TEST_CASE("Saved states are a stack that a reset leaves alone") {
   CHECK(client.machine.frame_number() == 3);
   client.say("44,18\n");
   CHECK(client.machine.frame_number() == 1);
-  CHECK_THAT(refusal(client, "44,18\n", kMalformedStatus), Contains("has not saved one (43) that is left"));
+  CHECK_THAT(refusal(client, "44,18\n", kMalformedStatus), Contains("none that it saved (43) is left"));
 }
 
 TEST_CASE("The stack keeps the newest 4096 states") {
@@ -178,7 +178,7 @@ TEST_CASE("The screen is recorded before each frame of an act, and for frames th
   Client client({.frame_skip = 3, .max_episode_frames = 7}, {.record = record});
   client.say_and_close("0,0,0,0\n3,18\n43,18\n3,18\n44,18\n3,18\n3,18\n3,18\n45,18\n3,18\n");
   // Two acts; a third, from the state of the first; one that ends the episode, and one after its end; a
-  // reset, an act; and the one at the end of input.
+  // reset; an act; and the act at the end of input.
   CHECK(frames == std::vector{0, 1, 2, 3, 4, 5, 3, 4, 5, 6, 7, 7, 7, 7, 7, 7, 8, 9, 10, 11, 12});
 }
 

@@ -1,5 +1,5 @@
-// What a client in C++ pays to decode a field; not a test. scripts/bench encodings runs it.
-//   decode_bench ENCODING SIZE < texts      one text a line; prints microseconds of processor time a text
+// Measures the cost of decoding a field for a client in C++. Not a test; scripts/bench encodings runs it.
+//   decode_bench ENCODING SIZE < texts      one text a line; prints microseconds of processor time per text
 #include <time.h>
 #include <zlib.h>
 
@@ -38,7 +38,7 @@ void decode_hex(const std::string& text, Bytes& array) {
   for (std::size_t i = 0; i < array.size(); ++i) array[i] = byte_at(text, 2 * i);
 }
 
-// The runs of `text` from `at` on, `count` of them or until its end; `place` and `at` go on.
+// Reads `count` runs of `text` from `at` on, or those up to its end. Advances `place` and `at`.
 void decode_runs(const std::string& text, std::size_t& at, std::size_t count, Bytes& array,
                  std::size_t& place) {
   for (; count > 0 && at < text.size(); --count, at += 4) {

@@ -1,4 +1,4 @@
-// The tables of protocol/PROTOCOL.md are those of the program.
+// The tables of protocol/PROTOCOL.md equal those of the program.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -24,7 +24,7 @@ std::string document(const std::string& path = "/protocol/PROTOCOL.md") {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// The lines of the table that begins with `head`, without those of its head.
+// The rows of the table that begins with `head`.
 std::string table(const std::string& head) {
   const std::string text = document();
   const std::size_t begin = text.find(head + "\n|---");

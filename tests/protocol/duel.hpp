@@ -1,4 +1,4 @@
-// A game for two that always is at hand: the counting cartridge with a rule of its own, as `duel`.
+// A game for two players that needs no image: the counting cartridge with its own rule, as `duel`.
 #pragma once
 
 #include "tests/games/scratch.hpp"
@@ -7,8 +7,8 @@
 
 namespace racebeam::test {
 
-// Each frame with RIGHT held gives A one point and B three. Poking 17 (0x91) ends the game, and 18 (0x92)
-// takes lives; 5 (0x85) shows the mode.
+// Each frame with RIGHT held gives A one point and B three. Writing 17 (0x91) ends the game, and 18 (0x92)
+// sets lives; 5 (0x85) shows the mode.
 inline constexpr auto kDuel = R"(
 title = "Duel"
 minimal = ["NOOP", "FIRE", "RIGHT", "LEFT"]
@@ -27,7 +27,7 @@ lives = 3 - ram[0x92]
 setup = "while ram[0x85] < mode { select 1 }"
 )";
 
-// A service whose images have it, beside those that are built in; as `duel_pal` it has the other television
+// A service with this image, besides the built-in ones. `duel_pal` is the same with the other television
 // standard.
 inline LineService duel_service(const LineLimits& limits = {}) {
   const Scratch folder;

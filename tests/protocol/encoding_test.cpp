@@ -22,7 +22,7 @@ std::string base64(std::string_view text) {
   return out;
 }
 
-// As protocol/PROTOCOL.md tells it.
+// As in protocol/PROTOCOL.md.
 void apply_delta(Bytes& array, const std::string& text) {
   const Bytes data = bytes_of_hex(text);
   std::size_t place = 0;
@@ -60,7 +60,7 @@ TEST_CASE("Base64 is that of RFC 4648") {
   }
 }
 
-TEST_CASE("What is no base64 is not read") {
+TEST_CASE("Invalid base64 is refused") {
   for (const std::string text :
        {"Z", "Zg", "Zg=", "Zg===", "=Zg=", "Z=g=", "Zm9v Zg==", "Zm9\n", "Zh==", "Zm9=", "===="}) {
     INFO(text);
@@ -70,7 +70,7 @@ TEST_CASE("What is no base64 is not read") {
 
 TEST_CASE("A delta without a change is empty") { CHECK(delta(Bytes(1000, 7), Bytes(1000, 7)).empty()); }
 
-TEST_CASE("A change is told by its place and its runs") {
+TEST_CASE("A change is written as its position and its runs") {
   Bytes bytes(100);
   bytes[50] = bytes[51] = 0xAB;
   CHECK(delta(bytes, Bytes(100)) == "003201AB02");

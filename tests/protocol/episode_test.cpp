@@ -1,4 +1,4 @@
-// What a client is told when an episode has ended, and how the next begins.
+// Replies at the end of an episode, and the beginning of the next.
 #include <catch2/catch.hpp>
 
 #include "tests/protocol/duel.hpp"

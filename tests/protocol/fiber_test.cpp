@@ -75,7 +75,7 @@ TEST_CASE("A fiber that is cancelled unwinds its stack") {
   CHECK_FALSE(went_on);
 }
 
-// Not inlined: a compiler may take it for granted that a function stays on its thread.
+// Not inlined: a compiler may assume that a function stays on its thread.
 [[gnu::noinline]] void note_thread(std::vector<std::thread::id>& threads) {
   threads.push_back(std::this_thread::get_id());
 }

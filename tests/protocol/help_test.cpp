@@ -1,4 +1,4 @@
-// help, suggestions and comments: what a person meets.
+// help, suggestions and comments, for users who type.
 #include "protocol/line/commands/help.hpp"
 
 #include <catch2/catch.hpp>
@@ -27,7 +27,7 @@ std::string plain(std::string_view text) {
   return plain;
 }
 
-// All names that help knows, with what it must say of each.
+// All names that help knows, with a part of each help text.
 std::multimap<std::string, std::string> all_names() {
   std::multimap<std::string, std::string> names;
   const auto add = [&names](std::string_view name, std::string_view text) {
@@ -83,7 +83,7 @@ TEST_CASE("help explains each name of each table, on one line") {
   for (const auto& [name, text] : all_names()) {
     INFO(name);
     if (name == "settings" && text == "the settings in effect")
-      continue;  // the topic comes before the command
+      continue;  // a topic is preferred to the command
     const std::string reply = client.say("help " + name + "\n");
     CHECK_THAT(reply, StartsWith("ok ") && Contains(text));
     CHECK(std::ranges::count(reply, '\n') == 1);
@@ -119,7 +119,7 @@ TEST_CASE("For a person help is folded to the width of the terminal, and says th
   }
 }
 
-TEST_CASE("What is nearly right is asked about, whatever it is") {
+TEST_CASE("Similar names are suggested, for every kind of name") {
   LineClient client;
   client.say(kLoad + "\nsave start\nopen 2\n");
   const std::vector<std::pair<std::string, std::string>> cases = {
@@ -152,7 +152,7 @@ TEST_CASE("What is nearly right is asked about, whatever it is") {
   }
 }
 
-TEST_CASE("What is like nothing gets the list of what there is") {
+TEST_CASE("A name without similar ones gets the list of names") {
   LineClient client;
   client.ask(kLoad);
   CHECK_THAT(client.ask("xyzzy"), Contains("there is no command 'xyzzy'; there are hello help"));

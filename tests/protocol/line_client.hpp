@@ -24,7 +24,7 @@ class LineClient {
  public:
   explicit LineClient(const LineService& with = line_service()) : service(with), session(service) {}
 
-  // Sends the text and returns all that comes back.
+  // Sends the text. Returns all output.
   std::string say(std::string_view text) {
     std::string answers;
     while (!text.empty()) {
@@ -38,13 +38,13 @@ class LineClient {
     return answers;
   }
 
-  // Bytes that fit into the space there is; nothing is carried out.
+  // Sends as many bytes as there is space for, without executing requests.
   void hand_in(std::string_view text) {
     std::ranges::copy(text, session.space().begin());
     session.received(text.size());
   }
 
-  // One request, its reply without LF.
+  // Sends one request. Returns its reply without LF.
   std::string ask(const std::string& request) {
     std::string answer = say(request + "\n");
     if (!answer.empty()) answer.pop_back();

@@ -1,4 +1,4 @@
-// Lines, errors and limits of a session; load_test.cpp has what a game is loaded with.
+// Lines, errors and limits of a session; load_test.cpp tests `load`.
 #include <catch2/catch.hpp>
 
 #include "protocol/line/commands/command_table.hpp"
@@ -35,7 +35,7 @@ TEST_CASE("A line ends with LF; CR before it and blanks between words do no harm
   CHECK(client.say("help  act \r\n") == client.say(" help act\n"));
 }
 
-TEST_CASE("A fault of the server's is not blamed on the client: it is internal, reported, and the session goes on") {
+TEST_CASE("A fault of the server is internal and reported, and the session continues") {
   LineService service = line_service();
   service.admission = [](std::string_view) -> bool { throw std::invalid_argument("stoi"); };
   std::vector<std::string> reports;
@@ -46,7 +46,7 @@ TEST_CASE("A fault of the server's is not blamed on the client: it is internal, 
   CHECK(code(client.ask("help")).empty());
 }
 
-TEST_CASE("Lines that are no requests are refused, and the session goes on") {
+TEST_CASE("Lines that are not requests are refused, and the session continues") {
   LineClient client;
   CHECK(code(client.ask("")) == "bad-line");
   CHECK(code(client.ask("   ")) == "bad-line");
@@ -58,7 +58,7 @@ TEST_CASE("Lines that are no requests are refused, and the session goes on") {
   CHECK(code(client.ask(kLoad)) == "");
 }
 
-TEST_CASE("A line that is too long is skipped as a whole and told once") {
+TEST_CASE("A line that is too long is skipped as a whole and reported once") {
   LineLimits limits;
   limits.line = 100;
   LineClient client(line_service(limits));
@@ -69,7 +69,7 @@ TEST_CASE("A line that is too long is skipped as a whole and told once") {
   CHECK_THAT(answers, StartsWith("error line-too-long ") && Contains("\nok act"));
 }
 
-TEST_CASE("What is left without LF at the end of input is not carried out") {
+TEST_CASE("A rest without LF at the end of input is not executed") {
   LineClient client;
   client.ask(kLoad);
   client.say("act NOOP");
@@ -100,7 +100,7 @@ TEST_CASE("Commands say what they need") {
   CHECK_THAT(client.ask("reset now"), Contains("takes 0 arguments, not 1"));
 }
 
-TEST_CASE("The examples of help are carried out") {
+TEST_CASE("The examples of help are executed") {
   LineService service = line_service();
   const Scratch folder;
   service.recorder = std::make_shared<Recorder>(folder.path(""));
@@ -132,7 +132,7 @@ TEST_CASE("A request is done in slices, between which others have their turn") {
   CHECK(client.session.output().starts_with("ok frames="));
 }
 
-TEST_CASE("Who sends ahead gets the first replies before the last request is carried out") {
+TEST_CASE("A client that sends ahead gets the first replies before the last request is executed") {
   LineClient client;
   client.ask(kLoad);
   client.ask("observe frame");
@@ -201,7 +201,7 @@ TEST_CASE("A reply is not to be sent before it is whole") {
   CHECK(std::ranges::count(client.listen(), '|') == 3);
 }
 
-TEST_CASE("Who does not read is not answered any more, and loses nothing") {
+TEST_CASE("A client that does not read gets no more replies, and loses none") {
   LineLimits limits;
   limits.output = 1000;
   LineClient client(line_service(limits));
@@ -241,7 +241,7 @@ TEST_CASE("A reply that would be too long is refused before anything is done") {
   CHECK(code(client.ask("branch a NOOP*140000")) == "limit");
 }
 
-TEST_CASE("Limits are told, and refused beyond") {
+TEST_CASE("Limits are reported and enforced") {
   LineLimits limits;
   limits.machines = 2;
   limits.states = 2;
@@ -276,7 +276,7 @@ TEST_CASE("Errors name what is accepted") {
   CHECK(client.ask("reset now") == "error bad-arguments reset takes 0 arguments, not 1: reset");
 }
 
-TEST_CASE("Names of states and recordings can't leave their place") {
+TEST_CASE("Names of states and recordings cannot lead out of their folder") {
   LineClient client;
   client.ask(kLoad);
   for (const std::string& name :

@@ -1,4 +1,4 @@
-// What a game is loaded with: its image, settings, presets and rules.
+// The arguments of `load`: image, settings, presets and rules.
 #include <catch2/catch.hpp>
 
 #include "protocol/encoding/base64.hpp"
@@ -46,7 +46,7 @@ TEST_CASE("A load that is refused leaves the game before it running") {
   CHECK(client.ask("restore here") == "ok frame=1");
 }
 
-// The score of tetris is in two bytes that beamfall leaves alone; the corrected rule knows that it wraps.
+// The score of tetris is in two bytes that beamfall does not change; the corrected rule knows its wrap.
 TEST_CASE("Corrected rules are a setting, and no state goes from one to the other") {
   LineClient client;
   std::string exported;
@@ -112,8 +112,8 @@ TEST_CASE("A range of frames is drawn anew for each act, by the seed") {
   CHECK(lengths.find_first_not_of("234\n") == std::string::npos);
 }
 
-TEST_CASE("A mode that the image does not come to is refused, and nothing has happened") {
-  LineClient client;  // updraft has no switch that pong's modes are counted by
+TEST_CASE("A mode that the image does not reach is refused, and nothing changes") {
+  LineClient client;  // updraft has no such switch as pong, whose modes are counted by it
   client.ask(kLoad);
   CHECK_THAT(client.ask("load updraft as=pong mode=3"),
              StartsWith("error bad-value mode 3 of pong could not be set up on this image"));

@@ -46,7 +46,7 @@ TEST_CASE("A share is given back when its owner ends") {
   CHECK(budget->taken() == 0);
 }
 
-TEST_CASE("What would go beyond the memory of all is refused, and the session goes on") {
+TEST_CASE("A request beyond the memory budget is refused, and the session continues") {
   const LineService service = service_with(8 * kMiB);
   LineClient client(service), other(service);
   CHECK(code(client.ask("load beamfall")) == "");
@@ -75,7 +75,7 @@ TEST_CASE("An image that a client sends is charged with the code that it may be 
   CHECK(code(client.ask("load inline image=" + std::string(5464, 'A'))) == "limit");
 }
 
-TEST_CASE("A line that there is no memory for is too long") {
+TEST_CASE("A line without memory for it counts as too long") {
   const LineService service = service_with(kMiB);
   LineClient client(service);
   const std::string long_line(900'000, 'x');

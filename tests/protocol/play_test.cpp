@@ -36,7 +36,7 @@ std::vector<std::uint8_t> exported(LineClient& client, const std::string& name) 
   return bytes_of_base64(value(client.ask("export " + name), "data")).value();
 }
 
-// As text, with the checksum that they need.
+// A state as text, with its checksum.
 std::string forged(std::vector<std::uint8_t> bytes) {
   const auto checksum =
       static_cast<std::uint32_t>(crc32(0, bytes.data() + kHeader, static_cast<uInt>(bytes.size() - kHeader)));
@@ -135,7 +135,7 @@ TEST_CASE("Frames are counted beyond the largest number of them") {
   const auto before = exported(client, "here");
   client.say("act NOOP\nsave here\n");
   auto bytes = exported(client, "here");
-  constexpr std::size_t kValues = kHeader + 108;  // behind the image, the game and three sizes
+  constexpr std::size_t kValues = kHeader + 108;  // after the image, the game and three sizes
   const std::uint32_t frame = 78, last = 2147483647;
   std::size_t at =
       kValues;  // the counter: what went from 77 to 78, there twice, of the game and of the episode

@@ -70,7 +70,7 @@ TEST_CASE("A machine of open is recorded as one of its seed is") {
   CHECK(code(many.ask("record stop")) == "recording");
 }
 
-TEST_CASE("A recording that is cut off is told of once, by act or step") {
+TEST_CASE("A recording that was cut short is reported once, by act or step") {
   Studio studio(1'000'000);
   studio.ask("open 2");
   studio.ask("record y4m a");
@@ -135,12 +135,13 @@ TEST_CASE("What a recording holds is given back when it is written, after its se
     CHECK(memory.taken() > before + (2 << 20));
   }
   studio.client.service.recorder->end(std::chrono::seconds(10));
-  for (int look = 0; look < 10'000 && memory.taken() != before; ++look)  // its last job has yet to go
+  // Its last job is still to be released.
+  for (int look = 0; look < 10'000 && memory.taken() != before; ++look)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   CHECK(memory.taken() == before);
 }
 
-TEST_CASE("What is no recording is refused, with what is accepted") {
+TEST_CASE("An invalid recording is refused, with what is accepted") {
   Studio studio;
   for (const std::string request :
        {"record", "record gif", "record avi a", "record gif, a", "record ,gif a", "record gif,gif a",

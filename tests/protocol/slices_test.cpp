@@ -1,4 +1,4 @@
-// Whatever runs frames does it in slices, can be given up, and counts against the limit.
+// All work with frames is done in slices, can be cancelled, and counts against the limit.
 #include <catch2/catch.hpp>
 
 #include "tests/protocol/line_client.hpp"
@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Slices that a request takes when each is as short as can be.
+// The number of slices of a request if each is as short as possible.
 int slices_of(LineClient& client, const std::string& request, std::string& reply) {
   client.hand_in(request + "\n");
   int slices = 1;
@@ -22,7 +22,7 @@ int slices_of(LineClient& client, const std::string& request, std::string& reply
   return slices;
 }
 
-// One session after `before`, and the slices of `request`.
+// A session after `before`, and the number of slices of `request`.
 int slices_after(const std::vector<std::string>& before, const std::string& request) {
   LineClient client;
   for (const std::string& line : before) REQUIRE(client.ask(line).starts_with("ok"));
@@ -68,7 +68,7 @@ TEST_CASE("Slices change nothing") {
   }
 }
 
-TEST_CASE("What is given up leaves no trace but the end of the session") {
+TEST_CASE("A cancelled request leaves no trace except the end of the session") {
   LineClient client;
   client.ask(kLong);
   client.hand_in("open 200\n");

@@ -1,5 +1,5 @@
-// What the text of a screen costs, in the mean over all games whose image is there; not a test.
-//   build/release/tests/protocol/text_bench            beside it RACEBEAM_SIMD=plain, for the plain fallback
+// Measures the text of a screen, as the mean over all games with an image. Not a test.
+//   build/release/tests/protocol/text_bench            with RACEBEAM_SIMD=plain: the portable variant
 #include <time.h>
 
 #include <cstdio>

@@ -19,7 +19,7 @@ std::string run_length(const Pixels& pixels, Simd form = simd()) {
   return text;
 }
 
-// One pixel at a time, as the specification puts it.
+// A pixel-by-pixel model, from the specification.
 std::string run_length_slowly(const Pixels& pixels) {
   std::string text;
   for (std::size_t at = 0; at < pixels.size();) {
@@ -128,7 +128,7 @@ TEST_CASE("Random pictures give the text that the slow way gives") {
   }
 }
 
-// As screens are: rows that repeat, rows of one colour, rows that take turns, a rest that is no row.
+// Rows as in screens: repeated rows, rows of one colour, alternating rows, and an incomplete row.
 Pixels random_rows(std::mt19937& random) {
   std::vector<Pixels> kinds;
   for (int kind = 0; kind < 6; ++kind) {

@@ -1,4 +1,4 @@
-// What player B gets, as a client sees it.
+// Player B's rewards, as a client gets them.
 #include <array>
 #include <catch2/catch.hpp>
 #include <random>
@@ -22,7 +22,7 @@ struct Duel : LineClient {
   }
 };
 
-// What player B got in 600 acts of both, drawn at random; `look` must tell the same.
+// Player B's rewards in 600 random acts of both players; `look` must report the same.
 int gains_and_losses_of_b(LineClient& client) {
   constexpr std::array kActions = {"NOOP", "FIRE",   "UP",        "RIGHT",   "LEFT",
                                    "DOWN", "UPFIRE", "RIGHTFIRE", "LEFTFIRE"};

@@ -1,4 +1,4 @@
-// A machine to record, and what was recorded of it.
+// A machine to record, and its recording.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What a file is like when its recording was cut off.
+// Files of recordings that were cut short.
 #include <catch2/catch.hpp>
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kHeight = 210, kSamples = 512;
 constexpr std::size_t kY4mHeader = 39, kY4mFrame = 6 + 3 * 320 * kHeight, kWavHeader = 44;
 
-// Writes frames until the budget is spent; returns how many were taken.
+// Writes frames until the budget is spent. Returns their number.
 int fill(Media& media) {
   std::vector<std::uint8_t> pixels(160 * kHeight), samples(kSamples);
   for (int frames = 0;; ++frames) {
@@ -31,7 +31,7 @@ struct Film {
   explicit Film(MediaKind kind, std::size_t bytes) : budget(bytes) {
     const auto media = make_media(kind, folder.path(""), "a", {kHeight, palette(Format::kNtsc), 60}, budget);
     frames = fill(*media);
-    media->keep();
+    media->commit();
     if (kind != MediaKind::kPng) file = test::read(folder.path(file_name(kind, "a")));
   }
 
@@ -47,7 +47,7 @@ std::size_t number_at(const std::string& bytes, std::size_t at) {
   return number;
 }
 
-// The pictures of a GIF whose blocks end where the file ends; else -1.
+// The number of pictures of a GIF whose blocks end where the file ends; else -1.
 int pictures_of_gif(const std::string& gif) {
   const auto byte = [&gif](std::size_t at) { return static_cast<std::uint8_t>(gif.at(at)); };
   int pictures = 0;

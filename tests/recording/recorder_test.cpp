@@ -29,7 +29,7 @@ void add(Recording& recording, Environment& machine, int frames) {
 
 }  // namespace
 
-TEST_CASE("What is let go of is kept all the same") {
+TEST_CASE("A recording that is released is committed all the same") {
   const Scratch folder;
   Environment machine = test::beamfall();
   {
@@ -96,7 +96,7 @@ TEST_CASE("At the end all is kept, or nothing of it is there") {
   CHECK(test::files_in(folder.path("")) == kept);
 }
 
-TEST_CASE("A recording that nobody lets go of does not hold up the end") {
+TEST_CASE("A recording that is never released does not hold up the end") {
   const Scratch folder;
   Environment machine = test::beamfall();
   std::shared_ptr<Recording> recording;

@@ -1,4 +1,4 @@
-// One recording, with a disk that works when it is told to.
+// One recording, on a simulated disk.
 #include "recording/recording.hpp"
 
 #include <catch2/catch.hpp>
@@ -122,21 +122,21 @@ TEST_CASE("A recording that is cut off is kept at once, and holds up nothing") {
   CHECK(film.claims->empty());
 }
 
-TEST_CASE("Of two files the one that can't be kept does not take the other with it") {
+TEST_CASE("If one of two files cannot be committed, the other still is") {
   Film film({MediaKind::kY4m, MediaKind::kWav});
   film.work();
-  film.folder.write("a.y4m", "of somebody else");
+  film.folder.write("a.y4m", "another file");
   film.add_until_behind(5);
   film.recording->finish();
   film.work();
   CHECK(film.recording->cut() == Recording::Cut::kDisk);
   CHECK(film.recording->result().names == "a.wav");
-  CHECK_THAT(film.recording->result().failure, Contains("cannot keep a.y4m"));
-  CHECK(test::read(film.folder.path("a.y4m")) == "of somebody else");
+  CHECK_THAT(film.recording->result().failure, Contains("cannot create a.y4m"));
+  CHECK(test::read(film.folder.path("a.y4m")) == "another file");
   CHECK(test::files_in(film.folder.path("")) == 2);
 }
 
-TEST_CASE("A recording that can't begin says why, and leaves nothing") {
+TEST_CASE("A recording that cannot begin gives the reason, and leaves nothing") {
   Film film({MediaKind::kWav, MediaKind::kGif}, 100);
   film.work();
   CHECK(!film.recording->is_behind());
@@ -160,7 +160,7 @@ TEST_CASE("A recording is charged for until all of it is written") {
   CHECK(charge.expired());
 }
 
-TEST_CASE("What is given up leaves nothing") {
+TEST_CASE("An aborted recording leaves nothing") {
   Film film({MediaKind::kPng, MediaKind::kGif});
   film.work();
   film.add_until_behind(10);

@@ -94,19 +94,19 @@ def random_slot(rng, scheme):
     value = rng.choice([rng.randrange(256), rng.randrange(16), 0x80 | rng.randrange(128)])
     opcode, address = rng.choice([STA, STA, STA, LDA, LDA, LDA, INC, BIT]), random_address(rng, scheme)
     if scheme == "AR" and address & 0x0800 and opcode == LDA:
-        opcode = BIT  # its bytes can be those of the BIOS, which is not the reference's
+        opcode = BIT  # its bytes may be those of the BIOS, which differs from the reference's
     return value, opcode, address
 
 
 def subroutine(rng, scheme):
-    """Calls the code that is planted in the pages of the hot spots."""
-    if scheme == "MC":  # only its locked window is sure to have it
+    """Calls the code in the pages of the hot spots."""
+    if scheme == "MC":  # only its locked window certainly has it
         return [(0, BIT, 0x1FFC), (0, JSR, 0xFC00 | images.SNIPPET)]
     return [(rng.randrange(256), JSR, 0xF000 | images.CHUNK * rng.randrange(4) | images.SNIPPET)]
 
 
 def ram_code(rng, scheme):
-    """Writes EOR #value; RTS to RAM on the cartridge, and calls it."""
+    """Writes EOR #value; RTS to cartridge RAM, and calls it."""
     select, first, read_port, size = rng.choice(images.RAM_CODE[scheme])
     at = rng.randrange(size - 2)
     code = [0x49, rng.randrange(256), 0x60]
@@ -150,8 +150,8 @@ def differing(a, b):
 
 
 def align(scheme, *machines):
-    """Takes away what is not to be compared. MC: its registers, undefined in the reference at power-on. AR: how many
-    frames the BIOS took."""
+    """Removes what cannot be compared. MC: its registers, which are undefined in the reference at power-on.
+    AR: the duration of the BIOS in frames."""
     if scheme == "MC":
         pokes = list(pokes_of([(0x80 + number, STA, 0x3C + number) for number in range(4)]))
     else:
@@ -160,7 +160,8 @@ def align(scheme, *machines):
 
 
 def compare(ale_py, probe, scheme, seed, frames):
-    """Nothing, or a sentence about the first difference. Of AR, RAM only: the reference's BIOS leaves a picture."""
+    """The first difference as a sentence, or nothing. For AR, only RAM is compared: the reference's BIOS
+    leaves a picture."""
     rng = random.Random(f"{scheme} {seed} accesses")
     seen = 256 if scheme == "AR" else None
     with tempfile.TemporaryDirectory() as folder:
@@ -182,7 +183,7 @@ def compare(ale_py, probe, scheme, seed, frames):
                     what, a, b = describe(slots), theirs.frame(pokes), ours.frame(pokes)
                 if a[:seen] != b[:seen]:
                     return f"frame {frame}: {what}\n    {differing(a, b)}\n    reference {a}\n    racebeam  {b}"
-                stuck = counter == counter_in(a)  # a subroutine went astray
+                stuck = counter == counter_in(a)  # a subroutine did not return
                 counter = counter_in(a)
         finally:
             ours.close()

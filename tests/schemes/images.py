@@ -67,7 +67,7 @@ def e7(image):
 
 
 def load(rng, number, configuration):
-    """24 pages, which fill all three banks of RAM; started at the program."""
+    """24 pages, which fill all three banks of RAM; it starts at the program."""
     start = 0xFC00 + BOOT
     header = bytes([start & 0xFF, start >> 8, configuration, 24, 0, number, 0, 0] + 8 * [0])
     header += bytes(page // 8 | page % 8 << 2 for page in range(24))
@@ -75,11 +75,12 @@ def load(rng, number, configuration):
 
 
 def ar(rng):
-    """Load 0, which the BIOS starts, and one that the loop can ask for: its first byte, at $80, is the number."""
+    """Load 0, which the BIOS starts, and one that the loop can request. Its first byte, at $80, is its
+    number."""
     return load(rng, 0, 0x0D & ~2) + load(rng, LOOP[0], LOOP[0])
 
 
-# Not CV in 2K, on which the reference crashes.
+# Without CV in 2K, on which the reference crashes.
 MAKERS = {
     "2K": lambda r: planted(2048, r),
     "4K": lambda r: planted(4096, r),
@@ -103,7 +104,7 @@ MAKERS = {
     "MC": lambda r: planted(131072, r),
 }
 
-# Where something happens, besides the whole cartridge.
+# Addresses with an effect, besides the whole cartridge.
 LIVELY = {
     "E0": [(0x1FE0, 24)],
     "E7": [(0x1FE0, 12), (0x1000, 0x800), (0x1800, 0x200), (0x1FE7, 1)],
@@ -117,7 +118,7 @@ LIVELY = {
     "MB": [(0x1FF0, 1)],
     "MC": [(0x003C, 4), (0x003C, 4), (0x0000, 64), (0x1000, 0xC00), (0x1C00, 0x400), (0x1FFC, 2)],
 }
-# RAM that code can run from: an address whose writing selects it, write port, read port, size.
+# Cartridge RAM that can hold code: an address whose access selects it, write port, read port, size.
 SC_PORTS = [(0x1FF9, 0x1000, 0x1080, 128)]
 RAM_CODE = {
     "F8SC": SC_PORTS, "F6SC": SC_PORTS, "F4SC": SC_PORTS,

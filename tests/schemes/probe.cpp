@@ -1,6 +1,6 @@
-// A machine whose RAM can be written between frames, for compare.py: each line of input is a frame before which the
-// named bytes are written ("INDEX VALUE INDEX VALUE ..."), or "reset". The answer is the RAM in hexadecimal and a
-// checksum of the screen.
+// A machine whose RAM can be written between frames, for compare.py. Each line of input is a frame, before
+// which the named bytes are written ("INDEX VALUE INDEX VALUE ..."), or "reset". The answer is the RAM in
+// hexadecimal, and a checksum of the screen.
 #include <zlib.h>
 
 #include <cstdio>

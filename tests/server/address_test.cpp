@@ -21,7 +21,7 @@ TEST_CASE("There is more than one way to write some endpoints") {
   CHECK(to_string(parse_endpoint("tls+tcp://127.0.0.1:1")) == "tls://127.0.0.1:1");
 }
 
-TEST_CASE("What is no endpoint is refused with those there are") {
+TEST_CASE("An invalid endpoint is refused with the valid forms") {
   for (const std::string text : {"",
                                  "tcp",
                                  "tcp://",

@@ -1,4 +1,4 @@
-// Loaded before the C library, it makes a disk that hangs: what is synced never comes back.
+// Simulates a hanging disk, if loaded before the C library: fsync never returns.
 #include <unistd.h>
 
 extern "C" int fsync(int) {

@@ -1,7 +1,7 @@
-"""What the tests of the running server share: starting it, talking to it in four ways, waiting for its end.
+"""Shared by tests of the running server: starts it, talks to it over four transports, and waits for its end.
 
-RACEBEAM_BINARY names the executable. RACEBEAM_ROMS (or an ale-py in .venv) has the commercial images; tests that need
-one are skipped without it.
+RACEBEAM_BINARY names the executable. RACEBEAM_ROMS (or an ale-py in .venv) has the commercial images; tests
+that need one are skipped without it.
 """
 
 import glob
@@ -47,14 +47,14 @@ def thread_sanitized():
 
 
 def run(*words, data=b"", cwd=None):
-    """Runs racebeam to its end; returns status, output and the lines on standard error."""
+    """Runs racebeam until it ends. Returns status, output, and the lines on standard error."""
     done = subprocess.run([BINARY, *words], input=data, capture_output=True, timeout=PATIENCE, cwd=cwd)
     return done.returncode, done.stdout, done.stderr.decode().splitlines()
 
 
 class Server:
-    """A racebeam process. It works in a new folder, which vanishes at the end, or in the one that is given; its standard
-    error is the log, or the descriptor that is given. `environment`: variables beside those of the test."""
+    """A racebeam process. It works in a temporary folder, or in the given one. Its standard error is the
+    log, or the given descriptor. `environment`: variables besides those of the test."""
 
     def __init__(self, *words, streams=False, folder=None, errors=None, **environment):
         self.own_folder = tempfile.TemporaryDirectory()
@@ -84,7 +84,7 @@ class Server:
             return errors.read().decode().splitlines()
 
     def wait_for(self, pattern):
-        """The match of `pattern` in the log, as soon as it is there."""
+        """Waits for `pattern` in the log. Returns the match."""
         deadline = time.monotonic() + PATIENCE
         while time.monotonic() < deadline:
             match = re.search(pattern, "\n".join(self.log()), re.MULTILINE)
@@ -96,7 +96,7 @@ class Server:
         raise AssertionError(f"'{pattern}' is not in the log: {self.log()}")
 
     def addresses(self, ready_file):
-        """The addresses of --ready-file, as soon as it is there."""
+        """Waits for --ready-file. Returns its addresses."""
         deadline = time.monotonic() + PATIENCE
         while not os.path.exists(self.path(ready_file)) and time.monotonic() < deadline:
             time.sleep(0.005)
@@ -118,7 +118,7 @@ class Server:
 
 
 class Wire:
-    """Both directions of one client's connection."""
+    """Both directions of a client's connection."""
 
     def __init__(self, input_fd, output_fd, connection=None):
         self.input_fd, self.output_fd, self.connection = input_fd, output_fd, connection
@@ -132,7 +132,7 @@ class Wire:
             data = data[os.write(self.output_fd, data):]
 
     def read(self, count):
-        """Up to `count` bytes; nothing at the end."""
+        """Receives up to `count` bytes; none at the end."""
         if not select.select([self.input_fd], [], [], PATIENCE)[0]:
             raise AssertionError("the server says nothing")
         try:
@@ -171,7 +171,7 @@ class Wire:
             self.output_fd = None
 
     def stop_reading(self):
-        """A socket's other end only learns of it when everything is closed."""
+        """The peer of a socket only sees the end when everything is closed."""
         if self.connection:
             self.close()
         elif self.input_fd is not None:
@@ -187,7 +187,7 @@ class Wire:
 
 
 def serve(*options, errors=None):
-    """One of the line protocol on a free port."""
+    """A server of the line protocol on a free port."""
     return Server("serve", "--listen", "tcp://127.0.0.1:0", *options, errors=errors)
 
 
@@ -210,14 +210,14 @@ def connect_unix(path):
 
 
 def open_pipes(server, prefix):
-    # Opening for reading waits for nobody when it is told not to; the server's open for writing then goes on.
+    # O_NONBLOCK: opening for reading does not wait for a writer. The server's open for writing then returns.
     input_fd = os.open(server.path(prefix + "_out"), os.O_RDONLY | os.O_NONBLOCK)
     os.set_blocking(input_fd, True)
     return Wire(input_fd, os.open(server.path(prefix + "_in"), os.O_WRONLY))
 
 
 class Session:
-    """One server and one client of it, over any of TRANSPORTS. Without an image: the line protocol."""
+    """One server and one client, over any of TRANSPORTS. Without an image: the line protocol."""
 
     def __init__(self, transport, *options, image=GAME):
         protocol = ["--classic", "--rom", image] if image else []
@@ -245,7 +245,7 @@ class Session:
         return connect_unix(self.server.path("s"))
 
     def __enter__(self):
-        if self.transport == "stdio":  # what is left are the duplicates
+        if self.transport == "stdio":  # the remaining descriptors are duplicates
             self.server.process.stdin.close()
             self.server.process.stdout.close()
         return self
@@ -255,12 +255,12 @@ class Session:
         self.server.__exit__()
 
     def status(self):
-        """Of the process; a server of many is told to stop first."""
+        """The exit status of the process. A server of many sessions is told to stop first."""
         return self.server.stop() if self.transport in ("tcp", "unix") else self.server.wait()
 
 
 def main(*needed):
-    """Runs the tests of the calling file; `needed` are the things without which it is skipped."""
+    """Runs the tests of the calling file. Without the things in `needed`, it is skipped."""
     missing = [what for what, found in needed if not found]
     if missing:
         print("SKIPPED: there is no " + ", no ".join(missing))

@@ -26,8 +26,8 @@ std::string read_until(int descriptor, const std::string& last) {
 
 }  // namespace
 
-// A write to a pipe that is full hangs as one to a disk that does.
-TEST_CASE("A file that hangs holds up nobody who logs, and what is lost is told") {
+// A write to a full pipe blocks like one to a hanging disk.
+TEST_CASE("A file that hangs does not block threads that log, and lost lines are reported") {
   std::array<int, 2> pipe{};
   REQUIRE(::pipe2(pipe.data(), O_CLOEXEC) == 0);
   ::fcntl(pipe[1], F_SETPIPE_SZ, 4096);

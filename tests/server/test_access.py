@@ -1,4 +1,4 @@
-"""Who may play: tokens, TLS, and what is refused beyond this machine."""
+"""Access: tokens, TLS, and what is refused on addresses that other machines can reach."""
 
 import contextlib
 import os
@@ -102,7 +102,7 @@ class Tokens(Folder):
             self.assertTrue(ask(admitted, right[:-1]).startswith(b"ok "))  # from elsewhere, on the same thread
             self.assertTrue(ask(admitted, b"load beamfall").startswith(b"ok "))
             self.assertFalse(select.select(held, [], [], 0)[0])
-            self.assertLess(time.monotonic() - start, 1.6)  # until the first of those that wait
+            self.assertLess(time.monotonic() - start, 1.6)  # until the first of those that are delayed
             self.assertEqual(wrong_tokens(), len(delays))
 
             replies = [wire.line() for wire in held]
@@ -115,14 +115,14 @@ class Tokens(Folder):
 
             start = time.monotonic()
             self.assertTrue(say("127.0.0.2", wrong).startswith(b"error unauthorized that token is not"))
-            self.assertTrue(say("127.0.0.2", right).startswith(b"ok "))  # is not locked out, but waits alike
+            self.assertTrue(say("127.0.0.2", right).startswith(b"ok "))  # is not locked out, but delayed, too
             self.assertGreaterEqual(time.monotonic() - start, longest)
             start = time.monotonic()
             self.assertTrue(say("127.0.0.2", right).startswith(b"ok "))
             self.assertLess(time.monotonic() - start, longest)
 
     def test_who_has_no_token_makes_room_for_others(self):
-        full = b"error busy there are 3 sessions, as many as this server takes; "
+        full = b"error busy there are 3 sessions, the limit of this server; "
         with self.serve("--max-sessions", "3") as server:
             first, silent, other = (connect_tcp(server.port()) for _ in range(3))
             for wire in (first, silent, other):
@@ -173,7 +173,7 @@ class Tokens(Folder):
             self.assertTrue(admits(server, OTHER) and not admits(server, TOKEN))
             self.write("tokens", "short\n")
             server.process.send_signal(signal.SIGHUP)
-            server.wait_for("line 1: a token has 16 .*; the old token file stays in use")
+            server.wait_for("line 1: a token must have 16 .*; the old token file stays in use")
             self.assertTrue(admits(server, OTHER))
 
     def test_files_without_a_good_token_are_refused(self):
@@ -213,7 +213,7 @@ class BeyondThisMachine(Folder):
 
     def test_a_warning_names_the_risk_of_plain_TCP(self):
         with Server("serve", "--listen", "tcp://0.0.0.0:0", "--token-file", self.write("tokens", TOKEN)) as server:
-            server.wait_for("warning: tcp://0.0.0.0:[0-9]+ can be reached from other machines, without TLS: who sees")
+            server.wait_for("warning: tcp://0.0.0.0:[0-9]+ can be reached from other machines, without TLS: tokens can be read")
             port = int(server.wait_for(r"listening on tcp://0\.0\.0\.0:(\d+)").group(1))
             wire = connect_tcp(port)
             self.assertTrue(ask(wire, b"games").startswith(b"error unauthorized "))
@@ -321,7 +321,7 @@ class Tls(Folder):
 
     def test_a_certificate_and_a_key_are_needed(self):
         for options, status, hint in (([], 1, "needs --tls-cert and --tls-key"),
-                                      (["--tls-cert", self.certificate], 2, "go together"),
+                                      (["--tls-cert", self.certificate], 2, "must be given together"),
                                       (["--tls-cert", self.key, "--tls-key", self.key], 1, "cannot use the certificate"),
                                       (["--tls-cert", self.certificate, "--tls-key", "nothing"], 1, "cannot use the key")):
             with self.subTest(options=options):

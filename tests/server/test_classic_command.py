@@ -1,4 +1,4 @@
-"""racebeam classic takes the command line of ALE 0.4 to 0.6, old launchers' habits included."""
+"""racebeam classic accepts the command line of ALE 0.4 to 0.6, also as old launchers use it."""
 
 import os
 import shutil
@@ -31,7 +31,7 @@ class Classic(unittest.TestCase):
         return output, errors
 
     def frames(self, *words):
-        """How many data lines a session has before its limit of frames is met."""
+        """How many data lines a session has before its limit of frames."""
         return self.play(*FIFO, *words)[0].count(b",0:\n")
 
     def refuse(self, *words, hint):
@@ -116,7 +116,7 @@ class Classic(unittest.TestCase):
     def test_an_unknown_name_is_refused(self):
         with open(os.path.join(self.folder, "unheard_of.bin"), "wb") as image:
             image.write(b"\xea" * 4096)
-        self.refuse(*FIFO, "unheard_of.bin", hint="no game is called 'unheard_of'")
+        self.refuse(*FIFO, "unheard_of.bin", hint="there is no game with the name 'unheard_of'")
 
     def test_limits_and_frame_skip(self):
         self.assertEqual(self.frames("-max_num_frames", "5", GAME), 5)

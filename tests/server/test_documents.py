@@ -1,4 +1,4 @@
-"""The conversations in protocol/CLASSIC.md and protocol/PROTOCOL.md are what the server says."""
+"""The server gives the replies in the conversations of protocol/CLASSIC.md and protocol/PROTOCOL.md."""
 
 import os
 import re
@@ -9,7 +9,7 @@ from harness import SOURCE, TRANSPORTS, Session, main, run
 
 
 def conversations(path):
-    """For each '$ racebeam' in the document: the command, what is sent, and what comes back."""
+    """For each '$ racebeam' in the document: the command, the input, and the expected output."""
     found = []
     with open(os.path.join(SOURCE, path)) as document:
         for line in document:
@@ -35,7 +35,8 @@ class Documents(unittest.TestCase):
                 self.assertEqual(status, 0)
 
     def check_lines(self, converse):
-        """Each conversation of the line protocol, over each transport; `converse` sends it and hears the replies."""
+        """Each conversation of the line protocol, over each transport. `converse` sends it and receives the
+        replies."""
         found = conversations("protocol/PROTOCOL.md")
         self.assertTrue(found)
         for command, said, heard in found:

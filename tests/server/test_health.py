@@ -1,4 +1,4 @@
-"""What a server tells those who run it: health, metrics, the log."""
+"""The server's outputs for its operator: health, metrics, the log."""
 
 import contextlib
 import fcntl
@@ -92,7 +92,7 @@ class Http(unittest.TestCase):
             busy = connect()
             silent = [connect() for _ in range(63)]
             slow = silent[1]
-            slow.send(b"GET /healthz HTTP/1.1\r\n")  # half a request holds no place either
+            slow.send(b"GET /healthz HTTP/1.1\r\n")  # half a request does not keep a place either
             self.assertTrue(is_healthy(busy))  # from now on it is the latest
             for _ in range(2):
                 self.assertEqual(get(address + "/healthz"), (200, "ok\n"))
@@ -195,7 +195,8 @@ class Log(unittest.TestCase):
         return text
 
     def check_order(self, lines, lost):
-        """The threads and two addresses, then clients who come and leave, in order; where some are missing the log says how many."""
+        """The log has the threads and two addresses, then clients that connect and leave, in order. If lines are missing, it says
+        how many."""
         notes = [match for match in (re.search(rb"(\d+) lines of the log are lost", line) for line in lines) if match]
         self.assertEqual(sum(int(note.group(1)) for note in notes), lost)
         self.assertEqual(len(lines) - len(notes), 3 + 2 * 700 - lost)

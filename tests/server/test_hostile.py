@@ -1,6 +1,7 @@
-"""Clients that ask for as much as they can: the server's other clients are answered, and the server ends when it is told to.
+"""Clients that request as much as they can: the server still answers other clients, and stops when it is
+told to.
 
-The thresholds leave room for slow machines. What they guard against takes seconds to minutes.
+The thresholds leave room for slow machines. The faults that they guard against take seconds to minutes.
 """
 
 import base64
@@ -15,7 +16,8 @@ import urllib.request
 from harness import PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, open_pipes, serve
 
 ENDLESS = b"load beamfall as=tetris seed=1 system_seed=1 sticky=0 max_episode_frames=0"  # beamfall with rules that end no episode
-MODE = b"load beamfall as=adventure mode=1 frame_skip=1000 max_episode_frames=0"   # which never comes about on beamfall
+# which beamfall never reaches
+MODE = b"load beamfall as=adventure mode=1 frame_skip=1000 max_episode_frames=0"
 HOUR = b"act NOOP*900000000"
 JUMP_TO_ITSELF = bytes([0x4C, 0x00, 0xF0])
 MANY_FRAMES = ("--max-request-frames", "1000000000")
@@ -27,7 +29,7 @@ def load_inline(program):
     return b"load inline max_episode_frames=0 image=" + base64.b64encode(image)
 
 
-# What a client asks first, and then for as long as it lives. One such request takes long.
+# A client's first requests, and then its repeated ones, each of which takes long.
 SKIPPING = ENDLESS + b" frame_skip=1000"
 NO_OPS = ENDLESS + b" noop_max=1000"
 LONG_REQUESTS = {
@@ -42,7 +44,7 @@ LONG_REQUESTS = {
 
 
 def begin(wire, first, request):
-    """The client has got its replies to `first`; some of `request` are under way, unread."""
+    """The client has received its replies to `first`; some of `request` are in flight, unread."""
     for line in first:
         reply = ask(wire, line)
         assert reply.startswith(b"ok"), reply
@@ -50,7 +52,7 @@ def begin(wire, first, request):
 
 
 def median_wait(wire, count=9):
-    """Seconds that a client waits for a short act."""
+    """The latency of a short act, in seconds."""
     waits = []
     for _ in range(count):
         asked = time.monotonic()
@@ -76,7 +78,7 @@ def processor_seconds(server):
 
 
 class Case(unittest.TestCase):
-    """Has a server, and connections to it, that end with the test."""
+    """A server, and connections to it, which are closed at the end of the test."""
 
     def start(self, server):
         self.server = server

@@ -1,4 +1,4 @@
-"""The line protocol over the wire: clients that are slow, leave, or ask for much do not disturb the others."""
+"""The line protocol over the wire: slow, vanishing or demanding clients do not affect others."""
 
 import os
 import resource
@@ -61,12 +61,12 @@ class Strict(unittest.TestCase):
                       ("--classic", "--stdio", "--rom", GAME)):
             status, output, errors = run("serve", "--strict", *words)
             self.assertEqual((status, output, len(errors)), (2, b"", 1), errors)
-            self.assertIn("--strict: goes with --stdio and --pipes alone, in the line protocol", errors[0])
+            self.assertIn("--strict: requires --stdio or --pipes, and the line protocol", errors[0])
 
 
 class Pieces(unittest.TestCase):
-    """A client that writes a request in pieces, and lets its system hold the second back until the first is
-    acknowledged. Left to itself, the server's system does that after 40 ms."""
+    """A client that writes a request in pieces, and lets its system delay the second until the first is
+    acknowledged. By default, the server's system acknowledges after 40 ms."""
 
     def steps_a_second(self, port, first, request, count):
         with socket.create_connection(("127.0.0.1", port), PATIENCE) as connection, connection.makefile("rb") as reader:
@@ -101,7 +101,7 @@ class Pieces(unittest.TestCase):
 
 
 class Netcat(unittest.TestCase):
-    """OpenBSD's closes its sending end with -N only."""
+    """OpenBSD's netcat closes its sending end only with -N."""
 
     def converse(self, requests, *words):
         done = subprocess.run(["nc", *words], input=requests, capture_output=True, timeout=PATIENCE)
@@ -185,7 +185,7 @@ class Sessions(unittest.TestCase):
                 other.line()
             with open(f"/proc/{server.process.pid}/status") as status:
                 resident = next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
-            if not sanitized():  # whose memory is mostly the sanitizer's
+            if not sanitized():  # most of it is the sanitizer's
                 self.assertLess(resident, 100_000)  # KiB
             heard = 0
             while heard < 2004:

@@ -1,4 +1,4 @@
-"""Sockets: addresses that are taken, stale or wrong, several at once, signals, and clients that do not meet."""
+"""Sockets: addresses that are in use, stale or invalid, several at once, signals, and independent clients."""
 
 import contextlib
 import os

@@ -1,4 +1,4 @@
-"""What those who run a server rely on: limits, the end, the ready file, systemd's sockets."""
+"""Operation of a server: limits, its end, the ready file, systemd's sockets."""
 
 import os
 import signal
@@ -16,7 +16,7 @@ LONG = b"branch root " + b"NOOP*%d " % FRAMES * 100 + b"\n"  # 100,000 frames, o
 
 
 def load(wire, request=b""):
-    """Loads a game, sends the request at once behind that, and waits until only its reply is still to come."""
+    """Loads a game, sends the request directly after it, and waits until only its reply is missing."""
     wire.send(LOAD + request)
     for _ in LOAD.splitlines():
         wire.line()
@@ -51,7 +51,7 @@ class Limits(unittest.TestCase):
             wire = connect_tcp(server.port())
             load(wire)
             sequences, took = 5, 0
-            while took < 1.5 * idle:  # longer and longer ones, however fast the machine is now
+            while took < 1.5 * idle:  # longer and longer requests, for any speed of the machine
                 sequences *= 2
                 start = time.monotonic()
                 reply = ask(wire, b"branch root " + b"NOOP*%d " % FRAMES * sequences)
@@ -201,7 +201,7 @@ class ReadyFile(unittest.TestCase):
         kinds = {"notes": lambda path: file(path, "tcp://127.0.0.1:1\n"), "empty": lambda path: file(path, ""),
                  "near": lambda path: file(path, FIRST_LINE[:15]), "pipe": os.mkfifo, "folder": os.mkdir,
                  "device": lambda path: os.symlink("/dev/null", path), "link": lambda path: os.symlink("ready", path)}
-        def marks(path):  # all but the time of the last look
+        def marks(path):  # all but the time of the last access
             found = os.lstat(path)
             return found.st_ino, found.st_mode, found.st_size, found.st_mtime_ns
 
@@ -214,7 +214,7 @@ class ReadyFile(unittest.TestCase):
                     before = marks(path)
                     status, output, errors = run("serve", *where, "--ready-file", path)
                     self.assertEqual((status, output, len(errors)), (1, b"", 1), errors)
-                    self.assertIn(f"--ready-file {path} is there, and is no ready file", errors[0])
+                    self.assertIn(f"--ready-file {path} exists, and is not a ready file", errors[0])
                     self.assertEqual(marks(path), before)
 
     def test_a_stale_one_is_gone_before_anything_else_is_looked_at(self):
@@ -299,13 +299,14 @@ class ReadyFile(unittest.TestCase):
 class Threads(unittest.TestCase):
     def test_the_log_says_how_many_and_what_limits_them(self):
         with serve("--threads", "3") as server:
-            server.wait_for("threads that serve: 3, limited by --threads$")
+            server.wait_for("threads: 3, limited by --threads$")
         with serve() as server:
-            server.wait_for("threads that serve: [0-9]+, limited by the (machine|affinity|control group)$")
+            server.wait_for("threads: [0-9]+, limited by the (machine|affinity|control group)$")
 
 
 class Systemd(unittest.TestCase):
-    """By its convention, played by the test: sockets from descriptor 3 on, and variables that name this process."""
+    """The convention of systemd, played by the test: sockets from descriptor 3 on, and variables that name
+    this process."""
 
     def start(self, folder, options, names="line:classic"):
         sockets = [socket.socket(socket.AF_UNIX) for _ in range(2)]

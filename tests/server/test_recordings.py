@@ -1,4 +1,4 @@
-"""Recordings on a running server: what they keep at a limit, and that nobody waits for them."""
+"""Recordings on a running server: what they contain at a limit, and that they block no client."""
 
 import os
 import resource
@@ -14,12 +14,12 @@ from harness import BINARY, PATIENCE, ask, connect_tcp, connect_unix, main, run,
     thread_sanitized, Server
 
 LIMIT = 1000000
-SLACK = 2  # seconds, for a machine that has other work
+SLACK = 2  # seconds, for a busy machine
 KINDS = {"y4m": ["film.y4m"], "gif": ["film.gif"], "wav": ["film.wav"], "png": ["film"], "y4m,wav": ["film.wav", "film.y4m"]}
 
 
 def requests(kind):
-    """More than LIMIT bytes, whatever the kind."""
+    """A recording of more than LIMIT bytes, of any kind."""
     return (b"load beamfall sticky=0 max_episode_frames=0\nsave root\nrecord %s film\n" % kind.encode() +
             b"act FIRE*1000\nrestore root\n" * 4 + b"record stop\nact NOOP\n")
 
@@ -126,7 +126,7 @@ class Others(unittest.TestCase):
 
 @unittest.skipIf(sanitized() or thread_sanitized(), "a sanitizer wants to be loaded first")
 class HangingDisk(unittest.TestCase):
-    """Nothing that is synced comes back."""
+    """fsync never returns."""
 
     def serve(self, *options):
         return Server("serve", "--threads", "1", "--listen", "unix:s", "--record-dir", ".", "--grace", "1", *options,

@@ -1,4 +1,5 @@
-"""Small cases of the classic protocol over every transport, and clients that leave, stall or make no sense."""
+"""Small cases of the classic protocol over every transport, and clients that leave, stall or send invalid
+lines."""
 
 import os
 import unittest
@@ -9,7 +10,7 @@ MEBIBYTE = 1 << 20
 
 
 def converse(transport, data, *options, **image):
-    """Sends `data`, closes, and returns what came back, the exit status and the log."""
+    """Sends `data` and closes. Returns the output, the exit status and the log."""
     with Session(transport, "--seed", "123", "--sticky", "0", *options, **image) as session:
         session.wire.send(data)
         session.wire.stop_sending()
@@ -82,7 +83,7 @@ class Nonsense(unittest.TestCase):
         self.check(b"0,0,0,1\n\n3,18\n", ["0,0:"], 1, "0 numbers")
 
     def test_loading_what_was_never_saved_ends_the_session(self):
-        self.check(b"0,0,0,1\n44,18\n", ["0,0:"], 1, "has not saved one")
+        self.check(b"0,0,0,1\n44,18\n", ["0,0:"], 1, "none that it saved")
 
     def test_bytes_that_are_no_text_end_the_session(self):
         self.check(b"0,0,0,1\n" + bytes(range(128, 256)) + b"\n", ["0,0:"], 1, "1 numbers")
@@ -115,7 +116,7 @@ class Leaving(unittest.TestCase):
 
     def check_sent(self, transport, data):
         received, status, log = converse(transport, data)
-        # A last line that is too short is refused; all others are carried out.
+        # A last line that is too short is refused; all others are executed.
         last, numbers = data.split(b"\n")[-1], 2 if b"\n" in data else 4
         refused = bool(last) and len([part for part in last.split(b",") if part]) < numbers
         self.assertEqual(received.endswith(b"DIE\n"), not refused)
@@ -131,7 +132,7 @@ class Leaving(unittest.TestCase):
                     self.check_heard(transport, answers, count)
 
     def check_heard(self, transport, answers, count):
-        lines = answers[:count].count(b"\n")  # this many answers were heard whole
+        lines = answers[:count].count(b"\n")  # this many complete replies were received
         said = self.SAID.splitlines(keepends=True)
         with Session(transport, "--seed", "1", "--sticky", "0") as session:
             wire = session.wire
@@ -160,7 +161,7 @@ class Stalling(unittest.TestCase):
     AHEAD = b"1,1,0,1\n" + b"3,18\n" * 1000
 
     def stall(self, session):
-        """Asks for 67 MB of screens and reads none of them."""
+        """Requests 67 MB of screens, and reads none of them."""
         session.wire.send(self.AHEAD)
 
     def memory(self, session):
@@ -173,7 +174,7 @@ class Stalling(unittest.TestCase):
                 before = self.memory(session)
                 self.stall(session)
                 session.wire.receive(100)
-                if not sanitized():  # whose memory is mostly the sanitizer's; so is some of the other's
+                if not sanitized():  # most of it is the sanitizer's
                     self.assertLess(self.memory(session) - before, (64 if thread_sanitized() else 32) << 20)
                 session.wire.stop_sending()
                 answers = session.wire.rest()

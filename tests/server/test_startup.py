@@ -1,4 +1,4 @@
-"""A start that fails says why in one line, with an exit status and nothing on standard output."""
+"""A start that fails prints its reason in one line, with an exit status and nothing on standard output."""
 
 import hashlib
 import os
@@ -23,7 +23,7 @@ class Refusals(unittest.TestCase):
 
 class Images(Refusals):
     def check_image(self, data, *hints):
-        """Every server refuses an image with these bytes, and makes nothing."""
+        """Every server refuses an image with these bytes, and creates nothing."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "pong.bin")
             with open(path, "wb") as image:
@@ -93,16 +93,16 @@ class CommandLine(Refusals):
         self.refuse("--seed", hint="--seed")
 
     def test_an_unknown_flag_is_refused(self):
-        self.refuse("--speed", "4", hint="not understood: --speed 4")
+        self.refuse("--speed", "4", hint="unknown argument: --speed 4")
 
     def test_a_transport_is_needed(self):
-        self.check(["serve", "--classic", "--rom", GAME], 2, "--stdio, --pipes PREFIX and --listen ADDRESS")
-        self.refuse("--listen", "stdio", hint="only one pair of standard streams")
+        self.check(["serve", "--classic", "--rom", GAME], 2, "--stdio, --pipes PREFIX or --listen ADDRESS")
+        self.refuse("--listen", "stdio", hint="standard streams can serve only one session")
 
     def test_what_the_client_says_in_the_line_protocol_is_refused(self):
         for words in (["--seed", "1"], ["--frame-skip", "4"], ["--sticky", "0"], ["--full-screen"], ["--mode", "0"]):
             with self.subTest(flag=words[0]):
-                self.check(["serve", "--stdio", "--rom", GAME, *words], 2, f"{words[0]}: goes with --classic")
+                self.check(["serve", "--stdio", "--rom", GAME, *words], 2, f"{words[0]}: requires --classic")
 
     def test_folders_have_to_be_there(self):
         self.check(["serve", "--stdio", "--roms", "nowhere"], 1, "nowhere")
@@ -113,12 +113,12 @@ class CommandLine(Refusals):
         self.check(["serve", "--classic", "--stdio"], 2, "--rom is required")
 
     def test_an_unknown_subcommand_is_answered_by_those_there_are(self):
-        self.check(["play"], 2, "'play' is no subcommand", "serve, config, classic, trace")
+        self.check(["play"], 2, "'play' is not a subcommand", "serve, config, classic, trace")
         self.check([], 2, "serve, config, classic, trace")
 
 
 class Folders(unittest.TestCase):
-    """What lies in the folder of --roms; what can't be used there is passed over."""
+    """Files in the folder of --roms; unusable ones are skipped."""
 
     def games(self, prepare):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,4 +1,4 @@
-"""A person on a terminal: help is folded to its width; a program gets one line."""
+"""On a terminal, help is folded to its width; a program gets one line."""
 
 import errno
 import fcntl
@@ -15,7 +15,7 @@ COLUMNS = 60
 
 
 def said_on_a_terminal(requests):
-    """All that `racebeam serve --stdio` writes to a terminal of COLUMNS columns."""
+    """All output of `racebeam serve --stdio` on a terminal of COLUMNS columns."""
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, COLUMNS, 0, 0))
     server = subprocess.Popen([BINARY, "serve", "--stdio"], stdin=subprocess.PIPE, stdout=theirs, stderr=subprocess.DEVNULL)
@@ -26,7 +26,7 @@ def said_on_a_terminal(requests):
     try:
         while piece := os.read(ours, 65536):
             heard += piece
-    except OSError as error:  # the way in which a terminal ends
+    except OSError as error:  # the end of a terminal
         if error.errno != errno.EIO:
             raise
     os.close(ours)

@@ -1,4 +1,4 @@
-"""Recorded sessions of the classic server are reproduced byte for byte, however the bytes come in."""
+"""Recorded sessions of the classic server are reproduced byte for byte, for any division of the input."""
 
 import hashlib
 import os
@@ -23,7 +23,7 @@ RECORDED = {  # MD5 of each file as it was recorded (docs/spec/classic-protocol.
 
 
 def expanded(line):
-    """A line of a transcript as it was recorded: the screen of a `<~ ` line is run-length text there."""
+    """A line of a transcript. The screen of a `<~ ` line is run-length text."""
     if not line.startswith(b"<~ "):
         return line
     return b"< " + re.sub(rb"(..)(..)", lambda run: run[1] * int(run[2], 16), line[3:-2]) + b":\n"

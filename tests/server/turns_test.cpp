@@ -10,7 +10,7 @@ namespace net = boost::asio;
 
 namespace {
 
-// A loop of sessions that work without a pause, as the server's do.
+// A loop of sessions that work without a pause, as in the server.
 struct Busy {
   net::awaitable<void> session(Usage& usage, int slices) {
     for (; slices > 0; --slices) {

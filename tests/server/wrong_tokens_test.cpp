@@ -12,7 +12,7 @@ std::string source_of(const char* address) {
   return WrongTokens::source_of(boost::asio::ip::make_address(address));
 }
 
-// As long as that, but for the time that the test itself takes.
+// The same delay, without the time of the test itself.
 bool about(WrongTokens::Delay wait, WrongTokens::Delay expected) {
   return wait <= expected && wait > expected / 2;
 }

@@ -28,12 +28,12 @@ Environment machine(const Cartridge& cartridge, int number) {
   return {cartridge.image, cartridge.game, manner(number).settings};
 }
 
-// Where in the game the saved frames begin: somewhere else for each seed and manner.
+// The number of acts before the saved frames; it differs for each seed and manner.
 int warm_up(std::uint64_t seed, int number) {
   return static_cast<int>((seed * 131 + 57 * static_cast<unsigned>(number)) % 500);
 }
 
-// The present, and what `acts` acts from act `first` on lead to.
+// Digests of the present, and after each of `acts` acts from act `first` on.
 Digests went_on(Environment& environment, std::uint64_t seed, int first, int acts) {
   Digests seen = {digest(environment, 0)};
   for (int i = 0; i < acts; ++i) seen.push_back(act(environment, seed, first + i));
@@ -51,7 +51,7 @@ Bytes read_bytes(const fs::path& path) {
   return Bytes(std::istreambuf_iterator<char>(file), {});
 }
 
-// A folder that goes with its owner.
+// A temporary folder.
 struct Folder {
   fs::path path;
   Folder() {
@@ -67,7 +67,7 @@ struct Folder {
   Folder& operator=(const Folder&) = delete;
 };
 
-// A run, and what it showed.
+// A run and its digests.
 class Run {
  public:
   Run(const Cartridge& cartridge, const Cartridge& other, int number, const Plan& plan)
@@ -96,7 +96,7 @@ class Run {
   void play() {
     for (int n = 0; n < first_; ++n) act(running_, plan_.seed, n);
     now_.push_back(digest(running_, 0));
-    led_to_.push_back(0);  // nothing led to the first
+    led_to_.push_back(0);  // the first has no act before it
     for (int i = 0; i < plan_.frames + plan_.ahead; ++i) {
       if (i < plan_.frames) saved_.push_back(running_.save(manner(number_).with_random));
       led_to_.push_back(act(running_, plan_.seed, first_ + i));
@@ -109,7 +109,7 @@ class Run {
     return went_on(running_, plan_.seed, first_ + frame, plan_.ahead);
   }
 
-  // The same memory, so far as the allocator gives it out again, and the same object.
+  // Uses the same object, and probably the same memory.
   Digests after_another_game(const Bytes& bytes, int frame) {
     Environment second = machine(other_, number_);
     for (int n = 0; n < kOtherActs; ++n) act(second, plan_.seed, n);

@@ -1,4 +1,4 @@
-// Every state of a run restores to what it was, wherever it is restored.
+// Every state of a run can be restored, on any machine and in any process.
 #pragma once
 
 #include <memory>
@@ -17,19 +17,19 @@ struct Cartridge {
 
 struct Plan {
   int frames = 0;   // consecutive frames whose state is saved
-  int ahead = 200;  // frames that each is compared for
+  int ahead = 200;  // frames after each state that are compared
   std::uint64_t seed = 1;
-  std::string executable;  // of the fresh processes; see resume()
+  std::string executable;  // of the other processes; see resume()
 };
 
-// Plays `cartridge` in manner(number); saves the state at every frame; then restores each, compares what is
-// shown and goes on, comparing with what the run itself showed: on the machine that ran, on a machine made
-// anew after the same place in memory ran `other`, and in a process of its own. An empty string, or what
-// differed first.
+// Plays `cartridge` in manner(number), and saves the state at every frame. Then restores each state, and
+// compares its digests, and those of the following acts, with the run's. This is done on the machine that
+// ran, on a machine in the same memory after another ran `other`, and in another process. Returns the first
+// difference, or an empty string.
 std::string check_run(const Cartridge& cartridge, const Cartridge& other, int number, const Plan& plan);
 
-// What a fresh process does: restores the state in FOLDER/state on the image FOLDER/image, and prints the
-// digests of the present and of the acts after it, one a line.
+// The work of another process: restores the state in FOLDER/state with the image FOLDER/image. Prints the
+// digests of the present and of the following acts, one a line.
 struct Resumption {
   std::string folder, game;
   int manner = 0, first = 0, acts = 0;

@@ -1,4 +1,4 @@
-// A random run of a game, reproducible from any of its acts on: what is done at act n depends on n alone.
+// A random run of a game that can be repeated from any act: act n depends only on n.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace racebeam::test {
 
-// How a run is played, and what its states hold.
+// How a run is played, and what its states contain.
 struct Manner {
   const char* name;
   Settings settings;
@@ -18,12 +18,12 @@ struct Manner {
 constexpr int kManners = 2;
 Manner manner(int number);
 
-// All that can be seen: screen, RAM, sound, reward, lives, both ends, both frame numbers, mode and
-// difficulty.
+// A digest of all that can be observed: screen, RAM, sound, reward, lives, both ends, both frame numbers,
+// mode and difficulty.
 std::uint64_t digest(const Environment& environment, int reward);
 
-// Act number `n` of the run with this seed, and a new game if the last one is over. The digest of what it led
-// to.
+// Plays act number `n` of the run with this seed, and begins a new game if the last one is over. Returns the
+// digest of the result.
 std::uint64_t act(Environment& environment, std::uint64_t seed, int n);
 
 }  // namespace racebeam::test

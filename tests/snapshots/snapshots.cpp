@@ -1,4 +1,4 @@
-// The property of states, over all games: see check.hpp. scripts/check/snapshots runs this.
+// Tests saved states of all games: see check.hpp. scripts/check/snapshots runs this.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -29,7 +29,7 @@ std::shared_ptr<const Image> image_of(const CatalogueEntry& entry, const Game& g
   return entry.built_in ? load_image("builtin:" + std::string(entry.name)) : find_rom_of(game);
 }
 
-// Why no machine runs them; empty if one does.
+// Why no machine can run the game; empty if one can.
 std::string obstacle(const std::shared_ptr<const Image>& image, const std::shared_ptr<const Game>& game) {
   try {
     const Environment environment(image, game, Settings{});
@@ -71,7 +71,7 @@ std::string check_game(const Cartridge& cartridge, const Cartridge& other, Plan 
   return {};
 }
 
-// The games, shared out among threads. How many had a fault?
+// Distributes the games over threads. Returns how many had a fault.
 int check_games(const std::vector<Cartridge>& cartridges, const Options& options) {
   std::atomic<std::size_t> next = 0;
   std::atomic<int> faults = 0;
@@ -107,21 +107,20 @@ int run_checks(const Options& options) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app(
-      "Checks, for every game, that the state at each frame of a random run restores to what it was");
+  CLI::App app("Checks, for every game, that the state at each frame of a random run can be restored");
   Options options;
   Resumption resumption;
   options.plan.frames = 6;
   app.add_option("--frames", options.plan.frames, "Consecutive frames of each game whose state is restored")
       ->envname("RACEBEAM_SNAPSHOT_FRAMES")
       ->check(CLI::PositiveNumber);
-  app.add_option("--ahead", options.plan.ahead, "Acts after each that are compared")
+  app.add_option("--ahead", options.plan.ahead, "Acts after each restored state that are compared")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--seed", options.plan.seed, "Of the runs");
-  app.add_option("--games", options.games, "Names; all if not given")->delimiter(',');
-  app.add_option("--threads", options.threads, "Games at once")->check(CLI::PositiveNumber);
+  app.add_option("--seed", options.plan.seed, "Seed of the runs");
+  app.add_option("--games", options.games, "Names of games (default: all)")->delimiter(',');
+  app.add_option("--threads", options.threads, "Games that run in parallel")->check(CLI::PositiveNumber);
   app.add_flag("--verbose", options.verbose, "Print a line for each game");
-  app.add_option("--resume", resumption.folder)->group("");  // for the fresh processes
+  app.add_option("--resume", resumption.folder)->group("");  // for the other processes
   app.add_option("--manner", resumption.manner)->group("");
   app.add_option("--first", resumption.first)->group("");
   CLI11_PARSE(app, argc, argv);

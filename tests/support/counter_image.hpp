@@ -1,4 +1,4 @@
-// A cartridge made for tests, so that what an environment does to a machine can be read from its RAM.
+// A cartridge for tests: its RAM records what an environment does to a machine.
 #pragma once
 
 #include <memory>
@@ -17,8 +17,8 @@ std::shared_ptr<const Image> counter_image();
 // $80 after a reset of `frames` frames: the first frame ends before it counts.
 constexpr int counted(int frames) { return (frames - 1) & 0xFF; }
 
-// A game file's text (without an image's MD5) as a game; by default one whose rule is steered by writing into
-// RAM: $90 score, $91 over, $92 lives.
+// A game from the text of a game file without an image's MD5. The default game's rule is controlled by writes
+// to RAM: $90 score, $91 over, $92 lives.
 inline constexpr auto kSteeredGame = R"(
 title = "Steered"
 modes = [0, 1, 3]

@@ -1,4 +1,4 @@
-// CRC-32 as in PNG and zlib, as the tables of the specification give it.
+// CRC-32 as in PNG and zlib, for the checksums of the specification.
 #pragma once
 
 #include <cstdint>

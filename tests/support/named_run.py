@@ -1,5 +1,5 @@
-"""A run of a comparison, whose name says all that makes it what it is: `pong:skip=4,seed=7` is the same run on every
-machine. What a name does not say is at its default."""
+"""A run of a comparison. Its name contains everything that determines it: `pong:skip=4,seed=7` is the same
+run on every machine. Settings that it does not name have their defaults."""
 
 import dataclasses
 
@@ -7,7 +7,7 @@ import dataclasses
 class NamedRun:
     """The base of a dataclass: its first field is the game, the others are numbers with defaults."""
 
-    ALWAYS = ("seed",)  # the fields that a name says in any case
+    ALWAYS = ("seed",)  # fields that every name contains
 
     @property
     def name(self):

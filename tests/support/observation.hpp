@@ -1,4 +1,4 @@
-// All that an environment shows, in one value that can be compared.
+// All outputs of an environment, in one value that can be compared.
 #pragma once
 
 #include <cstdint>

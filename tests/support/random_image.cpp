@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "emulator/base/opcodes.hpp"
-#include "games/digest.hpp"
+#include "games/md5.hpp"
 
 namespace racebeam::test {
 namespace {
@@ -23,8 +23,9 @@ struct Range {
 struct Recipe {
   std::string_view scheme;
   std::size_t size;  // of the image
-  unsigned unit;     // each so many bytes hold the program once; it runs in the last one that the CPU sees
-  std::vector<Range> lively;  // addresses that do something
+  // Each block of this many bytes holds the program once; it runs in the last one that the CPU sees.
+  unsigned unit;
+  std::vector<Range> lively;  // addresses with an effect
   Bytes first{};              // instructions that the program begins with
 };
 
@@ -51,7 +52,7 @@ const std::vector<Recipe>& recipes() {
       {"CV 4K", 4096, 2048, {{0x1000, 0x800}}},
       {"AR", kStarpathLoad, 2048, {{0x1000, 0x100}, {0x1FF8, 1}, {0x1850, 1}}},
       {"MB", 65536, 4096, {{0x1FF0, 1}}},
-      // The window that the program runs in shows ROM.
+      // The program's window shows ROM.
       {"MC", 131072, 1024, {{0x003C, 3}, {0x1000, 0xC00}, {0x1FFC, 2}}, {0xA9, 0x90, 0x85, 0x3F}},
   };
   return all;
@@ -73,9 +74,9 @@ bool jumps(unsigned opcode) {
 
 bool branches(unsigned opcode) { return (opcode & 0x1F) == 0x10; }
 
-// A frame of straight code, again and again: writes to the TIA, loops that wait, touched hot spots, and any
-// instruction that there is but jumps. All units have the same instructions, with other values, so that code
-// that changes the bank goes on in the other one; none lies across a border of two windows.
+// A frame of straight code, repeatedly: writes to the TIA, loops that wait, accesses of hot spots, and any
+// instruction except jumps. All units have the same instructions, with different values, so that code that
+// switches the bank continues in the other one. No instruction crosses a border of two windows.
 class Writer {
  public:
   Writer(const Recipe& recipe, unsigned seed) : recipe_(recipe), random_(seed) {}
@@ -158,7 +159,7 @@ class Writer {
     return all;
   }
 
-  // Load 0 fills the three banks of RAM; it is started with the last of them in the upper half
+  // Load 0 fills the three banks of RAM. It starts with the last of them in the upper half
   // (docs/spec/cartridges.md, 9).
   Bytes starpath_load() {
     constexpr unsigned kConfiguration = 0x0D, kPagesABank = 8;
@@ -177,7 +178,7 @@ class Writer {
   const Recipe& recipe_;
   std::mt19937 random_;
   Bytes bytes_;
-  std::vector<std::size_t> values_;  // places of what is written to the TIA
+  std::vector<std::size_t> values_;  // offsets of the values that are written to the TIA
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Cartridges full of random code, one for each scheme: they touch everything, in no order.
+// Cartridges of random code, one for each scheme; they access everything, in random order.
 #pragma once
 
 #include <memory>
@@ -11,14 +11,14 @@
 
 namespace racebeam::test {
 
-// The schemes that there are random images of: all that have code to run.
+// The schemes with random images: all that have code to run.
 std::span<const std::string_view> random_schemes();
 
-// The same seed gives the same image, on every machine. Its bytes don't tell the scheme: it has to be asked for.
-// Throws std::invalid_argument for another scheme.
+// Returns the same image for the same seed, on every machine. The scheme cannot be detected from its bytes,
+// and must be selected. Throws std::invalid_argument for another scheme.
 std::shared_ptr<const Image> random_image(std::string_view scheme, unsigned seed);
 
-// A game without a rule that asks for `scheme`, whatever the image.
+// A game without a rule that selects `scheme` for any image.
 std::shared_ptr<const Game> random_game(std::string_view scheme);
 
 }  // namespace racebeam::test

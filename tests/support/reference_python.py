@@ -1,4 +1,5 @@
-"""Runs a test where the reference and what comes with it are installed: by the Python of scripts/reference, or not at all."""
+"""Runs a test with the Python that has the reference and its companions: this one, or that of
+scripts/reference. Else skips it."""
 
 import importlib.util
 import os
@@ -11,7 +12,8 @@ OF_SCRIPTS_REFERENCE = pathlib.Path(__file__).resolve().parents[2] / ".venv/bin/
 
 
 def require(*modules):
-    """Returns if they are all there; else the program begins again with the other Python, once, or ends as skipped."""
+    """Returns if all modules are installed. Else restarts the program once with the other Python, or ends it
+    as skipped."""
     missing = [name for name in modules if importlib.util.find_spec(name) is None]
     if not missing:
         return

@@ -1,5 +1,5 @@
-// Cartridge images that are not ours to ship: taken from the folder named by RACEBEAM_ROMS, or else from an
-// ale-py installed in a virtual environment `.venv` at the root of the repository.
+// Cartridge images that are not part of the tree: from the folder RACEBEAM_ROMS, else from an ale-py in a
+// virtual environment `.venv` at the root of the repository.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,10 @@
 
 namespace racebeam::test {
 
-// Empty if there is none.
+// The folder; empty if there is none.
 std::string rom_folder();
 
-// By the beginning of its MD5; null if it isn't in the folder.
+// Finds an image by the beginning of its MD5. Returns null if the folder has none.
 std::shared_ptr<const Image> find_rom(std::string_view md5);
 
 // The same for a game of the catalogue.

@@ -1,5 +1,5 @@
-// What a test says where something that it needs is missing. A run that leaves something out and asserts nothing
-// ends with status 77 (tests/main.cpp), which ctest counts as skipped.
+// Reports what a test lacks. A run that leaves something out and asserts nothing ends with status 77
+// (tests/main.cpp), which ctest counts as skipped.
 #pragma once
 
 #include <catch2/catch.hpp>

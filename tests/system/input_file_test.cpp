@@ -54,7 +54,7 @@ TEST_CASE("a link to a file is followed") {
   CHECK(read_input_file("image", folder / "link", 100) == "text");
 }
 
-TEST_CASE("what is no file is refused at once") {
+TEST_CASE("anything but a regular file is refused at once") {
   const Folder folder;
   check_refused(folder / "nothing", "there is no such file");
   check_refused(folder / ".", "this is a directory, not a file");

@@ -18,7 +18,7 @@ TEST_CASE("control characters are shown by their bytes") {
         "\\xc2\\x9b31m");  // the control sequence introducer in one character
 }
 
-TEST_CASE("bytes that are no UTF-8 are shown by their values") {
+TEST_CASE("bytes that are not UTF-8 are shown by their values") {
   CHECK(printable("\x9B"s + "1m") == "\\x9b1m");
   CHECK(printable("\xC3") == "\\xc3");           // cut off
   CHECK(printable("\xC3z") == "\\xc3z");         // not continued

@@ -19,7 +19,7 @@ constexpr auto kVersion1 =
     "32 31 0:29 / /sys/fs/cgroup/cpu,cpuacct rw - cgroup cgroup rw,cpu,cpuacct\n"
     "35 31 0:32 / /sys/fs/cgroup/memory rw - cgroup cgroup rw,memory\n";
 
-// The files of a system, in a folder.
+// The files of a simulated system, in a folder.
 class Root {
  public:
   ~Root() { fs::remove_all(path_); }
@@ -111,7 +111,7 @@ TEST_CASE("in a container the mount begins at the container's group") {
   CHECK(root.memory() == 3000000);
 }
 
-TEST_CASE("files that make no sense are no limits") {
+TEST_CASE("invalid files set no limits") {
   const Root root;
   root.set_up("nonsense\n0:\n0::/job\n", std::string("\n1 2 3\na b c d e -\n") + kUnified);
   for (const char* text : {"", "-5", "many", "12x", "99999999999999999999999"}) {

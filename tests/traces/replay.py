@@ -23,7 +23,7 @@ NO_MEANING = {"rom", "width", "height", "frames", "action_seed", "every"}  # for
 
 
 def read_trace(path):
-    """The header as a dictionary, and the lines that racebeam should print."""
+    """Returns the header as a dictionary, and the lines that racebeam must print."""
     with gzip.open(path, "rt") as file:
         header, *lines = file.read().splitlines()
     settings = dict(word.split("=", 1) for word in header.split() if "=" in word)
@@ -50,7 +50,7 @@ def first_difference(expected, printed):
 
 
 def replay(game):
-    """(verdict, sentence), the verdict being one of reproduced, DIFFERENT, skipped."""
+    """Returns (verdict, sentence). The verdict is reproduced, DIFFERENT or skipped."""
     path, image = os.path.join(TRACES, game + ".trace.gz"), rom(game)
     if not os.path.exists(path):
         return "skipped", "there is no recording"

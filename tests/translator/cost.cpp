@@ -16,7 +16,7 @@ double microseconds() {
   return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
 }
 
-// The format is given: else each machine would run 60 frames before the first step, to find it out.
+// With a given format; otherwise each machine would run 60 frames before the first step to detect it.
 Properties properties_for(const Program& program) {
   Properties properties;
   properties.format = Format::kNtsc;
@@ -26,7 +26,7 @@ Properties properties_for(const Program& program) {
   return properties;
 }
 
-// Calls after_step after each.
+// Calls after_step after each step.
 template <class Function>
 void run(const Image& image, const Properties& properties, CpuKind cpu, int steps, Look look,
          Function after_step) {
@@ -75,7 +75,7 @@ Cost longest_step(const Program& program, int steps, Look look, int rounds) {
         const double now = microseconds();
         double& best = shortest[which][static_cast<std::size_t>(step)];
         if (step > 0)
-          best = std::min(best, now - before);  // the first one has the machine's making in it
+          best = std::min(best, now - before);  // the first one includes the construction of the machine
         else
           best = 0;
         before = now;

@@ -1,10 +1,10 @@
-// What a program costs on the interpreter and on the translator, from power-on, in processor time.
+// The cost of a program on the interpreter and on the translator, from power-on, in processor time.
 #pragma once
 
 #include <vector>
 
 #include "emulator/console.hpp"
-#include "tests/translator/program.hpp"
+#include "tests/translator/random_program.hpp"
 
 namespace racebeam::test {
 
@@ -13,13 +13,13 @@ struct Cost {
   double ratio() const { return translated / interpreted; }
 };
 
-enum class Look { kNone, kEveryFrame };  // at the picture
+enum class Look { kNone, kEveryFrame };  // whether the picture is read
 
-// Switches a machine on, runs it for so many steps, and throws it away, on both in turns: the medians of
-// `rounds` rounds. What translation needs is begun afresh in each.
+// Switches a machine on, runs `steps` steps, and releases it, alternately with both CPUs. Returns the medians
+// of `rounds` rounds. Each round translates from the beginning.
 Cost cost_of(const Program& program, int steps, Look look, int rounds);
 
-// The longest step of such a run, and of each the shortest time that it took in `rounds` rounds.
+// The longest step of such a run. For each step, the shortest time of `rounds` rounds counts.
 Cost longest_step(const Program& program, int steps, Look look, int rounds);
 
 }  // namespace racebeam::test

@@ -46,7 +46,7 @@ class Report {
     if (step.translated > longest_[1].cost.translated) longest_[1] = {name, step};
   }
 
-  // False if the bound is broken.
+  // Returns false if the bound is exceeded.
   bool print() {
     std::ranges::sort(results_,
                       [](const Result& a, const Result& b) { return a.cost.ratio() > b.cost.ratio(); });

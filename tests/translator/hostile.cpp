@@ -13,7 +13,7 @@ using Bytes = std::vector<std::uint8_t>;
 constexpr unsigned kBankSize = 4096;
 constexpr unsigned kStart = 0xF000;
 
-// A bank of 4K, written from its beginning on.
+// A bank of 4K, filled from its beginning.
 class Bank {
  public:
   explicit Bank(std::uint8_t filler = 0xEA) : bytes_(kBankSize, filler) { vectors(kStart); }
@@ -26,7 +26,7 @@ class Bank {
     return *this;
   }
 
-  // Over and over, as long as there is room for a jump after it.
+  // Repeats `bytes`, as long as there is room for a jump after them.
   Bank& fill(const Bytes& bytes, unsigned most = kBankSize) {
     for (; most > 0 && left() > bytes.size() + 3; --most)
       for (const std::uint8_t byte : bytes) bytes_[at_++] = byte;
@@ -39,7 +39,7 @@ class Bank {
   Bank& stack() { return put({0xA2, 0xFF, 0x9A}); }
   Bank& skip_to(unsigned offset) { return at_ = offset, *this; }
 
-  // BRK, reset and NMI.
+  // The vectors of BRK, reset and NMI.
   Bank& vectors(unsigned target) {
     for (unsigned at = kBankSize - 6; at < kBankSize; at += 2) {
       bytes_[at] = static_cast<std::uint8_t>(target);
@@ -73,19 +73,19 @@ class Collection {
   }
   void add(std::string name, const Bank& bank) { add(std::move(name), "4K", bank.bytes()); }
 
-  // One bank after the other shows the same code.
+  // Banks with the same code.
   void add_banks(std::string name, std::string_view scheme, unsigned banks, const Bank& bank) {
     add(std::move(name), scheme, repeated(bank.bytes(), banks));
   }
 
-  // `body` fills a bank, and the frame ends, or never does.
+  // `body` fills a bank, with frames that end, and with a frame that never does.
   void storm(const std::string& name, const Bytes& body) {
     add(name, Bank().stack().fill(body).jump(kStart));
     add(name + ", in frames", Bank().stack().new_frame().fill(body, 900).jump(kStart));
   }
 };
 
-// Instructions that translated code leaves to the interpreter, by the thousand.
+// Thousands of instructions that translated code leaves to the interpreter.
 void add_storms(Collection& to) {
   struct Storm {
     const char* name;
@@ -135,7 +135,7 @@ void add_storms(Collection& to) {
   for (const Storm& storm : storms) to.storm("storm of " + std::string(storm.name), storm.body);
 }
 
-// So many documented instructions between two that are left to the interpreter.
+// Documented instructions between two that are left to the interpreter.
 void add_mixtures(Collection& to) {
   for (const unsigned between : {1U, 2U, 4U, 6U, 8U, 12U, 16U, 24U, 32U, 48U}) {
     Bytes body = repeated({0xE6, 0x80}, between);
@@ -149,8 +149,7 @@ void add_mixtures(Collection& to) {
   }
 }
 
-// JMP through a pointer in RAM that goes through all addresses, into `field`. step: added to it each time,
-// odd.
+// JMP through a pointer in RAM that steps through all addresses, into `field`. step: odd, added each time.
 void add_field(Collection& to, const std::string& name, const Bytes& field, unsigned step) {
   Bank bank;
   bank.put(
@@ -185,7 +184,7 @@ void add_fields(Collection& to) {
                 step);
 }
 
-// Documented instructions at random, entered everywhere.
+// Random documented instructions, entered everywhere.
 void add_random_fields(Collection& to) {
   static constexpr std::array<std::uint8_t, 16> kOpcodes = {0xA9, 0xA5, 0xB5, 0xBD, 0x85, 0x95, 0xE6, 0x65,
                                                             0xE5, 0x10, 0xD0, 0x90, 0x4A, 0x48, 0x24, 0xC9};
@@ -194,13 +193,13 @@ void add_random_fields(Collection& to) {
     Bytes field(0xC00);
     for (std::uint8_t& byte : field) {
       byte = random() % 3 == 0 ? static_cast<std::uint8_t>(random()) : kOpcodes[random() % kOpcodes.size()];
-      if ((byte & 0x1F) == 0x12 || (byte & 0x9F) == 0x02) byte = 0xEA;  // it would stop the processor
+      if ((byte & 0x1F) == 0x12 || (byte & 0x9F) == 0x02) byte = 0xEA;  // it would halt the CPU
     }
     add_field(to, "every address, random code " + std::to_string(seed), field, 0x2F5);
   }
 }
 
-// The next bank each few instructions.
+// Switches to the next bank after a few instructions.
 void add_bank_storms(Collection& to) {
   struct Scheme {
     const char* name;
@@ -237,7 +236,8 @@ void add_bank_storms(Collection& to) {
   }
 }
 
-// All 16 banks of 64K full of different code, each seen in all eight mirrors, so that room for code runs out.
+// All 16 banks of 64K have different code, each seen in all eight mirrors, so that the code memory becomes
+// full.
 void add_full_memory(Collection& to) {
   static constexpr std::array<std::uint8_t, 8> kOpcodes = {0xA5, 0x65, 0xE5, 0x85, 0x95, 0xB5, 0x45, 0xC5};
   for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -312,20 +312,21 @@ void add_interrupts(Collection& to) {
   }());
 }
 
-// Steps that are run twice, or that are very short.
+// Steps that are run twice, or are very short.
 void add_frames(Collection& to) {
   to.add("no frame ever ends", Bank().jump(kStart));
   to.add("frames of two lines", Bank().new_frame().jump(kStart));
   to.add("frames of one line", Bank().put({0xA9, 2, 0x85, 0, 0xA9, 0, 0x85, 2, 0x85, 0}).jump(kStart));
-  // X times Y turns of a loop, then VSYNC: a frame of more instructions than a step has, or just not.
+  // X times Y iterations of a loop, then VSYNC: a frame with a few more or less instructions than a step may
+  // have.
   for (const unsigned turns : {10U, 14U, 20U, 32U, 33U, 40U, 66U, 100U})
     to.add("overlong, " + std::to_string(turns) + " times 256 turns",
            Bank()
                .new_frame()
                .put({0xA0, turns, 0xA2, 0, 0xCA, 0xEA, 0xD0, 0xFC, 0x88, 0xD0, 0xF7})
                .jump(kStart));
-  // The frame ends in the middle of a line with objects in it: what is drawn ahead is seen, and the step is
-  // run again.
+  // The frame ends in the middle of a line with objects. Pixels that are drawn ahead are visible, so the step
+  // is run again.
   for (const unsigned lines : {20U, 100U, 200U})
     for (const unsigned wait : {12U, 25U})
       to.add("ends in line " + std::to_string(lines) + " after " + std::to_string(wait) + " NOP",
@@ -335,7 +336,7 @@ void add_frames(Collection& to) {
                  .fill({0xEA}, wait)
                  .put({0x86, 0x0E, 0x85, 0x1B, 0xA9, 0, 0x85, 0})
                  .jump(kStart));
-  // Latches that are read, and never cleared.
+  // Collision latches that are read, and never cleared.
   to.add("collisions kept",
          Bank()
              .new_frame()
@@ -350,7 +351,7 @@ void add_frames(Collection& to) {
                                                  .jump(kStart));
 }
 
-// Code that is hot for a while, then code that is never run again.
+// Code that is hot for a while, then code that runs once.
 void add_hot_and_cold(Collection& to) {
   for (const unsigned turns : {1U, 8U, 64U, 255U}) {
     Bank bank;

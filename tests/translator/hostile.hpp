@@ -1,10 +1,10 @@
-// Programs that were written to make the translator slow, each in its own way.
+// Programs that try to make the translator slow, each in a different way.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "tests/translator/program.hpp"
+#include "tests/translator/random_program.hpp"
 
 namespace racebeam::test {
 
@@ -13,7 +13,7 @@ struct HostileProgram {
   Program program;
 };
 
-// A hundred or more, the same on every machine.
+// Returns a hundred or more, the same on every machine.
 std::vector<HostileProgram> hostile_programs();
 
 }  // namespace racebeam::test

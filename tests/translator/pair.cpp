@@ -8,12 +8,12 @@
 #include <sstream>
 
 #include "emulator/console.hpp"
-#include "tests/translator/program.hpp"
+#include "tests/translator/random_program.hpp"
 
 namespace racebeam::test {
 namespace {
 
-// A small picture: what the processor does is compared here.
+// A small picture, because the CPU is tested.
 Properties properties_for(const Program& program) {
   Properties properties;
   properties.format = Format::kNtsc;
@@ -33,7 +33,7 @@ struct Machine {
 
 template <class Range>
 std::string first_difference(const char* what, const Range& a, const Range& b) {
-  if (std::equal(a.begin(), a.end(), b.begin(), b.end())) return {};  // many bytes at a time
+  if (std::equal(a.begin(), a.end(), b.begin(), b.end())) return {};  // compares many bytes at a time
   const auto [at, other] = std::mismatch(a.begin(), a.end(), b.begin());
   std::ostringstream text;
   text << what << ", byte " << at - a.begin() << ": " << int{*at} << " interpreted, " << int{*other} << " translated";

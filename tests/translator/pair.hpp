@@ -1,4 +1,4 @@
-// One image on two machines: the interpreter's and the translator's.
+// One image on two machines, interpreted and translated.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,13 @@ class Console;
 
 namespace racebeam::test {
 
-// What differs between two machines: state, cartridge RAM, pictures, sound. Empty if nothing does. It makes a block of
-// sound on both.
+// The difference between two machines: state, cartridge RAM, pictures, sound. Empty if there is none. Makes a
+// block of sound on both.
 std::string difference(Console& interpreted, Console& translated);
 
-// Runs the program of a seed on the interpreter and on `cpu`, `steps` steps, with states saved and restored on the way, and compares
-// everything after each: state, cartridge RAM, pictures, sound. Empty if all is the same, else what differs.
+// Runs the program of a seed on the interpreter and on `cpu` for `steps` steps, and saves and restores states
+// on the way. Compares state, cartridge RAM, pictures and sound after each step. Returns the first
+// difference; empty if there is none.
 std::string difference_in_program(std::uint32_t seed, int steps, CpuKind cpu = CpuKind::kTranslator);
 
 }  // namespace racebeam::test

@@ -1,5 +1,5 @@
-// translator_programs FIRST COUNT [STEPS]: runs that many random programs, from seed FIRST on, on the interpreter and
-// on the translator, and says what differs. Ends with 1 if anything did.
+// translator_programs FIRST COUNT [STEPS]: runs that many random programs, from seed FIRST on, on the
+// interpreter and on the translator, and prints differences. Ends with status 1 if there are any.
 #include <cstdio>
 #include <cstdlib>
 
@@ -7,7 +7,8 @@
 
 namespace {
 
-// Each so many programs one is run for so many steps with translation as it pays, which takes a while to begin.
+// Every kSeldom programs, one runs for this many steps with --cpu auto, which begins to translate after a
+// while.
 constexpr std::uint32_t kSeldom = 20;
 constexpr int kLong = 60;
 

@@ -1,4 +1,4 @@
-// The interpreter against the translator. scripts/check/programs runs as many as are asked for.
+// Compares the interpreter and the translator. scripts/check/programs runs more programs.
 #include <catch2/catch.hpp>
 
 #include "emulator/translator/translator.hpp"
@@ -17,7 +17,8 @@ TEST_CASE("Random programs run translated as they run interpreted") {
     const std::string difference = difference_in_program(seed, 3);
     if (!difference.empty()) FAIL_CHECK(difference);
   }
-  for (std::uint32_t seed = 1; seed <= 200; ++seed) {  // translated as it pays, which takes a while to begin
+  // With --cpu auto, which begins to translate after a while.
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
     const std::string difference = difference_in_program(seed, 60, CpuKind::kAuto);
     if (!difference.empty()) FAIL_CHECK(difference);
   }

@@ -1,7 +1,7 @@
-// Atari's own schemes. 2K and 4K: the image as it is. F8, F6, F4: two, four or eight banks of 4K, selected by touching
-// the addresses up to $1FF9 or $1FFB. With SC ("super chip"): 128 bytes of RAM, written at $1000-$107F and read at
-// $1080-$10FF; the write port reads as ROM. CBS's FA is the same with three banks and 256 bytes, $1000-$10FF and
-// $1100-$11FF.
+// Atari's own schemes. 2K and 4K: the image, without banks. F8, F6, F4: two, four or eight banks of 4K. An
+// access to one of the addresses up to $1FF9 or $1FFB selects a bank. With SC ("super chip"): 128 bytes of
+// RAM, written at $1000-$107F and read at $1080-$10FF; the write port reads as ROM. CBS's FA is similar, with
+// three banks and 256 bytes of RAM at $1000-$10FF and $1100-$11FF.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"
@@ -11,48 +11,48 @@ namespace racebeam::atari {
 constexpr unsigned kBankSize = 4096;
 constexpr unsigned kHotPage = kBankSize - MemoryMap::kPageSize;
 
-inline const std::uint8_t* bank(const Slot& slot) { return slot.rom.data() + kBankSize * slot.state.bank[0]; }
+inline const std::uint8_t* bank(const CartridgeSlot& slot) { return slot.rom.data() + kBankSize * slot.state.bank[0]; }
 
-inline void reset(Slot& slot) { slot.state.bank[0] = slot.scheme.initial; }
+inline void reset(CartridgeSlot& slot) { slot.state.bank[0] = slot.scheme.initial; }
 
-inline void map_plain(Slot& slot) {
+inline void map_plain(CartridgeSlot& slot) {
   const unsigned size = slot.scheme.image;  // 2K shows twice
   for (unsigned offset = 0; offset < kBankSize; offset += size) slot.map.show(offset, slot.rom.data(), size);
 }
 
-inline void map(Slot& slot) {
+inline void map(CartridgeSlot& slot) {
   slot.map.show(0, bank(slot), kBankSize - MemoryMap::kPageSize);
   slot.map.show(slot.scheme.ram, slot.ram.data(), slot.scheme.ram);
   slot.map.hide(kHotPage, MemoryMap::kPageSize, slot.scheme.hotspot - kHotPage);
 }
 
-inline void touch(Slot& slot, std::uint16_t address) {
+inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   const unsigned selected = (address & 0xFFFU) - slot.scheme.hotspot;
   if (selected >= slot.scheme.banks || selected == slot.state.bank[0]) return;
   slot.state.bank[0] = static_cast<std::uint8_t>(selected);
   map(slot);
 }
 
-inline bool admits(const Slot& slot, const CartridgeState& state) {
+inline bool admits(const CartridgeSlot& slot, const CartridgeState& state) {
   return state.bank[0] < slot.scheme.banks && banks_unused(state, 1);
 }
 
-inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {
+inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
   touch(slot, address);
   return bank(slot)[address & 0xFFF];
 }
 
-inline Delivery write_ram(Slot& slot, std::uint16_t address, std::uint8_t value) {
+inline Delivery write_ram(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
   const unsigned offset = address & 0xFFF;
   if (offset < slot.scheme.ram) slot.ram[offset] = value;
   return Delivery::kTaken;
 }
 
-inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t value) {
+inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
   touch(slot, address);
   return write_ram(slot, address, value);
 }
 
-inline Delivery ignore_write(Slot&, std::uint16_t, std::uint8_t) { return Delivery::kTaken; }
+inline Delivery ignore_write(CartridgeSlot&, std::uint16_t, std::uint8_t) { return Delivery::kTaken; }
 
 }  // namespace racebeam::atari

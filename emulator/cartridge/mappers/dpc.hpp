@@ -1,6 +1,7 @@
-// Activision's DPC, the chip of Pitfall II: two banks of 4K, as F8, and eight fetchers that count down through 2K of
-// display data. A fetcher has a flag, which a counter between its top and bottom keeps set: a mask for graphics. Three
-// of them make music instead, counting at 15750 Hz by themselves. There is a random number too, clocked by accesses.
+// Activision's DPC, the chip of Pitfall II. It has two banks of 4K, as F8, and eight fetchers that count down
+// through 2K of display data. A fetcher has a flag, which is set while its counter is between its top and its
+// bottom: a mask for graphics. Three of the fetchers can make music instead, counting at 15750 Hz by
+// themselves. A random number generator is clocked by accesses.
 //
 //   $1000-$103F read: function (address >> 3 & 7) of fetcher (address & 7); $1040-$107F written: its registers
 //
@@ -16,7 +17,7 @@
 
 namespace racebeam::dpc {
 
-constexpr unsigned kDisplay = 8192, kDisplaySize = 2048;  // place in the image, size
+constexpr unsigned kDisplay = 8192, kDisplaySize = 2048;  // offset in the image, size
 constexpr unsigned kFetchers = 8, kFirstMusic = 5;
 constexpr unsigned kReadPort = 0x40, kPorts = 0x80, kHotPage = 0xFC0;
 
@@ -29,7 +30,7 @@ struct Fetcher {
   void set_high(unsigned high) { counter = static_cast<std::uint16_t>((high & 7) << 8 | low()); }
 };
 
-// Kept in the bytes that other schemes have RAM in, and used there.
+// Stored and used in the bytes of the state in which other schemes have RAM.
 struct Chip {
   [[gnu::packed]] double fraction;  // of a music clock, not yet counted
   std::array<Fetcher, kFetchers> fetcher;
@@ -38,26 +39,26 @@ struct Chip {
 static_assert(sizeof(Chip) <= kRamInState && std::is_trivially_copyable_v<Chip>);
 static_assert(alignof(Chip) <= alignof(CartridgeState));
 
-inline Chip& chip_of(Slot& slot) { return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data())); }
+inline Chip& chip_of(CartridgeSlot& slot) { return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data())); }
 
-// Once: a reset leaves the fetchers alone.
-inline void power_on(Slot& slot) {
+// Only at power-on: a reset does not change the fetchers.
+inline void power_on(CartridgeSlot& slot) {
   chip_of(slot) = Chip{};
   chip_of(slot).random = 1;
 }
 
-inline void reset(Slot& slot) {
+inline void reset(CartridgeSlot& slot) {
   atari::reset(slot);
   chip_of(slot).fraction = 0;
 }
 
-inline void map(Slot& slot) {
+inline void map(CartridgeSlot& slot) {
   slot.map.show(kPorts, atari::bank(slot) + kPorts, kHotPage - kPorts);
   slot.map.hide(0, kPorts);
   slot.map.hide(kHotPage, MemoryMap::kPageSize);
 }
 
-inline void touch(Slot& slot, std::uint16_t address) {
+inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   const unsigned selected = (address & 0xFFFU) - slot.scheme.hotspot;
   if (selected >= slot.scheme.banks) return;
   slot.state.bank[0] = static_cast<std::uint8_t>(selected);
@@ -73,10 +74,10 @@ constexpr std::array<std::uint8_t, 256> kNextRandom = [] {
 
 inline void clock_random(Chip& chip) { chip.random = kNextRandom[chip.random]; }
 
-// A music fetcher goes round from its top to 0, and is loud from the top down to the bottom.
+// A music fetcher wraps from 0 to its top. Its output is high from the top down to the bottom.
 inline void count_down(Fetcher& fetcher, int clocks) {
   const int period = fetcher.top + 1;
-  if (clocks >= period) [[unlikely]] clocks %= period;  // a division
+  if (clocks >= period) [[unlikely]] clocks %= period;  // slow: a division
   int low = fetcher.top == 0 ? 0 : fetcher.low() - clocks;
   if (low < 0) low += period;
   fetcher.set_low(static_cast<unsigned>(low));
@@ -84,7 +85,7 @@ inline void count_down(Fetcher& fetcher, int clocks) {
   fetcher.flag = low <= fetcher.bottom ? 0x00 : flag;
 }
 
-// Music clocks in so many cycles; the usual ones without a division.
+// Music clocks in a number of cycles. A table avoids the division for the usual ones.
 constexpr double divided_clocks(std::int32_t cycles) { return 15750.0 * cycles / 1193191.66666667; }
 
 constexpr std::array<double, 256> kClocks = [] {
@@ -98,7 +99,7 @@ inline double clocks_in(std::int32_t cycles) {
   return number < kClocks.size() ? kClocks[number] : divided_clocks(cycles);
 }
 
-inline void run_music(Slot& slot, Chip& chip, std::int32_t cycle) {
+inline void run_music(CartridgeSlot& slot, Chip& chip, std::int32_t cycle) {
   const auto passed = static_cast<std::int32_t>(static_cast<std::uint32_t>(cycle) - slot.machine.frame.cartridge_clock);
   slot.machine.frame.cartridge_clock = static_cast<std::uint32_t>(cycle);
   const double clocks = clocks_in(passed) + chip.fraction;
@@ -109,7 +110,7 @@ inline void run_music(Slot& slot, Chip& chip, std::int32_t cycle) {
     if (chip.fetcher[i].music) count_down(chip.fetcher[i], whole);
 }
 
-// The three voices mixed by resistors.
+// The three voices, mixed by resistors.
 inline std::uint8_t amplitude(const Chip& chip) {
   static constexpr std::uint8_t kLevels[8] = {0, 4, 5, 9, 6, 10, 11, 15};
   unsigned voices = 0;
@@ -118,11 +119,11 @@ inline std::uint8_t amplitude(const Chip& chip) {
   return kLevels[voices];
 }
 
-// What the eight functions of a fetcher read as.
+// What each of the eight functions of a fetcher reads.
 enum Function : unsigned { kRandomOrSound, kDisplayed, kMasked, kFlag = 7 };
 
 template <unsigned kFunction>
-std::uint8_t fetch(Slot& slot, std::uint16_t address, std::int32_t cycle) {
+std::uint8_t fetch(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycle) {
   Chip& chip = chip_of(slot);
   clock_random(chip);
   const unsigned number = address & 7;
@@ -148,8 +149,8 @@ std::uint8_t fetch(Slot& slot, std::uint16_t address, std::int32_t cycle) {
   return result;
 }
 
-// What is no fetcher's is the image's.
-inline std::uint8_t read_image(Slot& slot, std::uint16_t address, std::int32_t) {
+// An address without a fetcher reads the image.
+inline std::uint8_t read_image(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
   clock_random(chip_of(slot));
   return atari::bank(slot)[address & 0xFFF];
 }
@@ -180,7 +181,7 @@ inline void set_register(Chip& chip, std::uint16_t address, std::uint8_t value) 
   }
 }
 
-inline bool admits(const Slot& slot, const CartridgeState& state) {
+inline bool admits(const CartridgeSlot& slot, const CartridgeState& state) {
   Chip chip;
   std::memcpy(&chip, state.ram.data(), sizeof chip);
   for (unsigned i = 0; i < kFetchers; ++i) {
@@ -193,13 +194,13 @@ inline bool admits(const Slot& slot, const CartridgeState& state) {
   return atari::admits(slot, state) && is_fraction && is_filled_up;
 }
 
-inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t cycle) {
+inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycle) {
   if (const PortReader reader = port_reader(address)) return reader(slot, address, cycle);
   touch(slot, address);
   return read_image(slot, address, cycle);
 }
 
-inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t value) {
+inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
   const unsigned offset = address & 0xFFF;
   touch(slot, address);
   Chip& chip = chip_of(slot);

@@ -1,6 +1,7 @@
-// M Network's E7. Eight slices of 2K, of which $1000-$17FF shows one: $1FE0-$1FE6 pick slices 0 to 6, $1FE7 picks 1K of
-// RAM in place of the seventh, written at $1000-$13FF and read at $1400-$17FF. Above it are 256 bytes more of RAM, one
-// of four banks by $1FE8-$1FEB, written at $1800 and read at $1900; then the rest of slice 7. Write ports read as slice 7.
+// M Network's E7. $1000-$17FF shows one of eight slices of 2K: $1FE0-$1FE6 select slices 0 to 6. $1FE7
+// selects 1K of RAM instead, written at $1000-$13FF and read at $1400-$17FF. Above are 256 more bytes of RAM,
+// one of four banks selected by $1FE8-$1FEB, written at $1800 and read at $1900. The rest is slice 7. Write
+// ports read as slice 7.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"
@@ -10,15 +11,15 @@ namespace racebeam::mnetwork {
 constexpr unsigned kSlice = 2048, kLastSlice = 7;
 constexpr unsigned kLowRam = 1024, kHighRam = 256, kHighRamBanks = 4;
 
-inline const std::uint8_t* slice(const Slot& slot, unsigned number) { return slot.rom.data() + kSlice * number; }
+inline const std::uint8_t* slice(const CartridgeSlot& slot, unsigned number) { return slot.rom.data() + kSlice * number; }
 
-inline bool low_ram_shows(const Slot& slot) { return slot.state.bank[0] == kLastSlice; }
+inline bool low_ram_shows(const CartridgeSlot& slot) { return slot.state.bank[0] == kLastSlice; }
 
-inline std::uint8_t* high_ram(const Slot& slot) { return slot.ram.data() + kLowRam + kHighRam * slot.state.bank[1]; }
+inline std::uint8_t* high_ram(const CartridgeSlot& slot) { return slot.ram.data() + kLowRam + kHighRam * slot.state.bank[1]; }
 
-inline void reset(Slot& slot) { slot.state.bank = {}; }
+inline void reset(CartridgeSlot& slot) { slot.state.bank = {}; }
 
-inline void map(Slot& slot) {
+inline void map(CartridgeSlot& slot) {
   slot.map.show(0, slice(slot, slot.state.bank[0]), kSlice);
   if (low_ram_shows(slot)) slot.map.show(kLowRam, slot.ram.data(), kLowRam);
   slot.map.show(kSlice, slice(slot, kLastSlice), kSlice - MemoryMap::kPageSize);
@@ -26,23 +27,23 @@ inline void map(Slot& slot) {
   slot.map.hide(2 * kSlice - MemoryMap::kPageSize, MemoryMap::kPageSize);
 }
 
-inline void touch(Slot& slot, std::uint16_t address) {
+inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   const unsigned hotspot = (address & 0xFFFU) - 0xFE0;
   if (hotspot >= 12) return;
   slot.state.bank[hotspot / 8] = hotspot % 8;
   map(slot);
 }
 
-inline bool admits(const Slot&, const CartridgeState& state) {
+inline bool admits(const CartridgeSlot&, const CartridgeState& state) {
   return state.bank[0] <= kLastSlice && state.bank[1] < kHighRamBanks && banks_unused(state, 2);
 }
 
-inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {
+inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
   touch(slot, address);
   return slice(slot, kLastSlice)[address & (kSlice - 1)];
 }
 
-inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t value) {
+inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
   touch(slot, address);
   const unsigned offset = address & 0xFFF;
   if (offset < kLowRam && low_ram_shows(slot)) slot.ram[offset] = value;

@@ -1,5 +1,6 @@
-// Parker Brothers' E0. Eight slices of 1K seen through four windows. Touching $1FE0-$1FE7 picks the slice of the window
-// at $1000, $1FE8-$1FEF that at $1400, $1FF0-$1FF7 that at $1800; the window at $1C00 always shows slice 7.
+// Parker Brothers' E0. Eight slices of 1K, seen through four windows. An access to $1FE0-$1FE7 selects the
+// slice of the window at $1000, to $1FE8-$1FEF that at $1400, to $1FF0-$1FF7 that at $1800. The window at
+// $1C00 always shows slice 7.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"
@@ -9,37 +10,37 @@ namespace racebeam::parker {
 constexpr unsigned kSlice = 1024;
 constexpr unsigned kFirstHotspot = 0xFE0, kHotPage = 4 * kSlice - MemoryMap::kPageSize;
 
-inline const std::uint8_t* slice(const Slot& slot, unsigned window) {
+inline const std::uint8_t* slice(const CartridgeSlot& slot, unsigned window) {
   return slot.rom.data() + kSlice * slot.state.bank[window];
 }
 
-inline void reset(Slot& slot) {
+inline void reset(CartridgeSlot& slot) {
   for (unsigned window = 0; window < 4; ++window) slot.state.bank[window] = static_cast<std::uint8_t>(4 + window);
 }
 
-inline void map(Slot& slot) {
+inline void map(CartridgeSlot& slot) {
   for (unsigned window = 0; window < 4; ++window) slot.map.show(kSlice * window, slice(slot, window), kSlice);
   slot.map.hide(kHotPage, MemoryMap::kPageSize, kFirstHotspot - kHotPage);
 }
 
-inline void touch(Slot& slot, std::uint16_t address) {
+inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   const unsigned hotspot = (address & 0xFFFU) - kFirstHotspot;
   if (hotspot >= 24) return;
   slot.state.bank[hotspot / 8] = hotspot % 8;
   slot.map.show(kSlice * (hotspot / 8), slice(slot, hotspot / 8), kSlice);
 }
 
-inline bool admits(const Slot&, const CartridgeState& state) {
+inline bool admits(const CartridgeSlot&, const CartridgeState& state) {
   const auto& bank = state.bank;
   return bank[0] < 8 && bank[1] < 8 && bank[2] < 8 && bank[3] == 7 && banks_unused(state, 4);
 }
 
-inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {
+inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
   touch(slot, address);
   return slice(slot, 3)[address & (kSlice - 1)];
 }
 
-inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t) {
+inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
   touch(slot, address);
   return Delivery::kTaken;
 }

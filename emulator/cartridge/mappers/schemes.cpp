@@ -1,4 +1,4 @@
-// The table of schemes, and which one an image has (docs/spec/cartridges.md, 2).
+// The table of schemes, and the detection of an image's scheme (docs/spec/cartridges.md, 2).
 #include <algorithm>
 #include <array>
 #include <initializer_list>
@@ -23,38 +23,38 @@
 namespace racebeam {
 namespace {
 
-std::uint8_t no_hidden_page(Slot&, std::uint16_t, std::int32_t) { return 0; }
+std::uint8_t no_hidden_page(CartridgeSlot&, std::uint16_t, std::int32_t) { return 0; }
 
-bool no_banks(const Slot&, const CartridgeState& state) { return banks_unused(state, 0); }
+bool no_banks(const CartridgeSlot&, const CartridgeState& state) { return banks_unused(state, 0); }
 
 // F4SC's hot spots react to reads only.
-Delivery write_f4sc(Slot& slot, std::uint16_t address, std::uint8_t value) { return atari::write_ram(slot, address, value); }
+Delivery write_f4sc(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) { return atari::write_ram(slot, address, value); }
 
 // clang-format off
-constexpr Delivery (*kIgnore)(Slot&, std::uint16_t, std::uint8_t) = atari::ignore_write;
+constexpr Delivery (*kIgnore)(CartridgeSlot&, std::uint16_t, std::uint8_t) = atari::ignore_write;
 
-//                          reset                   map                  read            write                  admits
-constexpr Acts kPlain    = {atari::reset,           atari::map_plain,    no_hidden_page, kIgnore,               atari::admits};
-constexpr Acts kAtari    = {atari::reset,           atari::map,          atari::read,    atari::write,          atari::admits};
-constexpr Acts kF4sc     = {atari::reset,           atari::map,          atari::read,    write_f4sc,            atari::admits};
-constexpr Acts kE0       = {parker::reset,          parker::map,         parker::read,   parker::write,         parker::admits};
-constexpr Acts kE7       = {mnetwork::reset,        mnetwork::map,       mnetwork::read, mnetwork::write,       mnetwork::admits};
-constexpr Acts kFe       = {activision::reset,      activision::map,     no_hidden_page, kIgnore,               no_banks};
-constexpr Acts kDpc      = {dpc::reset,             dpc::map,            dpc::read,      dpc::write,            dpc::admits, dpc::power_on, dpc::port_reader};
-constexpr Acts k3f       = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write,    tigervision::admits};
-constexpr Acts k3e       = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e, tigervision::admits_3e};
-constexpr Acts kUa       = {atari::reset,           ua::map,             ua::read,       ua::write,             atari::admits};
-constexpr Acts kCv       = {commavid::reset_empty,  commavid::map,       no_hidden_page, commavid::write,       no_banks};
-constexpr Acts kCvFilled = {commavid::reset_filled, commavid::map,       no_hidden_page, commavid::write,       no_banks};
-constexpr Acts kAr       = {starpath::reset,        starpath::map,       starpath::read, starpath::write,       starpath::admits};
-constexpr Acts kMb       = {atari::reset,           atari::map,          dynacom::read,  dynacom::write,        atari::admits};
-constexpr Acts kMc       = {megacart::reset,        megacart::map,       megacart::read, megacart::write,       megacart::admits};
-constexpr Acts kUnmapped = {unmapped::reset,        unmapped::map,       no_hidden_page, kIgnore,               no_banks};
+//                               reset                   map                  read            write                  admits
+constexpr MapperOps kPlain    = {atari::reset,           atari::map_plain,    no_hidden_page, kIgnore,               atari::admits};
+constexpr MapperOps kAtari    = {atari::reset,           atari::map,          atari::read,    atari::write,          atari::admits};
+constexpr MapperOps kF4sc     = {atari::reset,           atari::map,          atari::read,    write_f4sc,            atari::admits};
+constexpr MapperOps kE0       = {parker::reset,          parker::map,         parker::read,   parker::write,         parker::admits};
+constexpr MapperOps kE7       = {mnetwork::reset,        mnetwork::map,       mnetwork::read, mnetwork::write,       mnetwork::admits};
+constexpr MapperOps kFe       = {activision::reset,      activision::map,     no_hidden_page, kIgnore,               no_banks};
+constexpr MapperOps kDpc      = {dpc::reset,             dpc::map,            dpc::read,      dpc::write,            dpc::admits, dpc::power_on, dpc::port_reader};
+constexpr MapperOps k3f       = {tigervision::reset,     tigervision::map,    no_hidden_page, tigervision::write,    tigervision::admits};
+constexpr MapperOps k3e       = {tigervision::reset_3e,  tigervision::map_3e, no_hidden_page, tigervision::write_3e, tigervision::admits_3e};
+constexpr MapperOps kUa       = {atari::reset,           ua::map,             ua::read,       ua::write,             atari::admits};
+constexpr MapperOps kCv       = {commavid::reset_empty,  commavid::map,       no_hidden_page, commavid::write,       no_banks};
+constexpr MapperOps kCvFilled = {commavid::reset_filled, commavid::map,       no_hidden_page, commavid::write,       no_banks};
+constexpr MapperOps kAr       = {starpath::reset,        starpath::map,       starpath::read, starpath::write,       starpath::admits};
+constexpr MapperOps kMb       = {atari::reset,           atari::map,          dynacom::read,  dynacom::write,        atari::admits};
+constexpr MapperOps kMc       = {megacart::reset,        megacart::map,       megacart::read, megacart::write,       megacart::admits};
+constexpr MapperOps kUnmapped = {unmapped::reset,        unmapped::map,       no_hidden_page, kIgnore,               no_banks};
 
 constexpr unsigned kChip = sizeof(dpc::Chip);
 
 constexpr Scheme kSchemes[] = {
-    // acts      name          image  hotspot banks init  ram  random  TIA
+    // ops      name          image  hotspot banks init  ram  random  TIA
     {kPlain,    "2K",           2048, 0,        1, 0,     0, false, false},
     {kPlain,    "4K",           4096, 0,        1, 0,     0, false, false},
     {kAtari,    "F8",           8192, 0xFF8,    2, 1,     0, false, false},
@@ -84,7 +84,8 @@ constexpr Scheme kSchemes[] = {
 
 using Signature = std::initializer_list<std::uint8_t>;
 
-// As the reference searches: the last possible position is not examined, and after a hit one byte more is skipped.
+// Searches as the reference does: the last possible position is not examined, and after a hit one more byte
+// is skipped.
 bool contains(const Rom& rom, Signature signature, int hits = 1) {
   const std::size_t length = signature.size();
   for (std::size_t i = 0; i + length + 1 <= rom.size(); ++i) {
@@ -108,7 +109,7 @@ bool halves_equal(const Rom& rom) {
   return std::equal(rom.begin(), middle, middle);
 }
 
-// On-board RAM hides the first 256 bytes of each bank, which are therefore left the same.
+// On-board RAM hides the first 256 bytes of each bank. Their content is therefore the same in each bank.
 bool is_sc(const Rom& rom) {
   const std::span<const std::uint8_t> bytes(rom);
   for (std::size_t bank = 0; bank < rom.size(); bank += 4096)
@@ -156,7 +157,7 @@ std::string_view name_16k(const Rom& rom) {
   return is_3f(rom) ? "3F" : "F6";
 }
 
-// The two that any size may have, else what the size says.
+// Two schemes can have any size. Otherwise the size decides.
 std::string_view name_large(const Rom& rom, std::string_view otherwise) {
   if (is_3e(rom)) return "3E";
   return is_3f(rom) ? "3F" : otherwise;
@@ -185,7 +186,7 @@ const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {
   const std::string size = std::to_string(rom.size()) + " bytes";
   if (name.empty()) {
     throw InvalidInput("no cartridge scheme fits an image of " + size +
-                                "; 2048, 4096, 8192, 16384 and 32768 bytes are usual");
+                                "; usual sizes are 2048, 4096, 8192, 16384 and 32768 bytes");
   }
   const auto scheme = std::ranges::find(kSchemes, name, &Scheme::name);
   if (scheme == std::end(kSchemes)) throw InvalidInput("there is no cartridge scheme " + std::string(name));

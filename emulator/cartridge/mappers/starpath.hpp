@@ -1,9 +1,11 @@
-// Starpath's AR, the Supercharger: 6K of RAM in three banks of 2K, filled from the "loads" of the image (once from
-// tape), and a BIOS of 2K that does the loading. $1000-$17FF and $1800-$1FFF show two of the four by a configuration:
-// an access to $10xx notes xx, one to $1FF8 makes it the configuration.
+// Starpath's AR, the Supercharger: 6K of RAM in three banks of 2K, filled from the "loads" of the image
+// (originally from tape), and a BIOS of 2K that performs the loading. $1000-$17FF and $1800-$1FFF show two of
+// the four, as a configuration byte selects. An access to $10xx notes xx as a value, and one to $1FF8 makes
+// it the configuration.
 //
-// On the chip a noted value could also be written to RAM five bus cycles later. In the reference this never happens,
-// because its processor core doesn't count those; so RAM changes by loads only (docs/spec/cartridges.md, 9).
+// On the chip, a noted value could also be written to RAM five bus cycles later. In the reference this never
+// happens, because its CPU core does not count those cycles. So RAM changes by loads only
+// (docs/spec/cartridges.md, 9).
 #pragma once
 
 #include <algorithm>
@@ -17,9 +19,10 @@ constexpr unsigned kBank = 2048, kBios = 3;
 constexpr unsigned kLoad = 8448, kHeader = 8192, kPage = 256;
 constexpr std::uint16_t kConfigure = 0x1FF8, kLoader = 0x1850;
 
-// A BIOS of our own, since the specification has none; the reference's also shows a picture for some frames. From $F80A
-// it clears RAM and asks for load 0, from $F800 for the load whose number is in $FA. It starts the program by the last
-// six bytes of RAM, CMP $FFF8 and JMP, under the configuration and at the address that came with the load.
+// A BIOS of our own, since the specification has none. (The reference's also shows a picture for some
+// frames.) From $F80A it clears RAM and requests load 0; from $F800 it requests the load whose number is in
+// $FA. It starts the program with the last six bytes of RAM, CMP $FFF8 and JMP: with the configuration and at
+// the address that came with the load.
 inline constexpr std::uint8_t kBiosCode[] = {
     0xA5, 0xFA,                                      // F800  LDA $FA
     0x4C, 0x18, 0xF8,                                //       JMP $F818
@@ -46,36 +49,36 @@ inline constexpr std::array<std::uint8_t, kBank> kBiosRom = [] {
 
 enum Register { kConfiguration, kNoted, kPending };  // among the state's banks
 
-inline unsigned bank_shown(const Slot& slot, bool upper) {
+inline unsigned bank_shown(const CartridgeSlot& slot, bool upper) {
   static constexpr std::uint8_t kBanks[8][2] = {{2, 3}, {0, 3}, {2, 0}, {0, 2}, {2, 3}, {1, 3}, {2, 1}, {1, 2}};
   return kBanks[slot.state.bank[kConfiguration] >> 2 & 7][upper];
 }
 
-inline bool ram_is_writable(const Slot& slot) { return (slot.state.bank[kConfiguration] & 2) != 0; }
+inline bool ram_is_writable(const CartridgeSlot& slot) { return (slot.state.bank[kConfiguration] & 2) != 0; }
 
-inline const std::uint8_t* memory(const Slot& slot, bool upper) {
+inline const std::uint8_t* memory(const CartridgeSlot& slot, bool upper) {
   const unsigned bank = bank_shown(slot, upper);
   return bank == kBios ? kBiosRom.data() : slot.ram.data() + kBank * bank;
 }
 
-inline void reset(Slot& slot) { slot.state.bank = {}; }
+inline void reset(CartridgeSlot& slot) { slot.state.bank = {}; }
 
-inline void map(Slot& slot) {
+inline void map(CartridgeSlot& slot) {
   for (const bool upper : {false, true}) slot.map.show(upper * kBank, memory(slot, upper), kBank);
   slot.map.hide(0, kPage);
   for (const unsigned place : {kLoader, kConfigure})
     slot.map.hide((place & 0xFFFU) / MemoryMap::kPageSize * MemoryMap::kPageSize, MemoryMap::kPageSize);
 }
 
-// The load that RIOT RAM $80 asks for, if there is one.
-inline const std::uint8_t* wanted_load(const Slot& slot) {
+// The load that RIOT RAM $80 requests, or null.
+inline const std::uint8_t* wanted_load(const CartridgeSlot& slot) {
   for (std::size_t at = 0; at + kLoad <= slot.rom.size(); at += kLoad)
     if (slot.rom[at + kHeader + 5] == slot.machine.riot.ram[0]) return slot.rom.data() + at;
   return nullptr;
 }
 
-// Its pages go where the header says, then the start address and the configuration to RIOT RAM.
-inline void load(Slot& slot) {
+// Copies its pages to where the header says, then the start address and the configuration to RIOT RAM.
+inline void load(CartridgeSlot& slot) {
   const std::uint8_t* from = wanted_load(slot);
   if (from == nullptr) return;
   const std::uint8_t* header = from + kHeader;
@@ -90,7 +93,7 @@ inline void load(Slot& slot) {
   ram[0x00] = header[2];
 }
 
-inline void touch(Slot& slot, std::uint16_t address) {
+inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   const unsigned place = address & 0x1FFF;
   if ((place & 0xF00) == 0 && !(ram_is_writable(slot) && slot.state.bank[kPending])) {
     slot.state.bank[kNoted] = static_cast<std::uint8_t>(address & 0xFF);
@@ -102,17 +105,17 @@ inline void touch(Slot& slot, std::uint16_t address) {
   }
 }
 
-inline bool admits(const Slot&, const CartridgeState& state) {
+inline bool admits(const CartridgeSlot&, const CartridgeState& state) {
   return state.bank[kPending] <= 1 && banks_unused(state, kPending + 1);
 }
 
-inline std::uint8_t read(Slot& slot, std::uint16_t address, std::int32_t) {
+inline std::uint8_t read(CartridgeSlot& slot, std::uint16_t address, std::int32_t) {
   if ((address & 0x1FFF) == kLoader && bank_shown(slot, true) == kBios) load(slot);
   touch(slot, address);
   return memory(slot, (address & kBank) != 0)[address % kBank];
 }
 
-inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t) {
+inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t) {
   touch(slot, address);
   return Delivery::kTaken;
 }

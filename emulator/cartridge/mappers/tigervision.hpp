@@ -1,9 +1,10 @@
-// Tigervision's 3F. Banks of 2K: the one at $1000 is chosen by writing its number to $0000-$003F, the last one stays
-// at $1800. Reading $0000-$003F gives the bank's bytes, not the TIA; use the TIA's mirrors from $0040 on. Writes to
-// the cartridge reach the TIA too, and $1000-$103F selects like $0000-$003F.
+// Tigervision's 3F. Banks of 2K: the number of the one at $1000 is written to $0000-$003F; the last one stays
+// at $1800. Reads of $0000-$003F give the bank's bytes, not the TIA's; the TIA's mirrors from $0040 on are
+// not affected. Writes to the cartridge reach the TIA too, and $1000-$103F selects like $0000-$003F.
 //
-// 3E, Boulder Dash's, has 32 banks of 1K of RAM besides. $3F selects ROM, $3E RAM, and no other address does. RAM is
-// read at $1000 and again at $1400, where it is also written; such a write doesn't reach the TIA.
+// 3E, of Boulder Dash, also has 32 banks of 1K of RAM. Writes to $3F select ROM, to $3E RAM, and no other
+// address selects. RAM is read at $1000 and again at $1400, where it is also written; such a write does not
+// reach the TIA.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"
@@ -13,58 +14,58 @@ namespace racebeam::tigervision {
 constexpr unsigned kBankSize = 2048;
 constexpr unsigned kRamBankSize = 1024, kRamBanks = 32;
 
-inline unsigned banks(const Slot& slot) { return static_cast<unsigned>(slot.rom.size()) / kBankSize; }
+inline unsigned banks(const CartridgeSlot& slot) { return static_cast<unsigned>(slot.rom.size()) / kBankSize; }
 
-inline void reset(Slot& slot) { slot.state.bank[0] = 0; }
+inline void reset(CartridgeSlot& slot) { slot.state.bank[0] = 0; }
 
-inline void show_low_page(Slot& slot, const std::uint8_t* bank) {
+inline void show_low_page(CartridgeSlot& slot, const std::uint8_t* bank) {
   slot.map.page[0] = slot.map.page[0x2000 / MemoryMap::kPageSize] = bank;
 }
 
-inline void map(Slot& slot) {
+inline void map(CartridgeSlot& slot) {
   const std::uint8_t* bank = slot.rom.data() + kBankSize * slot.state.bank[0];
   slot.map.show(0, bank, kBankSize);
   slot.map.show(kBankSize, slot.rom.data() + kBankSize * (banks(slot) - 1), kBankSize);
   show_low_page(slot, bank);
 }
 
-inline bool admits(const Slot& slot, const CartridgeState& state) {
+inline bool admits(const CartridgeSlot& slot, const CartridgeState& state) {
   return state.bank[0] < banks(slot) && banks_unused(state, 1);
 }
 
-inline Delivery write(Slot& slot, std::uint16_t address, std::uint8_t value) {
+inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
   if ((address & 0x0FFF) >= 0x40) return Delivery::kToTia;
   slot.state.bank[0] = static_cast<std::uint8_t>(value % banks(slot));
   map(slot);
   return Delivery::kToTia;
 }
 
-// 3E: bank 0 of the state is the ROM's; what $1000 shows is RAM if bank 2 says so, and then bank 1 of it.
-inline bool ram_selected(const Slot& slot) { return slot.state.bank[2] != 0; }
+// 3E: bank 0 of the state is the ROM's. If bank 2 is not 0, $1000 shows the RAM's bank 1 instead.
+inline bool ram_selected(const CartridgeSlot& slot) { return slot.state.bank[2] != 0; }
 
-inline std::uint8_t* ram_bank(const Slot& slot) { return slot.ram.data() + kRamBankSize * slot.state.bank[1]; }
+inline std::uint8_t* ram_bank(const CartridgeSlot& slot) { return slot.ram.data() + kRamBankSize * slot.state.bank[1]; }
 
-inline void reset_3e(Slot& slot) { slot.state.bank = {}; }
+inline void reset_3e(CartridgeSlot& slot) { slot.state.bank = {}; }
 
-inline void map_3e(Slot& slot) {
+inline void map_3e(CartridgeSlot& slot) {
   map(slot);
   if (!ram_selected(slot)) return;
   for (const unsigned half : {0U, kRamBankSize}) slot.map.show(half, ram_bank(slot), kRamBankSize);
   show_low_page(slot, ram_bank(slot));
 }
 
-inline void select_3e(Slot& slot, bool ram, std::uint8_t value) {
+inline void select_3e(CartridgeSlot& slot, bool ram, std::uint8_t value) {
   slot.state.bank[ram ? 1 : 0] = static_cast<std::uint8_t>(value % (ram ? kRamBanks : banks(slot)));
   slot.state.bank[2] = ram;
   map_3e(slot);
 }
 
-inline bool admits_3e(const Slot& slot, const CartridgeState& state) {
+inline bool admits_3e(const CartridgeSlot& slot, const CartridgeState& state) {
   const auto& bank = state.bank;
   return bank[0] < banks(slot) && bank[1] < kRamBanks && bank[2] <= 1 && banks_unused(state, 3);
 }
 
-inline Delivery write_3e(Slot& slot, std::uint16_t address, std::uint8_t value) {
+inline Delivery write_3e(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
   const unsigned offset = address & 0x0FFF;
   if (offset == 0x3E || offset == 0x3F) {
     select_3e(slot, offset == 0x3E, value);

@@ -1,11 +1,11 @@
-// 0840 and 4A50, which the reference knows by name but gives nothing to see: the cartridge reads 0 everywhere.
+// 0840 and 4A50. The reference knows their names, but maps no memory: the cartridge reads 0 everywhere.
 #pragma once
 
 #include "emulator/cartridge/cartridge.hpp"
 
 namespace racebeam::unmapped {
 
-inline void reset(Slot&) {}
-inline void map(Slot& slot) { slot.map.hide(0, 4096); }
+inline void reset(CartridgeSlot&) {}
+inline void map(CartridgeSlot& slot) { slot.map.hide(0, 4096); }
 
 }  // namespace racebeam::unmapped

@@ -37,7 +37,7 @@ constexpr auto make_possible() {
 }
 static_assert(make_possible().back() == kAllPairs);
 
-// kPairs by the number of the latch's bit. (Bit 12, D6 of CXBLPF, is nobody's.)
+// kPairs by the number of the latch's bit. Bit 12, D6 of CXBLPF, is unused.
 constexpr auto make_pair_of_latch() {
   std::array<Pair, 16> table{};
   for (const Pair& p : kPairs) table[static_cast<std::size_t>(std::countr_zero(p.latch))] = p;
@@ -51,7 +51,8 @@ std::uint8_t Line::outdated(const TiaRegisters& tia) const {
   const auto differ = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) != 0; };
   unsigned objects = 0;
   for (unsigned i = 0; i < 2; ++i) {
-    if (differ(tia.player[i], shown.player[i])) objects |= 1U << (kP0 + i) | 1U << (kM0 + i);  // NUSIZx is both's
+    // NUSIZx is shared
+    if (differ(tia.player[i], shown.player[i])) objects |= 1U << (kP0 + i) | 1U << (kM0 + i);
     if (differ(tia.missile[i], shown.missile[i])) objects |= 1U << (kM0 + i);
   }
   if (tia.cosmic_shape != shown.cosmic_shape) objects |= bit(kM0);

@@ -10,7 +10,8 @@
 
 namespace racebeam {
 
-// Pairs of objects that meet, two bits a collision register: bit 2r+1 is D7 of register r, bit 2r its D6.
+// Pairs of objects that collide, two bits for each collision register: bit 2r+1 is D7 of register r, bit 2r
+// its D6.
 using Collisions = std::uint16_t;
 
 enum Color : unsigned { kColup0, kColup1, kColupf, kColubk };  // indices of TiaRegisters::color
@@ -18,22 +19,22 @@ enum Color : unsigned { kColup0, kColup1, kColupf, kColubk };  // indices of Tia
 struct Line {
   std::array<PixelMask, kObjects> mask;  // by Object
   std::uint8_t covered = 0;              // bit n: mask n has pixels
-  TiaRegisters shown;                    // the registers when the masks were last known to be theirs
+  TiaRegisters shown;                    // the registers that the masks were made from
 
-  std::uint8_t outdated(const TiaRegisters& tia) const;     // objects whose registers are others than those
-  void refresh(const TiaState& tia, std::uint8_t objects);  // makes the masks of these objects anew
+  std::uint8_t outdated(const TiaRegisters& tia) const;     // objects whose registers have changed since
+  void refresh(const TiaState& tia, std::uint8_t objects);  // rebuilds the masks of these objects
 };
 
-// For each set of objects (bit n: Object n), the pairs that there are in it.
+// The pairs in each set of objects (bit n: Object n).
 extern const std::array<Collisions, 64> kPossibleMeetings;
-constexpr Collisions kAllPairs = 0xEFFF;  // D6 of CXBLPF is nobody's
+constexpr Collisions kAllPairs = 0xEFFF;  // D6 of CXBLPF is unused
 
 std::uint8_t objects_of(Collisions pairs);
 
-// Can any of these objects (bit n: Object n) meet, but for those that are `known` to?
+// Whether any pair of these objects (bit n: Object n) may meet that is not `known` to.
 inline bool can_meet(std::uint8_t objects, Collisions known) { return (kPossibleMeetings[objects] & ~known) != 0; }
 
-// The pairs that meet in these pixels; those that are `known` need not be looked at.
+// The pairs that meet in these pixels. Those in `known` are not computed.
 Collisions meetings(const Line& line, int first, int last, Collisions known);
 
 }  // namespace racebeam

@@ -66,7 +66,7 @@ constexpr unsigned wrapped(int position) {
   return static_cast<unsigned>(position >= kLinePixels ? position - kLinePixels : position);
 }
 
-// A player whose pixels, left one in bit 0, are `graphics`. Wide players start a pixel late.
+// Adds a player's pixels. graphics: its leftmost pixel is bit 0. Wide players start a pixel late.
 void place_player(PixelMask& mask, const PlayerState& player, std::uint8_t graphics) {
   const Copies& copies = kCopies[player.nusiz & 7];
   if (copies.scale > 1) {

@@ -13,7 +13,7 @@ struct PixelMask {
 
   void clear() { word[0] = word[1] = word[2] = 0; }
 
-  // Adds up to 33 pixels, bit 0 first, from pixel `at` (0-159) on; what leaves the line comes in at its left.
+  // Adds up to 33 pixels, bit 0 first, from pixel `at` (0-159) on. They wrap around at the right edge.
   void add(std::uint64_t pixels, unsigned at) {
     const unsigned shift = at % 64;
     const std::size_t first = at / 64;
@@ -26,7 +26,7 @@ struct PixelMask {
     }
   }
 
-  // The pixels from `first` up to, not including, `last`.
+  // The pixels in [first, last).
   static PixelMask range(int first, int last) {
     const PixelMask &to_last = kBelow[static_cast<std::size_t>(last)], &to_first = kBelow[static_cast<std::size_t>(first)];
     return {{to_last.word[0] & ~to_first.word[0], to_last.word[1] & ~to_first.word[1],

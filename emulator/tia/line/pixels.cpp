@@ -17,8 +17,8 @@ constexpr std::uint8_t kScoreMode = 2, kPriorityMode = 4;  // bits of CTRLPF
 constexpr PixelMask kLeftHalf = {{~std::uint64_t{0}, 0xFFFF, 0}};
 constexpr PixelMask kRightHalf = {{0, ~std::uint64_t{0xFFFF}, 0xFFFFFFFF}};
 
-// Who hides whom (docs/spec/tia.md, 10). In score mode each half of the playfield belongs to a player; unless
-// it has priority, and there is anything to have it over.
+// Which object hides which (docs/spec/tia.md, 10). In score mode, each half of the playfield has its player's
+// colour, unless the playfield has priority.
 enum class Order { kPlayersInFront, kPlayfieldInFront, kScore };
 
 RACEBEAM_INLINE Order order_of(const TiaRegisters& tia) {
@@ -27,7 +27,7 @@ RACEBEAM_INLINE Order order_of(const TiaRegisters& tia) {
   return in_front ? Order::kPlayfieldInFront : Order::kPlayersInFront;
 }
 
-// 64 pixels' three layers, from the back to the front; where two cover a pixel, the later one is seen.
+// Three layers of 64 pixels, from back to front: a later one hides an earlier one.
 struct Layers {
   std::uint64_t colupf, colup1, colup0;
 };
@@ -57,7 +57,7 @@ constexpr std::array<std::uint64_t, 256> make_spread() {
 constexpr auto kSpread = make_spread();
 constexpr std::uint64_t kOnes = 0x0101010101010101;
 
-// Where eight pixels are covered, the ink replaces what is there.
+// Replaces the covered ones of eight pixels by the ink.
 std::uint64_t painted(std::uint64_t pixels, std::uint8_t covered, std::uint64_t ink) {
   return pixels ^ ((pixels ^ ink) & kSpread[covered]);
 }
@@ -76,7 +76,7 @@ void paint(std::uint8_t* row, std::uint64_t covered, std::uint64_t ink) {
 
 constexpr int kNarrow = 32;
 
-// Background first, then the groups of eight that a layer covers.
+// Draws the background, then the groups of eight that a layer covers.
 void draw_wide(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first, int last) {
   std::memset(row + first, tia.color[kColubk], static_cast<std::size_t>(last - first));
   if (line.covered == 0) return;
@@ -90,7 +90,7 @@ void draw_wide(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int
   }
 }
 
-// Group by group, all layers at once.
+// Draws group by group, all layers at once.
 void draw_narrow(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first, int last) {
   const PixelMask inside = PixelMask::range(first, last);
   const Order order = order_of(tia);

@@ -1,4 +1,4 @@
-// A line's layers turned into bytes of the picture: for any processor, and with AVX2 and AVX-512.
+// Converts a line's layers to bytes of the picture: portable, with AVX2, and with AVX-512.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace racebeam {
 
-// Writes pixels `first` to `last` - 1 of a row that begins at a multiple of 32 bytes, and no other byte.
+// Writes pixels [first, last) of a row, and no other byte. The row must be aligned to 32 bytes.
 using DrawPixels = void (*)(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first, int last);
 
-DrawPixels pixel_drawer(Simd simd);  // one that the processor must be able to run
+DrawPixels pixel_drawer(Simd simd);  // `simd` must be supported by the processor
 
 }  // namespace racebeam

@@ -30,15 +30,17 @@ constexpr TiaRegisters control_bytes(unsigned which) {
 // The largest cycle of a line at which a write still takes effect on it, whatever its delay.
 constexpr int last_cycle(unsigned reg) { return (228 - std::max(kRegisters[reg].delay, 1)) / 3; }
 
-// Cycle 76 is clock 228: the line is drawn, but its end is not acted on yet, which may undo what a write sets. So a write
-// there counts as one of the next line, where the register allows it.
+// The first cycle in which a write belongs to the next line. Cycle 76 is clock 228: the line is drawn, but its
+// end, which may undo the write, is not processed. A write there is like one in the next line, where the row of
+// the register says so.
 constexpr std::int8_t first_late(unsigned reg) {
   const bool never = reg == kNone || kRegisters[reg].late == WhenLate::kOwn;
   return static_cast<std::int8_t>(never ? 127 : last_cycle(reg) + 1);
 }
 
-// A write acts on the control of the objects whose control bytes it sets. RESPx and RESMPx read where a player's copies
-// are. VBLANK is part of every key, and what CTRLPF does to the colours of a playfield is noticed when it is drawn.
+// A write affects the control of the objects whose control bytes it sets. RESPx and RESMPx read the positions of
+// a player's copies. VBLANK is part of every key. The effect of CTRLPF on the playfield's colours is recorded when
+// it is drawn.
 constexpr std::uint8_t control_of(unsigned reg) {
   const RegisterBytes& bytes = kRegisterBytes[reg];
   unsigned control = 0;
@@ -59,7 +61,8 @@ constexpr std::array<LineEffect, 64> make_effects() {
   return table;
 }
 
-// The motions count where HMOVE moves what is shown. The cosmic counter is for the end of a line.
+// The motions count where HMOVE moves an object that is shown. The cosmic counter counts for the end of a
+// line.
 constexpr TiaRegisters make_seen(unsigned seen) {
   const auto shown = [seen](unsigned bits) { return static_cast<std::uint8_t>(seen & bits ? 0xFF : 0); };
   const std::uint8_t moves = shown(kMoves), ball = shown(bit(kBall)), playfield = shown(bit(kPlayfield));

@@ -1,15 +1,16 @@
-// Which registers have a say in a line: two lines that meet the same writes, and start with the same values in the
-// registers that the first one looked at, have the same pixels and collisions. An object that is not shown may drift
-// about, be resized and recoloured as it likes.
+// Which registers a line depends on. Two lines have the same pixels and collisions if they have the same
+// writes, and the same initial values of the registers that the first one depended on. An object that is not
+// shown may have any position, size and colour.
 //
-// The argument, for the one who changes something here. An object is shown while it is enabled (objects.hpp). Whether
-// it is depends on few bytes, its *control*: graphics and VDELPx, ENAxx, RESMPx, the playfield's bits. A write that
-// acts on an object's control makes these bytes part of the key; for the other objects the bit that says if they are
-// enabled is enough, because it stays what it was. So both lines show the same objects at the same clocks, and an
-// object that was never shown while the first one was drawn is not shown on the second. What is left of the objects,
-// *shape* and colour, counts only for those that were shown. Clocks are the same, too, for what a write waits for
-// depends on the write alone, with one exception: RESPx lets the old copy be finished, so that the player's old place
-// counts, shown or not, if another write follows so soon that it waits for that.
+// The argument, for changes in this file: an object is shown while it is enabled (objects.hpp). Whether it is
+// enabled depends on few bytes, its *control*: graphics and VDELPx, ENAxx, RESMPx, the playfield's bits. A
+// write that affects an object's control makes these bytes part of the key. For the other objects, the bit
+// that tells whether they are enabled is enough, because it does not change. So both lines show the same
+// objects at the same clocks. An object that was never shown on the first line is not shown on the second.
+// The rest of an object's bytes, its *shape* and colour, counts only for objects that were shown. The clocks
+// are also the same, because the delay of a write depends on the write alone. There is one exception: RESPx
+// lets the old copy be finished. The player's old position counts, shown or not, if another write follows so
+// soon that it waits for that copy.
 #pragma once
 
 #include <array>
@@ -19,32 +20,32 @@
 
 namespace racebeam {
 
-// What a line looked at. seen: bits 0-5 an Object each, that was shown, and
-constexpr std::uint16_t kScoreSeen = 1U << 6;    // the playfield in the players' colours
-constexpr std::uint16_t kLit = 1U << 7;          // anything but VBLANK's black
-constexpr std::uint16_t kMoves = 1U << 8;        // there is an HMOVE
-constexpr std::uint16_t kClears = 1U << 9;       // there is a CXCLR: meetings before it are forgotten
-// control: bits 0-5 an Object each, whose control a write acts on, and
-constexpr std::uint8_t kPlaceOfP0 = 1U << 6, kPlaceOfP1 = 1U << 7;  // their old places count
+// What a line depended on. seen: bits 0-5: Object n was shown;
+constexpr std::uint16_t kScoreSeen = 1U << 6;  // the playfield in the players' colours
+constexpr std::uint16_t kLit = 1U << 7;        // something else than VBLANK's black was shown
+constexpr std::uint16_t kMoves = 1U << 8;      // there is an HMOVE
+constexpr std::uint16_t kClears = 1U << 9;     // there is a CXCLR, which clears earlier collisions
+// control: bits 0-5: a write affects the control of Object n;
+constexpr std::uint8_t kPlaceOfP0 = 1U << 6, kPlaceOfP1 = 1U << 7;  // their old positions count
 
-struct LineView {
+struct LineDependencies {
   std::uint16_t seen;
   std::uint8_t control;
 };
 
-// Cycles before a line, in which a write may come and act on no other.
+// A write so many cycles before a line may affect that line alone.
 constexpr int kEarliestWrite = 4;
 
-// What a write to a register may do to the line that it falls on.
+// The possible effect of a write to a register on the line of its cycle.
 struct LineEffect {
-  std::uint32_t last;            // the largest word (LineWrite::counted_up()) with which it takes effect on this line
-  std::int8_t first_late_cycle;  // from here on it acts on the next line alone, as if it were written there
-  std::uint8_t control;          // see LineView; RESPx: if a write follows at once
+  std::uint32_t last;            // the largest LineWrite::counted_up() that takes effect on this line
+  std::int8_t first_late_cycle;  // from this cycle on, it affects the next line alone, as if it were written there
+  std::uint8_t control;          // see LineDependencies; for RESPx only if a write follows at once
   std::uint16_t seen;            // kMoves, kClears or 0
 };
 extern const std::array<LineEffect, 64> kLineEffects;
 
-extern const std::array<TiaRegisters, 512> kSeenBytes;     // $FF for each byte that counts, by LineView::seen but kClears
-extern const std::array<TiaRegisters, 256> kControlBytes;  // and by LineView::control
+extern const std::array<TiaRegisters, 512> kSeenBytes;     // $FF for each byte that counts, by LineDependencies::seen without kClears
+extern const std::array<TiaRegisters, 256> kControlBytes;  // and by LineDependencies::control
 
 }  // namespace racebeam

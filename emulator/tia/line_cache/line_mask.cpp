@@ -18,7 +18,7 @@ struct Key {
   auto operator<=>(const Key&) const = default;
 };
 
-// Elements of a map stay where they are.
+// Elements of a map do not move.
 const LineMask* find_or_add(const Key& key, const RegisterVectors& counts, const RegisterVectors& sets) {
   static std::mutex mutex;
   static std::map<Key, LineMask> all;

@@ -1,4 +1,5 @@
-// Which of the registers' bytes a line has to do with. A game has few kinds of lines, so that records share these.
+// Which bytes of the registers a line reads and sets. A game has few kinds of lines, so that records share
+// these masks.
 #pragma once
 
 #include "emulator/state/state.hpp"
@@ -6,13 +7,13 @@
 
 namespace racebeam {
 
-// $FF for each byte,
+// $FF for each byte that
 struct LineMask {
-  TiaRegisters counts;  // that pixels, meetings or the registers at the end depend on
-  TiaRegisters sets;    // that is known at the end: those that count, and those that are written
+  TiaRegisters counts;  // pixels, collisions or the registers at the end depend on
+  TiaRegisters sets;    // is known at the end: those that count, and those that are written
 
-  // The one like this; it lives on, for all machines. On any thread. Null when there are too many already, which takes a
-  // program that writes at random.
+  // Returns the mask with these bytes. It is shared by all machines and never released. Thread-safe. Returns
+  // null if there are too many masks, which only a program causes that writes at random.
   static const LineMask* find(const RegisterVectors& counts, const RegisterVectors& sets);
 };
 

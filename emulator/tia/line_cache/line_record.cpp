@@ -14,10 +14,10 @@ constexpr std::uint8_t kAll = 0xFF;
 // A write that comes no later than this after RESPx may wait for the old copy of the player.
 constexpr std::uint32_t kWaitOfRespx = TiaWrite(4, 0, 0).packed() - 1;
 
-// Bytes that a line may change without a write, and what that depends on: the end of a line latches REFLECT and lets
-// players be shown again; missile 0 in its Cosmic Ark mode moves.
+// Bytes that a line may change without a write, and what that depends on. The end of a line latches REFLECT,
+// and lets players be shown again. Missile 0 moves in its Cosmic Ark mode.
 constexpr TiaRegisters kAlways = RACEBEAM_TIA_BYTES((ctrlpf, reflect, enabled, cosmic, p0.skip, p1.skip));
-constexpr TiaRegisters kUsedUp = RACEBEAM_TIA_BYTES((comb_armed));  // by a line, if it finds it
+constexpr TiaRegisters kUsedUp = RACEBEAM_TIA_BYTES((comb_armed));  // by a line that uses them
 constexpr TiaRegisters kMotions = kRegisterBytes[HMCLR].sets;
 
 void clear_but(TiaRegisters& registers, const RegisterVectors& mask) {
@@ -26,12 +26,12 @@ void clear_but(TiaRegisters& registers, const RegisterVectors& mask) {
   bytes.write(registers);
 }
 
-// As far as they decide about where objects are, by Object. HMP0 to HMBL are in that order, too.
+// The motions as far as they affect positions, by Object. HMP0 to HMBL are in that order, too.
 std::array<std::uint8_t, 5> motions_of(const TiaRegisters& tia) {
   return {tia.player[0].motion, tia.player[1].motion, tia.missile[0].motion, tia.missile[1].motion, tia.ball.motion};
 }
 
-// Those that an HMOVE in this cycle moves.
+// The objects that an HMOVE in this cycle moves.
 unsigned moved_objects(int cycle, const std::array<std::uint8_t, 5>& motion) {
   const auto& movement = kMovement[static_cast<std::size_t>(cycle + kLineCycles) % kLineCycles];
   unsigned moved = 0;
@@ -50,7 +50,7 @@ void add_positions(TiaRegisters& mask, unsigned objects) {
 }  // namespace
 
 void LineRecord::open(const TiaRegisters& registers) {
-  number = kNoLine;  // until the line is whole
+  number = kNoLine;  // until the line is complete
   start = registers;
   mask = nullptr;
   view = {};
@@ -74,7 +74,7 @@ const std::uint32_t* LineRecord::add(const std::uint32_t* entry, std::uint32_t o
   return entry;
 }
 
-std::uint8_t LineRecord::look() const {
+std::uint8_t LineRecord::hash() const {
   constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
   RegisterVectors bytes(start);
   bytes &= seen_bytes();
@@ -85,9 +85,9 @@ std::uint8_t LineRecord::look() const {
   return static_cast<std::uint8_t>(hash >> 56);
 }
 
-// Which bytes count, and which are known at the end. What a register's value at the end depends on is the writes, and
-// the bytes that count anyway as far as they have to do with what is shown (line_dependencies.hpp), and these:
-void LineRecord::sum_up(bool pal) {
+// Computes which bytes count, and which are known at the end. A register's value at the end depends on the
+// writes, on the bytes that count for what is shown (line_dependencies.hpp), and on the following.
+void LineRecord::summarize(bool pal) {
   TiaRegisters more = kAlways;
   RegisterVectors sets(kUsedUp);
   std::array<std::uint8_t, 5> motion = motions_of(start);
@@ -98,7 +98,7 @@ void LineRecord::sum_up(bool pal) {
     sets |= RegisterVectors(kRegisterBytes[reg].sets);
     if (reg != HMOVE) more = more | kRegisterBytes[reg].may_set;  // these may stay as they were
     switch (reg) {
-      // May start the Cosmic Ark mode, by an HMOVE on the line before.
+      // May start the Cosmic Ark mode, by an HMOVE on the previous line.
       case HMM0: foreseen &= write.value() >> 4 != 6; [[fallthrough]];
       case HMP0: case HMP1: case HMM1: case HMBL: motion[reg - HMP0] = write.value() >> 4; break;
       case HMCLR: motion = {}; break;
@@ -106,7 +106,7 @@ void LineRecord::sum_up(bool pal) {
         hmove_cycle = static_cast<std::int8_t>(write.cycle());
         add_positions(more, moved_objects(hmove_cycle, motion));
         break;
-      // In PAL, colours have the frame's colour loss in bit 0, all of them.
+      // In PAL, all colours have the frame's colour loss in bit 0.
       case COLUP0: case COLUP1: case COLUPF: case COLUBK: more.color[3] |= pal ? kAll : 0; break;
       default: break;
     }
@@ -120,7 +120,7 @@ void LineRecord::sum_up(bool pal) {
   if (mask == nullptr) return;
   clear_but(start, counts);
   clear_but(end, sets);
-  start.spare[0] = foreseen ? 0 : 1;  // which it never is: the writes must be played
+  start.spare[0] = foreseen ? 0 : 1;  // a value that it never has: the writes must be played
 }
 
 }  // namespace racebeam

@@ -64,7 +64,7 @@ void describe_game(Session& session, std::string_view name) {
 constexpr std::array<std::string_view, 2> kKeysOfImages = {"image", "as"};
 constexpr std::array<std::string_view, 2> kKeysOfSet = {"mode", "difficulty"};
 
-// The words of `load` behind the name of the game.
+// The words of `load` after the name of the game.
 struct LoadWords {
   std::optional<std::string_view> image, as;
   std::vector<std::string_view> settings;
@@ -142,7 +142,7 @@ void run_games(Session& session, Words arguments) {
   append_names(session.out, game_names());
 }
 
-// All or nothing: a load that is refused leaves the game before it running.
+// All or nothing: a refused load leaves the previous game running.
 void run_load(Session& session, Words arguments) {
   const LoadWords words = sorted(arguments.subspan(1));
   PlaySettings settings;

@@ -18,7 +18,7 @@ void append_names(std::string& out, const Rows& rows, char between) {
   }
 }
 
-// A client that guesses has few guesses a connection.
+// A client that guesses has few guesses for each connection.
 void take_token(Session& session, std::string_view word) {
   constexpr int kGuesses = 3;
   const std::string_view token = value_of(word, "token", "hello");

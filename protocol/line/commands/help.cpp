@@ -25,7 +25,7 @@ std::string list_of(Words names) {
   return list;
 }
 
-// The tables are also those of protocol/PROTOCOL.md, which marks words.
+// protocol/PROTOCOL.md has the same tables, with marked words.
 std::string plain(std::string text) {
   std::erase(text, '`');
   return text;
@@ -91,7 +91,7 @@ HelpText on(const Command& command) {
   return text;
 }
 
-// The row of that name as the text of it; with what it is one of.
+// The text of the row of that name, with the kind of table.
 template <typename Rows>
 bool find_in(const Rows& rows, std::string_view name, std::string_view kind, HelpText& text) {
   const auto found = std::ranges::find_if(rows, [name](const auto& row) { return row.name == name; });
@@ -112,7 +112,7 @@ template <typename... Rows>
 constexpr int kNarrowest = 20;
 constexpr std::size_t kIndent = 2, kHanging = 6;
 
-// `text` in lines of at most `columns`, broken at blanks; the first begins at `column`.
+// Writes `text` in lines of at most `columns`, broken at blanks. The first begins at `column`.
 void append_folded(std::string& out, std::string_view text, std::size_t columns, std::size_t column) {
   std::vector<std::string_view> words;
   split(text, words);

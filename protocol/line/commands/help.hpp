@@ -1,4 +1,4 @@
-// What `help` says: a course in lines, made from the tables.
+// The texts of `help`: lines that are made from the tables.
 #pragma once
 
 #include <span>
@@ -19,13 +19,13 @@ struct HelpTopic {
 };
 std::span<const HelpTopic> help_topics();
 
-HelpText help();  // what there is
+HelpText help();  // an overview
 
-// On a topic, a command, a setting, a field, a preset, an encoding or an error code. Throws Refusal.
+// Help on a topic, a command, a setting, a field, a preset, an encoding or an error code. Throws Refusal.
 HelpText help_on(std::string_view name);
 
-// On one line. With `columns` above 0: for a terminal so wide, an entry a line, and those that are longer
-// folded.
+// Writes one line. With `columns` above 0, writes for a terminal of that width: one entry a line, and longer
+// entries folded.
 void append_help(std::string& out, const HelpText& help, int columns);
 
 }  // namespace racebeam

@@ -32,7 +32,7 @@ TEST_CASE("Case 1: RAM and timers at power-on come from the generator") {
                      last[] = {0xAB, 0x14, 0x6F, 0xC0};
   CHECK(std::equal(std::begin(first), std::end(first), console.ram().begin()));
   CHECK(std::equal(std::begin(last), std::end(last), console.ram().end() - 4));
-  // Draw 129 was the construction's; 130 and 131 are the resets'.
+  // Draw 129 was for the construction, 130 and 131 were for the resets.
   CHECK(int{console.state().riot.timer} == 51);
   console.reset();
   CHECK(int{console.state().riot.timer} == 32);

@@ -1,5 +1,5 @@
-// Which cartridge scheme an image has: docs/spec/cartridges.md, 2, and
-// docs/spec/cartridges.md, "How to check", 1 and 2.
+// Detection of cartridge schemes: docs/spec/cartridges.md, 2, and docs/spec/cartridges.md, "How to check", 1
+// and 2.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
@@ -16,7 +16,7 @@ struct Patch {
   Bytes bytes;
 };
 
-// Bytes that hold no signature, no repetition and no run.
+// Bytes without a signature, a repetition or a run.
 Rom mixed(std::size_t size, std::initializer_list<Patch> patches = {}) {
   Rom rom(size);
   for (std::size_t i = 0; i < size; ++i)
@@ -32,7 +32,7 @@ Rom with_halves_equal(std::size_t size) {
   return rom;
 }
 
-// The first 256 bytes of every bank are the same.
+// An image whose banks have the same first 256 bytes.
 Rom with_ram_ports(std::size_t size) {
   Rom rom = mixed(size);
   for (std::size_t bank = 0; bank < size; bank += 4096)
@@ -146,7 +146,7 @@ TEST_CASE("The search misses the last place, and skips a byte after each hit") {
          {"3F once", mixed(8192, {{100, {0x85, 0x3F}}}), "F8"}});
 }
 
-TEST_CASE("What can't be played is refused with a sentence that says why") {
+TEST_CASE("An unsuitable image is refused with the reason") {
   CHECK_THROWS_WITH(scheme_of(mixed(5000)), Catch::Contains("5000") && Catch::Contains("4096"));
   CHECK_THROWS_AS(scheme_of(Rom{}), std::invalid_argument);
   CHECK_THROWS_WITH(scheme_of(mixed(4096), "F9"), Catch::Contains("no cartridge scheme F9"));

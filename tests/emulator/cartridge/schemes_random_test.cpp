@@ -1,4 +1,5 @@
-// Schemes beside their models (reference_cartridges.hpp): random reads and writes, with states saved and restored.
+// Compares schemes with their models (reference_cartridges.hpp): random reads and writes, with saved and
+// restored states.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
@@ -19,7 +20,7 @@ struct Case {
   const char* name;
   std::size_t size;
   std::function<std::unique_ptr<CartridgeModel>(const Rom&)> model;
-  std::vector<Range> lively;  // where something happens
+  std::vector<Range> lively;  // addresses with an effect
 };
 
 template <class Model>
@@ -66,9 +67,9 @@ class Trial {
   }
 
  private:
-  // A bench has read the reset vector already, which some cartridges notice.
+  // The bench has read the reset vector already, which affects some cartridges.
   void forget_vector() {
-    Slot& slot = bench_.board.slot;
+    CartridgeSlot& slot = bench_.board.slot;
     bench_.state.cartridge.bank = {};
     slot.scheme.reset(slot);
     if (slot.scheme.power_on) slot.scheme.power_on(slot);
@@ -90,7 +91,7 @@ class Trial {
   }
 
   void read(unsigned a) {
-    const unsigned high = below(2) ? 0xE000 : 0;  // the upper three bits don't count
+    const unsigned high = below(2) ? 0xE000 : 0;  // the upper three bits are not decoded
     const unsigned theirs = model_->read(a, cycle_), ours = bench_.see(a | high, cycle_);
     INFO(case_.name << " read " << std::hex << a);
     if (theirs < 0x100) REQUIRE(ours == theirs);
@@ -105,7 +106,7 @@ class Trial {
     kept_ = {bench_.state, bench_.board.cartridge_ram, model_->copy(), cycle_};
   }
 
-  // The map is made anew from the state; it must show the same.
+  // Rebuilds the map from the state; it must not change.
   void go_back() {
     bench_.board.cartridge_ram = kept_.ram;
     bench_.restore(kept_.state);

@@ -1,5 +1,5 @@
-// Each cartridge scheme at work: mapping, hot spots by read and by write, RAM, and what a reset does
-// (docs/spec/cartridges.md, 4 to 7; docs/spec/cartridges.md, "How to check").
+// Each cartridge scheme: mapping, hot spots by read and by write, RAM, and resets (docs/spec/cartridges.md, 4
+// to 7; docs/spec/cartridges.md, "How to check").
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
@@ -85,7 +85,7 @@ TEST_CASE("F8, F6 and F4 switch banks at their hot spots, and a read gets the ne
       touch(bench, scheme.hotspot + (bank + 1) % banks, true);
       check_bank(bench, rom, scheme.writes_switch ? (bank + 1) % banks : bank);
     }
-    // The addresses beside the hot spots do nothing.
+    // The addresses next to the hot spots have no effect.
     touch(bench, scheme.hotspot, false);
     for (const unsigned beside : {scheme.hotspot - 1, scheme.hotspot + banks}) {
       touch(bench, beside, false);

@@ -1,5 +1,5 @@
-// What schemes do beside showing banks: DPC's chip, AR's loads, cartridges at the TIA's addresses, what a reset does,
-// and code that runs from RAM on the cartridge or over hot spots (docs/spec/cartridges.md, 5 to 10).
+// Schemes with more than banks: DPC's chip, AR's loads, cartridges at the TIA's addresses, resets, and code
+// that runs from cartridge RAM or across hot spots (docs/spec/cartridges.md, 5 to 10).
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
@@ -62,7 +62,7 @@ TEST_CASE("Case 7: DPC") {
   for (const unsigned value : {0x00, 0xFB, 0xFC, 0x00, 0x00, 0x00}) expect(bench, 0x1010, value);
 }
 
-// One voice, top 9, bottom 4: 75.76 cycles a clock, five clocks loud and five silent.
+// One voice, top 9, bottom 4: 75.76 cycles a clock; it is high for five clocks, and low for five.
 TEST_CASE("DPC: music follows the cycle counter, across frames, and a reset keeps the fetchers") {
   Bench bench(dpc_image());
   bench.write_at(0, 0x1045, 9);
@@ -148,7 +148,7 @@ TEST_CASE("F8 swapped starts in its first bank; 0840 and 4A50 show nothing") {
   }
 }
 
-// A load of two pages, to banks 0 and 1, and where it goes on.
+// A load of two pages, to banks 0 and 1, and its start address.
 Rom ar_image(unsigned number) {
   Rom rom(8448);
   for (std::size_t i = 0; i < 512; ++i) rom[i] = static_cast<std::uint8_t>(i * 3 + 1);

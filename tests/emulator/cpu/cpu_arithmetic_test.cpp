@@ -1,5 +1,5 @@
-// Adding, subtracting and their undocumented kin for all pairs of operands, decimal mode and carry on and
-// off.
+// Addition, subtraction and related undocumented instructions: all pairs of operands, with and without
+// decimal mode and carry.
 #include <catch2/catch.hpp>
 
 #include "tests/emulator/bench.hpp"
@@ -8,7 +8,7 @@
 namespace racebeam::test {
 namespace {
 
-// A memory of its own for the model; the bench's program and operand lie in RAM, where this has them too.
+// The model's own memory. The bench's program and operand are in RAM, at the same addresses.
 struct FlatBus : Bus {
   std::array<int, 0x10000> memory{};
   int read(int address, int) override { return memory[static_cast<std::size_t>(address)]; }
@@ -78,7 +78,8 @@ TEST_CASE("Arithmetic gives what the specification says for all operands") {
   }
 }
 
-// The model again, by values that were observed on the reference (docs/spec/cpu.md, "How to check", 1 to 3).
+// Tests the model itself with values that were observed on the reference (docs/spec/cpu.md, "How to check", 1
+// to 3).
 TEST_CASE("Decimal arithmetic gives the observed values") {
   struct Observed {
     int opcode, a, m, carry, result, status;

@@ -1,4 +1,4 @@
-// functional.asm on the machine: a program that checks the processor it runs on.
+// Runs functional.asm, a program that tests the CPU it runs on.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <iterator>

@@ -1,5 +1,5 @@
-// The interpreter and the model of reference_cpu.hpp side by side: every opcode from random states, and long
-// random programs that touch all of the machine.
+// Compares the interpreter with the model of reference_cpu.hpp: every opcode from random states, and long
+// random programs that use the whole machine.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
@@ -101,7 +101,7 @@ struct Both {
   }
 };
 
-// Where an opcode can be run: all its places in the image, seen at any address, or RAM.
+// Addresses at which an opcode can be executed: its places in the image, in any mirror, or RAM.
 int place(Both& both, const std::vector<int>& places, int opcode, Engine& engine) {
   if (!places.empty() && percent(engine, 80)) {
     const int offset = places[static_cast<std::size_t>(below(engine, static_cast<int>(places.size())))];

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// A value by its name, which some copies of the files write with capitals.
+// Finds a field by its name, which some copies of the files write with capitals.
 const Json& field(const Json& object, const char* name) {
   for (const auto& [key, value] : object.items())
     if (std::ranges::equal(key, std::string_view(name), {}, [](unsigned char c) { return std::tolower(c); }))

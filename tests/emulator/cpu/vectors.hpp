@@ -1,5 +1,5 @@
-// Single-instruction vectors as SingleStepTests publishes them (65x02, folder 6502/v1): a state, an
-// instruction, and the state after it with every access on the bus. None are kept here.
+// Single-instruction vectors in the format of SingleStepTests (65x02, folder 6502/v1): a state, an
+// instruction, the state after it, and every bus access. The tree contains none.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,9 @@ struct Vector {
   std::vector<BusAccess> cycles;
 };
 
-// Those of one opcode, from the file XX.json in `folder`, or XX.bin (the same, packed, as in the
-// repository jepebe/ProcessorTestsBinaries); nothing if there is neither. Throws std::runtime_error for a
-// file that is broken.
+// Reads the vectors of one opcode from the file XX.json in `folder`, or from XX.bin (the same data, packed,
+// as in the repository jepebe/ProcessorTestsBinaries). Returns nothing if neither exists. Throws
+// std::runtime_error for an invalid file.
 std::optional<std::vector<Vector>> read_vectors(const std::string& folder, unsigned opcode);
 
 }  // namespace racebeam::test

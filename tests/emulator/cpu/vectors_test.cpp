@@ -1,11 +1,10 @@
-// The published single-instruction vectors on the machine's own processor, wherever docs/spec/cpu.md says
-// that the reference equals the chip. RACEBEAM_VECTORS names the folder that they are in;
-// scripts/check/vectors runs this.
+// Runs the published single-instruction vectors on the machine's CPU, wherever the reference equals the chip
+// (docs/spec/cpu.md). RACEBEAM_VECTORS names their folder; scripts/check/vectors runs this.
 //
-// The vectors are about a bus with 64K of plain memory. Here, the board's map of pages is pointed at plain
-// memory of 16K, for as many addresses as it decodes; but what is written goes where the board sends it, and
-// only RAM keeps it. A vector that writes elsewhere, or for which two of its addresses are one here, is left
-// out and counted.
+// The vectors assume a bus with 64K of plain memory. Here, the board's memory map points at 16K of plain
+// memory, for as many addresses as the board decodes. Writes go where the board sends them, and only RAM
+// stores them. A vector is left out and counted if it writes elsewhere, or if two of its addresses are the
+// same here.
 #include <array>
 #include <catch2/catch.hpp>
 #include <cstdio>
@@ -58,7 +57,7 @@ bool crosses_page(const Vector& vector, std::string_view mode) {
   return low + index > 0xFF;
 }
 
-// Why the specification lets the reference differ from the chip; null where both are the same.
+// Why the reference may differ from the chip, according to the specification; null if they are equal.
 const char* difference(const Vector& vector, unsigned opcode) {
   const auto [operation, mode] = kNames[opcode];
   if (operation == "jam") return "jam: the chip stops in its own way (docs/spec/cpu.md, 9)";
@@ -71,8 +70,8 @@ const char* difference(const Vector& vector, unsigned opcode) {
   return nullptr;
 }
 
-// The packed copy of 2022 ends the undocumented NOPs before they read: always with an absolute operand,
-// across a page with an indexed one. The chip does read, as the specification has it.
+// In the packed copy of 2022, undocumented NOPs end before their read: always with an absolute operand, and
+// across a page with an indexed one. The chip does read, as the specification says.
 bool lacks_its_read(const Vector& vector, unsigned opcode) {
   const auto [operation, mode] = kNames[opcode];
   if (operation != "nop" || !mode.starts_with("absolute")) return false;
@@ -81,7 +80,7 @@ bool lacks_its_read(const Vector& vector, unsigned opcode) {
   return vector.cycles.back().address != ((base + (mode == "absolute_x" ? vector.before.x : 0U)) & 0xFFFF);
 }
 
-// What the reference's cycles are more than the vector's: lax zp (section 5), and reads that are lacking.
+// Cycles that the reference has and the vector has not: lax zp (section 5), and the missing reads.
 int extra_cycles(const Vector& vector, unsigned opcode) {
   return (opcode == 0xA7 ? 1 : 0) + (lacks_its_read(vector, opcode) ? 1 : 0);
 }
@@ -94,7 +93,7 @@ class FlatMachine {
         board().map.page[page] = &memory_[page * MemoryMap::kPageSize];
   }
 
-  // Null if the vector can be run here.
+  // Why the vector cannot be run here; null if it can.
   const char* obstacle(const Vector& vector) const {
     for (const BusAccess& access : vector.cycles)
       if (access.write && !is_ram(access.address)) return "writes outside RAM, which only devices here take";
@@ -108,7 +107,7 @@ class FlatMachine {
     return nullptr;
   }
 
-  // The first thing that differs; empty if nothing does.
+  // The first difference; empty if there is none.
   std::string run_vector(const Vector& vector, int cycles) {
     put(vector.before);
     racebeam::interpret(board(), 1);
@@ -162,7 +161,7 @@ struct Counts {
   int opcodes = 0;
 };
 
-// How many of this opcode's vectors were compared.
+// Returns how many vectors of this opcode were compared.
 long compare(FlatMachine& machine, const std::vector<Vector>& vectors, unsigned opcode, Counts& counts) {
   long compared = 0;
   for (const Vector& vector : vectors) {

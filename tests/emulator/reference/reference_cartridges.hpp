@@ -1,5 +1,5 @@
-// Models of the cartridge schemes, written from docs/spec/cartridges.md, 5 to 10, and from nothing else: each
-// decodes every address anew. They know no memory map, and of emulator/ nothing at all.
+// Models of the cartridge schemes, written only from docs/spec/cartridges.md, 5 to 10. Each decodes every
+// address anew. They use no memory map, and nothing of emulator/.
 #pragma once
 
 #include <array>
@@ -148,7 +148,7 @@ struct ModelMc : Copyable<ModelMc> {
   }
 };
 
-// Without a load: there is no RIOT here.
+// Without loads, because there is no RIOT here.
 struct ModelAr : Copyable<ModelAr> {
   using Copyable::Copyable;
   unsigned configuration = 0, hold = 0;
@@ -164,7 +164,7 @@ struct ModelAr : Copyable<ModelAr> {
       configuration = hold;
     }
   }
-  static constexpr unsigned kBios = 0x100;  // more than a byte: what it is, is not said
+  static constexpr unsigned kBios = 0x100;  // above all bytes: the specification does not give the contents
   unsigned read(unsigned a, int) override {
     static constexpr unsigned kBanks[8][2] = {{2, 3}, {0, 3}, {2, 0}, {0, 2}, {2, 3}, {1, 3}, {2, 1}, {1, 2}};
     access(a);

@@ -7,7 +7,7 @@
 namespace racebeam::test {
 namespace {
 
-// docs/spec/cpu.md, 5, as it stands there: mnemonic, mode, cycles; + a cycle more when a page is crossed, *
+// The grid of docs/spec/cpu.md, 5: mnemonic, mode, cycles. "+": one more cycle if a page is crossed; "*": a
 // branch.
 constexpr const char* kGrid = R"(
     BRK 7|ORA ix 6|jam 2|slo ix 8|nop zp 3|ORA zp 3|ASL zp 5|slo zp 5|
@@ -209,7 +209,7 @@ void ReferenceCpu::branch(bool taken) {
 }
 
 // clang-format off
-// Jumps, branches and the stack: section 4. False: something else.
+// Jumps, branches and the stack: section 4. Returns false for other instructions.
 bool ReferenceCpu::run_control(int name, int mode) {
   switch (name) {
     case op("bpl"): branch(N == 0); return true;

@@ -1,20 +1,20 @@
-// The 6507 once more, straight from docs/spec/cpu.md: its own copy of the opcode grid, one bus access after
-// the other. Slow, plain, and independent of emulator/: what the interpreter is compared with.
+// A second 6507, written from docs/spec/cpu.md alone: its own copy of the opcode grid, and one bus access
+// after the other. Slow and simple, and independent of emulator/. The interpreter is compared with it.
 #pragma once
 
 #include <cstdint>
 
 namespace racebeam::test {
 
-// Where the model's accesses go. `T` is the cycle counter at the access; a write returns it, moved on by
-// WSYNC.
+// The model's bus. `T` is the cycle counter at the access. A write returns the counter, which WSYNC may have
+// advanced.
 struct Bus {
   virtual ~Bus() = default;
   virtual int read(int address, int T) = 0;
   virtual int write(int address, int value, int T, bool after_read) = 0;
 };
 
-// A mnemonic or a mode as a number, so that it can be a case; upper or lower case.
+// A mnemonic or a mode as a number, for switch statements; upper or lower case.
 constexpr int op(const char* letters) {
   int name = 0;
   for (; *letters != 0; ++letters) name = name << 8 | (*letters >= 'a' ? *letters - 32 : *letters);

@@ -1,4 +1,4 @@
-// What instructions do with their operands: docs/spec/cpu.md, 6 to 8.
+// The effect of instructions on their operands: docs/spec/cpu.md, 6 to 8.
 #include "tests/emulator/reference/reference_cpu.hpp"
 
 namespace racebeam::test {

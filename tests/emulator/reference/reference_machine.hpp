@@ -1,6 +1,6 @@
-// A whole machine with a plain 4K cartridge and two joysticks at rest, from docs/spec/cpu.md,
-// docs/spec/riot.md and docs/spec/tia.md: the models of the 6507 and of the TIA, with RAM, timer, decoding
-// and the frame around them.
+// A whole machine with a plain 4K cartridge and two released joysticks, from docs/spec/cpu.md,
+// docs/spec/riot.md and docs/spec/tia.md. It has the models of the 6507 and of the TIA, with RAM, timer,
+// decoding and frames.
 #pragma once
 
 #include <array>

@@ -216,7 +216,7 @@ struct Pair {
   int a, b;
 };
 
-// Section 11, D7 and D6 of each register; a pair of an object with itself never meets.
+// Section 11, D7 and D6 of each register. An object does not collide with itself.
 enum { p0, p1, m0, m1, bl, pf };
 constexpr Pair kLatch[8][2] = {{{m0, p1}, {m0, p0}}, {{m1, p0}, {m1, p1}}, {{p0, pf}, {p0, bl}},
                                {{p1, pf}, {p1, bl}}, {{m0, pf}, {m0, bl}}, {{m1, pf}, {m1, bl}},

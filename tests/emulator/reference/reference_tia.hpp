@@ -1,6 +1,6 @@
-// The picture side of the TIA once more, straight from docs/spec/tia.md: clock by clock, pixel by pixel,
-// everything drawn at the moment at which the specification draws it. Slow, plain, and independent of
-// emulator/: what the machine is compared with.
+// A second TIA, written from docs/spec/tia.md alone. It draws clock by clock and pixel by pixel, at the
+// moments that the specification gives. Slow and simple, and independent of emulator/. The machine is
+// compared with it.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ class ReferenceTia {
   int current() const { return current_; }
   void take_machine_of(const ReferenceTia& other);  // everything but the two buffers
 
-  // What the two machines hold differently, in words; empty when nothing.
+  // The differences between the two machines, in words; empty if there are none.
   std::string difference(const TiaState& tia) const;
   void meet(unsigned packed);  // sets the latches from two bits a collision register
 

@@ -1,4 +1,4 @@
-// What a register write does: docs/spec/tia.md, 4 and 7 to 9.
+// The effect of register writes: docs/spec/tia.md, 4 and 7 to 9.
 #include <algorithm>
 
 #include "tests/emulator/reference/reference_tia.hpp"
@@ -7,7 +7,7 @@ namespace racebeam::test {
 namespace {
 
 // clang-format off
-// Registers by their numbers, so that nothing here is shared with the machine that is tested.
+// Registers by number, so that nothing is shared with the tested machine.
 enum : unsigned {
   VBLANK = 0x01, NUSIZ0 = 0x04, NUSIZ1, COLUP0, COLUP1, COLUPF, COLUBK, CTRLPF, REFP0, REFP1, PF0, PF1, PF2,
   RESP0, RESP1, RESM0, RESM1, RESBL, GRP0 = 0x1B, GRP1, ENAM0, ENAM1, ENABL, HMP0, HMP1, HMM0, HMM1, HMBL,
@@ -15,7 +15,7 @@ enum : unsigned {
 };
 // clang-format on
 
-// Section 4: how many clocks go by before a write is seen.
+// Section 4: how many clocks pass before a write takes effect.
 int delay(unsigned reg, int x) {
   static constexpr int kPlayfield[4] = {4, 5, 2, 3};
   switch (reg) {

@@ -1,4 +1,5 @@
-// Every form of the code that draws pixels, as far as this processor can run it, against one pixel after the other.
+// Compares each variant of the code that draws pixels, if this processor supports it, with a pixel-by-pixel
+// model.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -12,7 +13,7 @@ bool covers(const PixelMask& mask, int pixel) {
   return (mask.word[static_cast<std::size_t>(pixel) / 64] >> (pixel % 64) & 1) != 0;
 }
 
-// Dense, sparse, or nothing.
+// Dense, sparse, or empty.
 PixelMask random_mask(std::mt19937_64& random) {
   PixelMask mask;
   const auto density = random() % 4;
@@ -21,7 +22,7 @@ PixelMask random_mask(std::mt19937_64& random) {
   return mask;
 }
 
-// The colour of one pixel, by docs/spec/tia.md, 10.
+// The colour of one pixel, from docs/spec/tia.md, 10.
 unsigned color_of(const Line& line, const TiaRegisters& tia, int pixel) {
   const auto shows = [&](Object object) { return covers(line.mask[object], pixel); };
   const bool score = (tia.ctrlpf & 2) != 0, priority = (tia.ctrlpf & 4) != 0, left = pixel < kLinePixels / 2;

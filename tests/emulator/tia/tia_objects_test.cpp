@@ -1,5 +1,5 @@
-// Positions, shapes and movement, each table of docs/spec/tia.md in full, and the bugs that were found by
-// random accesses.
+// Positions, shapes and movement: each table of docs/spec/tia.md in full, and bugs that random accesses
+// found.
 #include <catch2/catch.hpp>
 
 #include "tests/emulator/comparison.hpp"
@@ -99,7 +99,7 @@ TEST_CASE("Missiles and ball strobed soon after an HMOVE, at every distance") {
       }
 }
 
-// Frames that differ in what can't be seen at the start of a line, but matters because of a write on it.
+// Frames that differ in what is invisible at the start of a line, but matters because of a write on it.
 
 const Script kBeyondWindow = {write(7, 40, VSYNC, 0)};
 
@@ -135,7 +135,7 @@ TEST_CASE("Where an invisible player stands decides how far RESP0 draws ahead") 
       return script;
     };
     play_alternately(frame(28), frame(60));
-    // The strobe of the line before decides; only the first line differs above.
+    // The strobe of the previous line decides; above, only the first line differs.
     const auto single = [reg](int position) {
       return Script{write(0, position, reg, 0), write(4, 30, reg, 0), write(4, 33, COLUBK, 0x80),
                     write(5, 3, COLUBK, 0x40)};

@@ -1,6 +1,6 @@
-// Random sequences of TIA accesses on the machine and on the model of reference_tia.hpp: pictures, collisions
-// and registers must be the same after every frame. Frames share two buffers, repeat what the one before did
-// with small changes, end inside the window or beyond it, and are now and then reset or restored.
+// Random sequences of TIA accesses on the machine and on the model of reference_tia.hpp. Pictures, collisions
+// and registers must be equal after every frame. Frames share two buffers, repeat the previous one with small
+// changes, end inside the window or beyond it, and are sometimes reset or restored.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
@@ -11,7 +11,7 @@
 namespace racebeam::test {
 namespace {
 
-// What a series of frames is made of.
+// The properties of a series of frames.
 struct Style {
   std::vector<unsigned> registers;
   std::vector<unsigned> values;
@@ -39,7 +39,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-// Groups of registers that act on each other; a style takes one or all.
+// Groups of registers that affect each other; a style takes one or all.
 const std::vector<std::vector<unsigned>> kFamilies = {
     {COLUP0, COLUP1, COLUPF, COLUBK, CTRLPF, PF0, PF1, PF2, VBLANK},
     {RESP0, GRP0, NUSIZ0, REFP0, HMP0, HMOVE},
@@ -117,7 +117,7 @@ Script random_script(Random& random, const Style& style, int cycles) {
   return script;
 }
 
-// What a game does in vertical blank: it moves and recolours what the same kernel will show again.
+// A vertical blank as in games: it moves and recolours what the same kernel shows again.
 Script with_blank(Random& random, const Style& style, const Script& script, int blank_cycles) {
   Script whole;
   const bool anything = random.percent(50);
@@ -132,7 +132,7 @@ Script with_blank(Random& random, const Style& style, const Script& script, int 
   return whole;
 }
 
-// Something of everything to see: colours, graphics, enabled objects here and there.
+// A little of everything: colours, graphics, some enabled objects.
 Script random_scene(Random& random) {
   Script scene;
   const int density = random.of(std::vector<int>{5, 20, 60});
@@ -143,7 +143,7 @@ Script random_scene(Random& random) {
   return scene;
 }
 
-// HMOVE and, 21 cycles later, the write that sets missile 0 in motion: too rare to be met by chance.
+// HMOVE and, 21 cycles later, the write that sets missile 0 in motion: too rare to occur by chance.
 void add_cosmic(Random& random, Script& script, int cycles) {
   const int at = random.below(cycles);
   script.push_back({Access::kWrite, at, HMM0, 0x70});
@@ -200,8 +200,8 @@ Script shifted(Script script, int cycles) {
   return script;
 }
 
-// The same frame over and over, each time but for one or two registers as the lines begin: what the machine remembers
-// of a row must notice every change that can be seen, and the rows below it must come out right in any case.
+// The same frame repeatedly, each time with one or two other registers at the start of lines. The line cache
+// must notice every visible change, and the rows below must be right in any case.
 void play_repeats(unsigned seed, int frames) {
   Random random(seed);
   Properties properties = ntsc();
@@ -211,7 +211,7 @@ void play_repeats(unsigned seed, int frames) {
   const int cycles = (properties.ystart + properties.height + 2) * kLineCycles;
   Style style = random_style(random);
   style.kernel = random.percent(90);
-  // Few registers in the lines show best what the others do.
+  // With few registers in the lines, the effect of the others is most visible.
   if (random.percent(60)) std::shuffle(style.registers.begin(), style.registers.end(), random.engine());
   const std::vector<unsigned> family = style.registers;
   if (random.percent(60)) style.registers.resize(std::min<std::size_t>(style.registers.size(), 1 + random.byte() % 3));

@@ -1,4 +1,4 @@
-// The cases of docs/spec/tia.md, "How to check", by their numbers there.
+// The cases of docs/spec/tia.md, "How to check", by number.
 #include <catch2/catch.hpp>
 #include <sstream>
 #include <string>
@@ -16,7 +16,7 @@ std::string hex(unsigned value) {
   return {digits[value >> 4 & 15], digits[value & 15]};
 }
 
-// The pixels of a row that are not 0E, as the specification writes them: "0-3:56 7:78".
+// The pixels of a row that are not 0E, in the notation of the specification: "0-3:56 7:78".
 std::string runs(std::span<const std::uint8_t> row) {
   std::string text;
   for (std::size_t i = 0; i < row.size();) {
@@ -39,7 +39,7 @@ struct Write {
   unsigned reg, value;
 };
 
-// S0, then these, then everything is drawn.
+// S0, then these writes, then everything is drawn.
 Bench played(std::initializer_list<Write> writes) {
   Bench bench;
   for (const auto& [reg, x, value] :
@@ -191,7 +191,7 @@ TEST_CASE("Case 10: without VSYNC a frame closes with the first write after line
   }
 }
 
-// What the reference writes ahead of the beam (section 6), on a frame that closes inside the window.
+// Pixels that the reference writes ahead of the beam (section 6), in a frame that closes inside the window.
 
 TEST_CASE("A picture that stops after a group of four has begun shows the whole group") {
   struct Case {
@@ -200,16 +200,16 @@ TEST_CASE("A picture that stops after a group of four has begun shows the whole 
     std::string expected;
   };
   const Case cases[] = {
-      // Only the background: nothing is grouped. COLUBK at cycle 42: 126 - 68 = 58 pixels.
+      // Only the background: no groups. COLUBK at cycle 42: 126 - 68 = 58 pixels.
       {{}, 42, "58-159:00"},
-      // A lone playfield is; a CTRLPF write stops at pixel 58 and shows 60.
+      // A lone playfield is grouped; a CTRLPF write stops at pixel 58 and shows 60.
       {{{1, 0, PF0, 0x10}}, 42, "0-3:34 60-159:00"},
-      // The ball's shape in the group keeps it from being one: it stands at 58.
+      // The ball's shape in the group prevents grouping; it is at 58.
       {{{1, 0, ENABL, 2}, {1, 21, RESBL, 0}}, 42, "2:34 60-159:00"},
       {{{1, 0, ENABL, 2}, {1, 41, RESBL, 0}}, 42, "58-159:00"},
-      // Two objects that are no pair of the list.
+      // Two objects that are not a pair of the list.
       {{{1, 0, ENABL, 2}, {1, 21, RESBL, 0}, {1, 30, GRP0, 1}}, 42, "2:34 7:56 58-159:00"},
-      // Playfield and player, with score mode and without.
+      // Playfield and player, with and without score mode.
       {{{1, 0, PF0, 0x10}, {1, 30, GRP0, 1}}, 42, "0-3:34 7:56 60-159:00"},
       {{{1, 0, PF0, 0x10}, {1, 30, GRP0, 1}, {1, 40, CTRLPF, 2}}, 42, "0-3:56 7:56 58-159:00"},
   };

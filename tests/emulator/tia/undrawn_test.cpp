@@ -1,5 +1,6 @@
-// Frames that are run without their pixels: whoever looks later sees what would have been drawn, and the machine is the
-// same in any case. On generated programs whose frames change from one to the next, are short, long or without an end.
+// Frames that are run without their pixels. A picture that is read later shows what would have been drawn,
+// and the machine is the same in any case. The programs are generated; their frames change, and are short,
+// long or without an end.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <random>
@@ -21,8 +22,8 @@ class Random {
   std::mt19937 engine_;
 };
 
-// A frame as games make them: VSYNC, then groups of lines that begin with some writes. Values are constants, or bytes of
-// RAM that change from frame to frame; what collision registers say is written too.
+// A frame as in games: VSYNC, then groups of lines that begin with some writes. Values are constants, or
+// bytes of RAM that change from frame to frame. The values of collision registers are written, too.
 class Program {
  public:
   explicit Program(unsigned seed) : random_(seed) {
@@ -30,7 +31,7 @@ class Program {
     put({0xE6, 0x90, 0xA5, 0x90, 0x29, random_.percent(50) ? std::uint8_t{3} : std::uint8_t{31}, 0x85, 0x91});
     const int lines = random_.percent(70) ? 262 : random_.below(340);
     for (int line = 0; line < lines && code_.size() < 3900;) line += add_group();
-    if (random_.percent(10)) put({0xE6, 0x92, 0xD0, 0xFE, 0xE6, 0x92});  // stands still, from one frame on
+    if (random_.percent(10)) put({0xE6, 0x92, 0xD0, 0xFE, 0xE6, 0x92});  // loops for ever, from one frame on
     put({0x4C, 0x00, 0xF0});
     code_.resize(4096, 0xEA);
     code_[0xFFC] = 0x00;
@@ -67,8 +68,9 @@ class Program {
   }
 
   Random random_;
-  const int reads_ = 1 + random_.below(8);                       // so many collision registers are read in each frame
-  const int clears_ = random_.percent(50) ? 0 : random_.below(10);  // and cleared before so many of 100 writes
+  const int reads_ = 1 + random_.below(8);  // how many collision registers are read in each frame
+  // How many percent of the writes clear the collision registers before.
+  const int clears_ = random_.percent(50) ? 0 : random_.below(10);
   std::vector<std::uint8_t> code_;
 };
 
@@ -81,7 +83,7 @@ struct Machine {
 
 bool same(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) { return std::ranges::equal(a, b); }
 
-// States are looked at in so many of a hundred frames; what is not looked at need not be known to the machine.
+// States are read in this many of a hundred frames. The others need not be computed.
 void compare(Console& drawn, Console& other, Random& random, int looks) {
   REQUIRE(same(drawn.ram(), other.ram()));
   if (!random.percent(looks)) return;
@@ -132,7 +134,7 @@ void play(unsigned seed, int frames) {
   }
 }
 
-// In frame 10, and in no other, the program looks whether player 0 and the playfield met in the frame before.
+// Only in frame 10, the program reads whether player 0 and the playfield collided in the previous frame.
 std::vector<std::uint8_t> late_reader() {
   std::vector<std::uint8_t> code = {
       0xA9, 0x02, 0x85, VSYNC, 0x85, WSYNC, 0x85, WSYNC, 0x85, WSYNC, 0xA9, 0x00, 0x85, VSYNC,
@@ -145,7 +147,7 @@ std::vector<std::uint8_t> late_reader() {
   return code;
 }
 
-TEST_CASE("A collision that nobody had looked for is known when it is read at last") {
+TEST_CASE("A collision that was not computed is known when it is first read") {
   const auto rom = std::make_shared<const std::vector<std::uint8_t>>(late_reader());
   const bool draws_that = GENERATE(false, true);
   Machine machine(rom, {});
@@ -161,7 +163,7 @@ TEST_CASE("A collision that nobody had looked for is known when it is read at la
   }
 }
 
-TEST_CASE("A frame that was not drawn is drawn when somebody looks") {
+TEST_CASE("A frame that was not drawn is drawn when its picture is read") {
   for (unsigned seed = 1; seed <= 400; ++seed) {
     INFO("seed " << seed);
     play(seed, 60);

@@ -5,7 +5,7 @@
 namespace racebeam {
 namespace {
 
-// What is pressed, and where the paddles end up.
+// The pressed controls, and the final positions of the paddles.
 struct Player {
   ControllerInput hands;
   Inputs inputs{};
@@ -68,7 +68,7 @@ TEST_CASE("Every frame starts with everything released") {
   CHECK(player.inputs.switches == kSwitchesAtRest);
 }
 
-TEST_CASE("A number that is no action presses nothing") {
+TEST_CASE("A number that is not an action presses nothing") {
   Player player = with_paddles();
   for (const int odd : {18, 36, 41, 99, -1}) {
     player.press(odd, 1.0F, odd, 1.0F);

@@ -19,7 +19,7 @@ std::vector<std::uint32_t> first_draws(std::uint32_t seed, std::size_t count) {
   return draws;
 }
 
-// The actions that become current when 1, 2, 3 ... are asked for.
+// The actions that take effect when 1, 2, 3 ... are requested.
 std::vector<int> performed(float p, std::uint32_t seed, int acts) {
   const Sticky sticky(p);
   MersenneTwister random(seed);
@@ -112,7 +112,7 @@ TEST_CASE("Illegal actions and RESET act as NOOP, for both players") {
   }
 }
 
-TEST_CASE("With joysticks, numbers that are no action are refused") {
+TEST_CASE("With joysticks, numbers that are not actions are refused") {
   const LegalActions all(all_actions(), false);
   for (const int a : {18, 35, 36, 41, 43, 50, 99}) {
     CHECK_THROWS_WITH(all.check(pressing(a)),

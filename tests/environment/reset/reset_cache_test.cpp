@@ -1,4 +1,4 @@
-// A copied reset is what a run one would have been, on every game whose image is there.
+// A copied reset equals one that was run, for every game with an image.
 #include "environment/reset/reset_cache.hpp"
 
 #include <catch2/catch.hpp>
@@ -31,7 +31,7 @@ void require_same(const Environment& one, const Environment& other) {
   REQUIRE(one.sound().registers == other.sound().registers);
 }
 
-// Plays both the same, spoils RAM, resets, compares; then again.
+// Plays both machines in the same way, alters RAM, resets, and compares; then again.
 void check_resets(const std::shared_ptr<const Image>& image, const std::shared_ptr<const Game>& game, int resets) {
   INFO(game->name);
   Environment copied(image, game, with_copies(true)), run(image, game, with_copies(false));
@@ -94,7 +94,7 @@ TEST_CASE("The resets that are kept are bounded, and the ones that were used las
   CHECK(cache.find(start));
 }
 
-// A program that overwrites RAM, timer and sound, and one that looks at them first.
+// A program that overwrites RAM, timer and sound, and one that reads them first.
 BootFacts study(std::initializer_list<std::uint8_t> program) {
   auto bytes = std::make_shared<std::vector<std::uint8_t>>(4096, 0xEA);
   std::ranges::copy(program, bytes->begin());
@@ -106,14 +106,14 @@ BootFacts study(std::initializer_list<std::uint8_t> program) {
   return study_boot(console, "4K");
 }
 
-TEST_CASE("What a program overwrites before it looks is found") {
+TEST_CASE("The study finds what a program overwrites before it reads it") {
   // LDX #0; TXA; loop: STA 0,X; INX; BNE loop; LDA #1; STA $296; then LDA INTIM
   const auto all = study({0xA2, 0, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0xA9, 1, 0x8D, 0x96, 2, 0xAD, 0x84, 2});
   CHECK((all.clears_ram && all.sets_timer && all.sets_sound));
-  // The timer is looked at first.
+  // The timer is read first.
   const auto timer = study({0xA2, 0, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0xAD, 0x84, 2, 0x8D, 0x96, 2});
   CHECK((timer.clears_ram && !timer.sets_timer && timer.sets_sound));
-  // RAM is looked at first: LDA $80.
+  // RAM is read first: LDA $80.
   const auto warm = study({0xA5, 0x80, 0xA2, 0, 0x8A, 0x95, 0, 0xE8, 0xD0, 0xFB, 0x8D, 0x96, 2});
   CHECK((!warm.clears_ram && !warm.sets_timer && !warm.sets_sound));
   // From $81 on: LDX #$81.

@@ -1,4 +1,4 @@
-// What happens between two episodes (docs/spec/environment.md, 7).
+// Resets between episodes (docs/spec/environment.md, 7).
 #include <catch2/catch.hpp>
 
 #include "tests/environment/steered.hpp"
@@ -57,13 +57,13 @@ while ram[0x85] < 3 * mode { select 3 }
 '''
 )");
   Environment environment(counter_image(), with_modes, plain());
-  CHECK(environment.lives() == 4);  // frames that the rule saw since its reset
+  CHECK(environment.lives() == 4);  // frames since the rule's reset
   environment.set_mode(2);
   CHECK(at(environment, 0x85) == 0);  // takes effect at the next reset
   environment.reset_game();
   CHECK(at(environment, 0x85) == 6);
   CHECK(at(environment, 0x80) == counted(68 + 2 * 4));
-  CHECK(environment.lives() == 2 + 4);  // SELECT frames go unseen
+  CHECK(environment.lives() == 2 + 4);  // the rule does not see SELECT frames
   CHECK(environment.frame_number() == 2);
   CHECK(environment.episode_frame_number() == 2);
   CHECK(environment.mode() == 2);

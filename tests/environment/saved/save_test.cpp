@@ -1,4 +1,4 @@
-// Saving and restoring, in one process: nothing that can be seen afterwards tells the difference.
+// Saving and restoring in one process has no observable effect.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -30,8 +30,7 @@ Future play(Environment& environment, int frames, unsigned seed) {
   return seen;
 }
 
-// Along a random run, every state restores to what it was, in this machine, in another one, and through
-// bytes.
+// Along a random run, every state can be restored: in this machine, in another one, and from bytes.
 void check_identity_of_states(const std::shared_ptr<const Image>& image,
                               const std::shared_ptr<const Game>& game, Settings settings, int frames,
                               int stride) {
@@ -79,8 +78,8 @@ TEST_CASE("Every state of a run restores to itself, also with averaging and skip
   check_identity_of_states(test::counter_image(), game, settings, 20, 2);
 }
 
-// Plain, paddles, unfinished frames, E0, FE, on-board RAM, PAL, and the one whose missiles the reference
-// forgets.
+// Plain games, paddles, unfinished frames, E0, FE, on-board RAM, PAL, and the game whose missiles the
+// reference forgets.
 TEST_CASE("Every state of a run of a commercial game restores to itself") {
   constexpr const char* kGames[] = {"seaquest", "breakout",        "tetris", "montezuma_revenge",
                                     "robotank", "elevator_action", "skiing", "yars_revenge",
@@ -96,7 +95,7 @@ TEST_CASE("Every state of a run of a commercial game restores to itself") {
   }
 }
 
-TEST_CASE("Without the generator, a restored state goes on with the draws of now") {
+TEST_CASE("Without its generator, a restored state continues with the current one") {
   Settings settings = sticky_settings();
   settings.sticky = 0.5F;
   Environment environment(test::counter_image(), test::game(), settings);
@@ -162,7 +161,7 @@ TEST_CASE("A classic restore answers the old screen and RAM until a frame runs")
   CHECK(environment.frame_number() == 5);
   CHECK(environment.save()->values.play.held.a.action == held);
 
-  environment.restore_classic(*saved);  // once more: still the RAM of before the first
+  environment.restore_classic(*saved);  // again: still the RAM of before the first restore
   CHECK(observe(environment).ram == now.ram);
   environment.act(0);
   CHECK(environment.ram()[0] == then.ram[0] + 1);

@@ -1,4 +1,4 @@
-// What is wrong in a state is named. That whatever passes does no harm is saved_state_fuzz_test.cpp's business.
+// Errors in a state are named. That accepted states do no harm is tested in saved_state_fuzz_test.cpp.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <functional>
@@ -20,7 +20,7 @@ struct Wrong {
   std::function<void(Values&)> spoil;
 };
 
-// `spoil` is told to change one field of a right state; the bytes' checksum is right all the same.
+// `spoil` changes one field of a valid state; the checksum of the bytes is right.
 std::string refusal(Environment& environment, const std::function<void(Values&)>& spoil) {
   Environment::Saved saved = *environment.save(true);
   spoil(saved.values);
@@ -65,8 +65,8 @@ TEST_CASE("A state with a value that no machine has is refused by the field's na
       {"the frame number is 4294967295", [](Values& v) { v.play.frames = 0xFFFFFFFF; }},
       {"the mode is 2; it must be one of 0, 1, 3", [](Values& v) { v.play.mode = 2; }},
       {"the difficulty is 9; it must be one of", [](Values& v) { v.play.difficulty = 9; }},
-      {"the flag of an old RAM", [](Values& v) { v.play.ram_is_stale = 2; }},
-      {"a variable that the rule has not", [](Values& v) { v.tally.values.back() = 1; }},
+      {"the flag of outdated RAM", [](Values& v) { v.play.ram_is_stale = 2; }},
+      {"a variable that the rule does not have", [](Values& v) { v.tally.values.back() = 1; }},
       {"the divider of a sound channel is 32", [](Values& v) { v.sound.channel[1].divider = 32; }},
   };
   for (const Wrong& wrong : wrongs) {
@@ -75,7 +75,7 @@ TEST_CASE("A state with a value that no machine has is refused by the field's na
   }
 }
 
-// The most that a byte of CartridgeState::bank can be; 0 for all that are not listed.
+// The largest valid value of a byte of CartridgeState::bank; 0 for those that are not listed.
 struct Most {
   const char* scheme;
   std::size_t index;
@@ -168,7 +168,7 @@ TEST_CASE("Cartridge RAM of another size is refused") {
   }
 }
 
-TEST_CASE("A generator that can't be one is refused") {
+TEST_CASE("An impossible generator is refused") {
   Environment environment = test::steered();
   auto saved = *environment.save(true);
   std::stringstream zeros;

@@ -1,11 +1,11 @@
-// A state as bytes: exact, and nothing else is taken for one.
+// A state as bytes: it is restored exactly, and other bytes are refused.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <zlib.h>
 
-#include "environment/saved_state.hpp"
 #include "environment/saved/saved_state_format.hpp"
-#include "games/digest.hpp"
+#include "environment/saved_state.hpp"
+#include "games/md5.hpp"
 #include "tests/support/counter_image.hpp"
 #include "tests/support/observation.hpp"
 
@@ -45,7 +45,8 @@ TEST_CASE("A state carries its generator through bytes") {
   CHECK(*second.save(true)->random == *first.save(true)->random);
 }
 
-// 4K of CommaVid's: counts frames in the cartridge's RAM, which a state has no room for, and shows the count at $80.
+// 4K of CommaVid's scheme: counts frames in cartridge RAM that does not fit into a state, and shows the count
+// at $80.
 std::shared_ptr<const Image> image_with_ram() {
   std::vector<std::uint8_t> bytes(4096, 0xEA);
   bytes[0] = 100;  // first contents of the RAM
@@ -82,7 +83,7 @@ TEST_CASE("A state has the cartridge's RAM, in memory and as bytes") {
   CHECK(int{environment.ram()[0]} == count + 1);
 }
 
-TEST_CASE("Bytes that are no state are refused") {
+TEST_CASE("Bytes that are not a state are refused") {
   const Environment environment = counter();
   const auto refusal = [&](const Bytes& bytes) { from_bytes(bytes, environment); };
   CHECK_THROWS_WITH(refusal({}), Catch::Contains("not a state"));
@@ -90,20 +91,20 @@ TEST_CASE("Bytes that are no state are refused") {
   CHECK_THROWS_WITH(refusal(Bytes(100000, 'x')), Catch::Contains("not a state"));
 }
 
-TEST_CASE("A state that was cut, at any place, is refused") {
+TEST_CASE("A state that was truncated, at any byte, is refused") {
   const Environment environment = counter();
   const Bytes bytes = some_state(true);
   for (std::size_t size = 0; size < bytes.size(); size += size < 400 ? 1 : 997) {
     CHECK_THROWS_AS(from_bytes(std::span(bytes).first(size), environment), std::invalid_argument);
   }
   CHECK_THROWS_WITH(from_bytes(std::span(bytes).first(bytes.size() - 1), environment),
-                    Catch::Contains("was cut"));
+                    Catch::Contains("was truncated"));
   Bytes longer = bytes;
   longer.push_back(0);
-  CHECK_THROWS_WITH(from_bytes(longer, environment), Catch::Contains("something was added"));
+  CHECK_THROWS_WITH(from_bytes(longer, environment), Catch::Contains("bytes were added"));
 }
 
-TEST_CASE("A state that was altered, at any place, is refused") {
+TEST_CASE("A state that was altered, at any byte, is refused") {
   const Environment environment = counter();
   Bytes bytes = some_state(true);
   for (std::size_t i = 0; i < bytes.size(); i += i < 400 ? 1 : 499) {
@@ -123,7 +124,7 @@ TEST_CASE("A state of another format is refused by its number") {
                     Catch::Contains("format 77") && Catch::Contains("reads format " + std::to_string(kSnapshotVersion)));
 }
 
-TEST_CASE("What a state says that it is of is shown as printable text") {
+TEST_CASE("The image and the game that a state names are printable text") {
   Bytes bytes = some_state();
   const std::size_t name = 24 + sizeof(Identity::md5);
   bytes[name] = '\x1B';

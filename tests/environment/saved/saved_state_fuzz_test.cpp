@@ -1,7 +1,7 @@
-// States from a stranger: bytes with a right checksum and wrong values are refused with a sentence, or do no
-// harm: what can be restored runs, and runs the same interpreted and translated. The test means most under
-// the sanitizers (preset `address`). RACEBEAM_FUZZ gives the number of alterations of each image,
-// RACEBEAM_FUZZ_SEED another beginning; a failure prints the seed of its alteration.
+// States from an untrusted source. Bytes with a right checksum and wrong values are either refused with a
+// sentence, or do no harm: what can be restored runs, with the same result interpreted and translated. The
+// test is most useful under the sanitizers (preset `address`). RACEBEAM_FUZZ is the number of alterations of
+// each image, and RACEBEAM_FUZZ_SEED the first seed. A failure prints the seed of its alteration.
 #include <zlib.h>
 
 #include <catch2/catch.hpp>
@@ -34,7 +34,7 @@ void set_checksum(Bytes& bytes) {
   std::memcpy(bytes.data() + kChecksumAt, &sum, sizeof sum);
 }
 
-// Somewhere in a state: mostly in the machine's values, which are few beside the pixels.
+// A position in a state: mostly in the machine's values, which are few compared with the pixels.
 std::size_t place(std::mt19937& random, std::size_t size) {
   constexpr std::size_t kMachine = kHeaderSize + sizeof(Identity) + 12, kValues = kMachine + sizeof(State);
   const auto between = [&](std::size_t first, std::size_t end) { return first + random() % (end - first); };
@@ -69,7 +69,7 @@ void alter(Bytes& bytes, std::mt19937& random) {
   set_checksum(bytes);
 }
 
-// One machine interprets, the other translates where that is possible; all else is the same.
+// One machine interprets, the other translates if possible; all else is equal.
 struct Pair {
   Pair(const std::shared_ptr<const Image>& image, const std::shared_ptr<const Game>& game)
       : interpreted(image, game, settings(CpuKind::kInterpreter)),
@@ -95,8 +95,7 @@ void play(Environment& environment, int frames, std::mt19937& random) {
   }
 }
 
-// What a game's reset can't bring about is said with an exception, as with any image that is not what it
-// seems. The state that is left.
+// A reset that cannot reach the game's mode throws, as with an unsuitable image. Returns the final state.
 Bytes play_nonsense(Environment& environment, const Environment::Saved& from, std::mt19937 random) {
   std::vector<std::uint8_t> rgb;
   environment.restore(from);
@@ -112,8 +111,7 @@ struct Counts {
   unsigned refused = 0, played = 0;
 };
 
-// A state that was accepted leads to states that are accepted, and to the same one whatever runs the
-// processor.
+// An accepted state leads to accepted states, and to the same one with either CPU.
 void try_bytes(const Bytes& bytes, Pair& pair, const std::mt19937& random, Counts& counts) {
   std::shared_ptr<const Environment::Saved> saved;
   try {

@@ -1,4 +1,4 @@
-// What a bench of the wire asks for, and the session without a wire that it is compared with.
+// The job of a wire benchmark, and the session without a wire that it is compared with.
 #pragma once
 
 #include <string>
@@ -19,12 +19,12 @@ struct Job {
   bool one_write = false;  // the client sends all that it may send in one write; else in one each
 };
 
-// Of an act or a step each. Every action is held for some, as a player does.
+// Requests, each an act or a step. Every action is held for some requests, as players do.
 Lines draw_requests(int count, const std::string& command);
 
 std::string load_of(const std::string& image);  // the request, without LF
 
-// An act after the end of an episode runs no frame: a reset takes its place.
+// An act after the end of an episode runs no frame, so a reset replaces it.
 void reset_where_it_ends(Job& job);
 
 // Requests in, replies into a string.
@@ -33,7 +33,7 @@ class LocalSession {
   explicit LocalSession(const Job& job);  // prepared
 
   void ask(const std::string& request);                         // throws std::runtime_error
-  std::string_view reply() const { return session_.output(); }  // good until the next request
+  std::string_view reply() const { return session_.output(); }  // valid until the next request
 
  private:
   racebeam::LineService service_;

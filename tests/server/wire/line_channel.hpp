@@ -1,4 +1,4 @@
-// A client's or an echo server's end of a connection: plain blocking descriptors, lines, nothing else.
+// One end of a connection, of a client or an echo server: blocking descriptors and lines.
 #pragma once
 
 #include <sys/types.h>
@@ -15,7 +15,7 @@ class LineChannel {
 
   void send(std::string_view text) const { send(out_, text); }
   static void send(int descriptor, std::string_view text);  // throws std::runtime_error
-  // The next line with its LF, good until the next call; empty at the end.
+  // The next line with its LF, valid until the next call; empty at the end.
   std::string_view line();
 
  private:
@@ -24,11 +24,12 @@ class LineChannel {
   std::size_t begin_ = 0, end_ = 0;
 };
 
-// Processes run where the system likes; after put_apart(), the caller and its servers on a processor each.
+// Processes run where the system places them. After put_apart(), the caller and its servers have a processor
+// each.
 void put_apart();
 void run_as_server();  // in a child that was forked; start() does so itself
 
-// A program whose standard input and output are `in` and `out` of a channel.
+// Starts a program whose standard input and output are `in` and `out` of a channel.
 struct Child {
   pid_t process;
   int in, out;
@@ -39,7 +40,7 @@ void stop(const Child& child);  // closes its streams and waits for its end
 int connect_unix(const std::string& path);
 int connect_tcp(int port);
 int listen_unix(const std::string& path);
-int listen_tcp(int& port);  // of 127.0.0.1; says which was picked
+int listen_tcp(int& port);  // of 127.0.0.1; sets the port that was picked
 int accept_one(int listener);
 
 double now();  // seconds

@@ -1,11 +1,11 @@
-// A crowd for a server: sessions that wait, sessions that act now and then and are timed, and some who
-// misbehave.
+// Loads a server: sessions that wait, sessions that act from time to time and are timed, and misbehaving
+// ones.
 //
 //   load_client PORT SESSIONS ACTORS SECONDS PAUSE_MS CONNECTS_A_SECOND RUDE
 //
-// Connects SESSIONS, of which ACTORS act, one act each PAUSE_MS, after load; prints one JSON object with the
-// latencies of their acts. With CONNECTS_A_SECOND, that many others come, say half a line and vanish. RUDE,
-// of each kind: who asks for screens and never reads, who sends a byte a second, who is killed within a line.
+// Connects SESSIONS, of which ACTORS act after load, one act each PAUSE_MS. Prints one JSON object with the
+// latencies of their acts. CONNECTS_A_SECOND others connect, send half a line and disconnect. RUDE clients of
+// each kind request screens and never read, send a byte a second, or are killed within a line.
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -37,7 +37,7 @@ struct Plan {
   int connects, rude;
 };
 
-// One that acts: when its next act is due, and since when it waits for a reply.
+// An acting client: when its next act is due, and since when it waits for a reply.
 struct Actor {
   explicit Actor(int with) : socket(with) {}
   int socket;
@@ -54,7 +54,7 @@ int connect_and_load(int port) {
   return socket;
 }
 
-// Reads what is there; true when the reply is whole.
+// Reads the available bytes. Returns whether the reply is complete.
 bool take_reply(int socket) {
   static char buffer[1 << 16];
   const ssize_t count = ::recv(socket, buffer, sizeof buffer, MSG_DONTWAIT);
@@ -62,8 +62,7 @@ bool take_reply(int socket) {
   return buffer[count - 1] == '\n';
 }
 
-// What the actors do is paced, so that the machine is not simply full: what is measured is what others do to
-// them.
+// Acting clients are paced, so that the machine is not saturated: only the effect of the others is measured.
 std::vector<double> act(std::vector<Actor>& actors, const Plan& plan) {
   std::vector<double> latencies;
   std::vector<pollfd> polled;
@@ -95,7 +94,7 @@ std::vector<double> act(std::vector<Actor>& actors, const Plan& plan) {
 
 void sleep(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
-// Come, say half a line, vanish.
+// Connects, sends half a line and disconnects.
 void come_and_go(const Plan& plan, const std::atomic<bool>& over, std::atomic<int>& connected) {
   const double begin = now();
   for (int number = 0; !over; ++number) {
@@ -157,7 +156,7 @@ int run(const Plan& plan) {
                                       {"connects", connected.load()}}
                    .dump()
             << std::endl;
-  std::cin.get();  // whoever started us looks at the server now
+  std::cin.get();  // the parent examines the server now
   return 0;
 }
 

@@ -23,7 +23,7 @@ double processor_seconds(pid_t process) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// Keeps what came back when `replies` is there.
+// Records the output if `replies` is not null.
 Cost drive(LineChannel& channel, const Job& job, pid_t server, Lines* replies) {
   std::string unsent;
   std::size_t sent = 0, window = static_cast<std::size_t>(job.ahead);
@@ -130,7 +130,7 @@ Cost echo_over_standard_streams(const Job& job, const Lines& replies) {
   return cost;
 }
 
-// In a process of its own, as racebeam is.
+// In its own process, like racebeam.
 Cost echo_over_socket(const Job& job, const Lines& replies, bool tcp) {
   const std::string path = std::filesystem::temp_directory_path() / ("echo-s-" + std::to_string(::getpid()));
   int port = 0;

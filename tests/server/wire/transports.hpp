@@ -1,5 +1,5 @@
-// A job's requests over each transport, to racebeam and to an echo server with plain sockets that sends the
-// same bytes. The serving process is one of its own, and is timed.
+// Runs a job's requests over each transport, with racebeam and with an echo server on plain sockets that
+// sends the same bytes. The serving process is separate, and is timed.
 #pragma once
 
 #include <sys/types.h>
@@ -16,7 +16,7 @@ struct Cost {
   double microseconds;  // of the processor, for a step, in the process that serves
 };
 
-// Of a piece of work, by the process that serves.
+// The time of the serving process for some work.
 class Meter {
  public:
   explicit Meter(pid_t server);
@@ -27,11 +27,11 @@ class Meter {
   double busy_, begin_;
 };
 
-// racebeam. Keeps what came back when `replies` is there. All throw std::runtime_error.
+// racebeam. Records the output if `replies` is not null. All throw std::runtime_error.
 Cost over_standard_streams(const Job& job, Lines* replies = nullptr);
 Cost over_socket(const Job& job, bool tcp);
 
-// The echo server: a line of `replies` for each line that comes.
+// The echo server: answers each line with a line of `replies`.
 Cost echo_over_standard_streams(const Job& job, const Lines& replies);
 Cost echo_over_socket(const Job& job, const Lines& replies, bool tcp);
 void echo(LineChannel channel, const Lines& replies);

@@ -1,16 +1,16 @@
-// What the wire costs: steps a second of one client that waits for each reply, or sends some requests ahead,
-// over each transport; beside the same session without a wire, and an echo server that sends the same bytes.
-// And the processor time that the serving process takes for a step, which does not depend on who else uses
-// the machine.
+// Measures the cost of the wire: steps a second of one client that waits for each reply, or sends some
+// requests ahead, over each transport. Compares them with the same session without a wire, and with an echo
+// server that sends the same bytes. Also measures the processor time of the serving process for a step, which
+// does not depend on other processes.
 //
 //   wire_bench [--apart] [--one-write] RACEBEAM IMAGE STEPS AHEAD [KEY=VALUE...]
-//   prints one JSON object; settings are those of load. --apart: client and server on a processor each.
-//   --one-write: the client sends all requests that it may send in one write, else in one each.
+//       prints one JSON object; settings are those of load. --apart: client and server have a processor each.
+//       --one-write: the client sends all requests that it may send in one write, else in one each.
 //   wire_bench --machines N RACEBEAM IMAGE STEPS AHEAD FIELD|KEY=VALUE...
-//   the same for N machines in one session, beside one in process; STEPS of that one, a tenth as
-//   many of each of the others; rates are steps a second of all together.
-//   wire_bench --echo FILE                                 the echo server on standard streams: a line of
-//   FILE a line
+//       the same for N machines in one session, compared with one in process: STEPS of that one, a tenth as
+//       many of each of the others; rates are steps a second of all together.
+//   wire_bench --echo FILE
+//       the echo server on standard streams: answers each line with a line of FILE
 #include <unistd.h>
 
 #include <algorithm>
@@ -37,8 +37,8 @@ Cost in_process(const Job& job) {
   return meter.of(job.steps);
 }
 
-// Rounds alternate, so that all meet the same disturbances: what is compared is of the same round. "rates"
-// has them in order; "rate" and "microseconds" are medians.
+// Rounds alternate, so that all meet the same disturbances; measurements of the same round are compared.
+// "rates" has them in order; "rate" and "microseconds" are medians.
 using Measurement = std::pair<std::string, std::function<Cost()>>;
 nlohmann::ordered_json measure(const std::vector<Measurement>& all) {
   constexpr std::size_t kRounds = 9;

@@ -1,11 +1,11 @@
-#include "emulator/tia/line_cache/flicker.hpp"
+#include "emulator/tia/line_cache/flicker_detector.hpp"
 
 #include <algorithm>
 #include <cstdint>
 
 namespace racebeam {
 
-void Flicker::begin_frame() {
+void FlickerDetector::begin_frame() {
   odd_ = !odd_;
   if (++frame_ == period_) frame_ = 0;
   if (frame_ == kFirst) alike_ = drawn_with_one_ = 0;
@@ -14,24 +14,24 @@ void Flicker::begin_frame() {
   counts_ = (frame_ >= kFirst && frame_ <= kLast) || frame_ >= period_ - 2;
 }
 
-void Flicker::judge() {
+void FlickerDetector::judge() {
   const bool found = found_ ? drawn_with_two_ < drawn_with_one_ : alike_ >= kMany;
   period_ = found == found_ ? std::min(2 * period_, kLongPeriod) : kShortPeriod;
   found_ = found;
 }
 
-void Flicker::count(LineRecord& drawn) {
+void FlickerDetector::count(LineRecord& drawn) {
   if (frame_ > kLast) {
     ++drawn_with_two_;
     return;
   }
-  std::uint8_t& before = drawn.looks[odd_ ? 1 : 0];
-  const std::uint8_t look = drawn.look();
+  std::uint8_t& before = drawn.hashes[odd_ ? 1 : 0];
+  const std::uint8_t hash = drawn.hash();
   if (frame_ >= kAgain) {
     ++drawn_with_one_;
-    if (look == before) ++alike_;
+    if (hash == before) ++alike_;
   }
-  before = look;
+  before = hash;
 }
 
 }  // namespace racebeam

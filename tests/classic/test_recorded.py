@@ -1,4 +1,4 @@
-"""`racebeam classic` says what ALE 0.6.0 said, in one session of each game that it had."""
+"""`racebeam classic` gives the recorded output of ALE 0.6.0, in one session of each of its games."""
 
 import os
 import sys
@@ -6,7 +6,7 @@ import unittest
 from concurrent.futures import ThreadPoolExecutor
 
 from images import SKIPPED, folder, image, images
-from kept import digest, read
+from recorded import digest, read
 from session import BINARY, play
 
 RUNS = [(run, wanted) for run, wanted in read() if run.game in images()]
@@ -15,7 +15,7 @@ RUNS = [(run, wanted) for run, wanted in read() if run.game in images()]
 class Kept(unittest.TestCase):
     def test_sessions_are_those_of_ale_0_6(self):
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            answers = pool.map(lambda kept: play([BINARY, "classic"], kept[0], image(kept[0].game)), RUNS)
+            answers = pool.map(lambda recorded: play([BINARY, "classic"], recorded[0], image(recorded[0].game)), RUNS)
             for (run, wanted), answer in zip(RUNS, answers):
                 with self.subTest(run=run.name):
                     self.assertEqual(digest(answer), wanted, answer.errors)

@@ -1,4 +1,4 @@
-// In place of translator.cpp on processors that there is no translation for.
+// Replaces translator.cpp in builds without the translator.
 #include <system_error>
 
 #include "emulator/translator/translator.hpp"

@@ -1,4 +1,4 @@
-// The digest by which images are known.
+// MD5, by which images are identified.
 #pragma once
 
 #include <cstdint>

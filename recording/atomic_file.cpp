@@ -1,4 +1,4 @@
-#include "recording/kept.hpp"
+#include "recording/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -48,12 +48,12 @@ void sync_folder_of(const std::string& path) {
 
 void rename_anew(const std::string& temporary, const std::string& path) {
   if (::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) != 0)
-    fail("keep", path);
+    fail("create", path);
   sync_folder_of(path);
 }
 
 void refuse_existing(const std::string& path) {
-  if (fs::symlink_status(path).type() == fs::file_type::not_found) return;  // a link to nothing is something
+  if (fs::symlink_status(path).type() == fs::file_type::not_found) return;  // a broken link exists, too
   throw std::runtime_error(fs::path(path).filename().string() + " exists; choose another name");
 }
 
@@ -69,7 +69,7 @@ void DiskBudget::take(std::size_t bytes) {
   taken_ += bytes;
 }
 
-KeptFile::KeptFile(std::string path, DiskBudget& budget, std::string tail)
+AtomicFile::AtomicFile(std::string path, DiskBudget& budget, std::string tail)
     : path_(std::move(path)), temporary_(temporary_name(path_)), budget_(budget), tail_(std::move(tail)) {
   refuse_existing(path_);
   budget_.take(tail_.size());
@@ -78,15 +78,15 @@ KeptFile::KeptFile(std::string path, DiskBudget& budget, std::string tail)
   ::fchmod(descriptor_, 0644);
 }
 
-KeptFile::~KeptFile() {
+AtomicFile::~AtomicFile() {
   if (descriptor_ < 0) return;
   ::close(descriptor_);
   ::unlink(temporary_.c_str());
 }
 
-void KeptFile::write(std::span<const std::uint8_t> bytes) { write(text_of(bytes)); }
+void AtomicFile::write(std::span<const std::uint8_t> bytes) { write(text_of(bytes)); }
 
-void KeptFile::write(std::string_view text) {
+void AtomicFile::write(std::string_view text) {
   budget_.take(text.size());
   try {
     write_all(descriptor_, size_ + text.size(), tail_, path_);
@@ -98,12 +98,13 @@ void KeptFile::write(std::string_view text) {
   size_ += text.size();
 }
 
-void KeptFile::overwrite(std::size_t place, std::span<const std::uint8_t> bytes) {
+void AtomicFile::overwrite(std::size_t place, std::span<const std::uint8_t> bytes) {
   write_all(descriptor_, place, text_of(bytes), path_);
 }
 
-// What was written in part goes. The tail lies where it was before: that needs no room.
-void KeptFile::keep() {
+// Removes data that was written in part. The tail already had its space on the disk, so writing it needs no
+// more.
+void AtomicFile::commit() {
   write_all(descriptor_, size_, tail_, path_);
   if (::ftruncate(descriptor_, static_cast<off_t>(size_ + tail_.size())) != 0) fail("write", path_);
   if (::fsync(descriptor_) != 0) fail("sync", path_);
@@ -112,19 +113,19 @@ void KeptFile::keep() {
   descriptor_ = -1;
 }
 
-KeptFolder::KeptFolder(std::string path, DiskBudget& budget)
+AtomicFolder::AtomicFolder(std::string path, DiskBudget& budget)
     : path_(std::move(path)), temporary_(temporary_name(path_)), budget_(budget) {
   refuse_existing(path_);
   if (::mkdtemp(temporary_.data()) == nullptr) fail("make", path_);
 }
 
-KeptFolder::~KeptFolder() {
+AtomicFolder::~AtomicFolder() {
   if (temporary_.empty()) return;
   std::error_code ignored;
   fs::remove_all(temporary_, ignored);
 }
 
-void KeptFolder::add(const std::string& name, std::span<const std::uint8_t> bytes) {
+void AtomicFolder::add(const std::string& name, std::span<const std::uint8_t> bytes) {
   budget_.take(bytes.size());
   const std::string file = temporary_ + "/" + name;
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
@@ -140,8 +141,8 @@ void KeptFolder::add(const std::string& name, std::span<const std::uint8_t> byte
   ::close(descriptor);
 }
 
-// One sync for all of its files; one a file would stall the session.
-void KeptFolder::keep() {
+// One sync for all files: one for each file would stall the session.
+void AtomicFolder::commit() {
   const int folder = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) fail("open", path_);
   const bool synced = ::syncfs(folder) == 0;

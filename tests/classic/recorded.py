@@ -1,11 +1,11 @@
-"""What ALE 0.6.0 said, kept: for each run its exit status and the digest of its output, a line each."""
+"""Recorded output of ALE 0.6.0: for each run its exit status and the digest of its output, one line each."""
 
 import hashlib
 import pathlib
 
 from run import Run
 
-FILE = pathlib.Path(__file__).with_name("kept.txt")
+FILE = pathlib.Path(__file__).with_name("recorded.txt")
 
 
 def digest(answer):
@@ -13,12 +13,12 @@ def digest(answer):
 
 
 def write(path, answers):
-    """`answers` maps runs to what was answered."""
+    """answers: {run: output}."""
     lines = (f"{run.name} {digest(answer)}\n" for run, answer in answers.items())
     path.write_text("".join(lines))
 
 
 def read(path=FILE):
-    """Pairs of a run and the digest of the answer."""
+    """Yields pairs of a run and the digest of its output."""
     words = (line.split(" ", 1) for line in path.read_text().splitlines())
     return [(Run.parse(name), wanted) for name, wanted in words]

@@ -1,5 +1,5 @@
-// Random 6507 programs for every cartridge scheme: all opcodes, with operands where something happens, in loops,
-// subroutines, RAM, and across banks.
+// Random 6507 programs for every cartridge scheme: all opcodes, with operands at addresses with effects, in
+// loops, subroutines, RAM, and across banks.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct Program {
   std::vector<std::uint8_t> rom;
 };
 
-// The same for the same seed, on every machine.
+// Returns the same program for the same seed, on every machine.
 Program make_program(std::uint32_t seed);
 
 }  // namespace racebeam::test

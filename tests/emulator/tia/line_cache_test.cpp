@@ -1,18 +1,18 @@
-// Which lines are remembered for how long: what a picture shows, and rows that flicker.
+// Which lines are recorded, and for how long: rows of a picture, and rows that flicker.
 #include <catch2/catch.hpp>
 #include <functional>
 #include <set>
 
-#include "emulator/tia/line_cache/line_memory.hpp"
 #include "emulator/tia/frame_buffer.hpp"
+#include "emulator/tia/line_cache/line_cache.hpp"
 
 namespace racebeam::test {
 namespace {
 
 constexpr std::size_t kRows = 40;
 
-// As a drawn line whose background has this colour.
-LineNumber draw(LineMemory& memory, std::size_t row, unsigned colour) {
+// Adds a drawn line with this background colour.
+LineNumber draw(LineCache& memory, std::size_t row, unsigned colour) {
   TiaRegisters registers;
   registers.color[3] = static_cast<std::uint8_t>(colour);
   LineRecord& record = memory.row(row);
@@ -21,10 +21,10 @@ LineNumber draw(LineMemory& memory, std::size_t row, unsigned colour) {
   return memory.add(record);
 }
 
-// Frames of which each row is drawn in the colour that `colour(frame, row)` says. Answers whether each row had a record of
-// its own in the last two.
+// Draws frames with the row colours `colour(frame, row)`. Returns whether each row had a record of its own in
+// the last two frames.
 bool ends_with_two_sets(int frames, const std::function<unsigned(int, std::size_t)>& colour) {
-  LineMemory memory;
+  LineCache memory;
   std::set<const LineRecord*> last;
   for (int frame = 0; frame < frames; ++frame) {
     memory.begin_frame();
@@ -43,7 +43,9 @@ TEST_CASE("Rows that flicker are remembered twice, others are not") {
   const auto flickers = [](int frame, std::size_t row) { return row < 12 && frame % 2 == 0 ? 0x1EU : 0U; };
   const auto stands_still = [](int, std::size_t row) { return static_cast<unsigned>(row); };
   const auto moves = [](int frame, std::size_t) { return static_cast<unsigned>(frame & 0xFF); };
-  const auto stops = [&](int frame, std::size_t row) { return frame < 100 ? flickers(frame, row) : moves(frame, row); };
+  const auto stops = [&](int frame, std::size_t row) {
+    return frame < 100 ? flickers(frame, row) : moves(frame, row);
+  };
   CHECK(ends_with_two_sets(100, flickers));
   CHECK_FALSE(ends_with_two_sets(100, stands_still));
   CHECK_FALSE(ends_with_two_sets(100, moves));
@@ -52,8 +54,8 @@ TEST_CASE("Rows that flicker are remembered twice, others are not") {
 
 TEST_CASE("No two lines have the same number, on different machines either") {
   std::set<LineNumber> numbers = {kNoLine, kAnyLine};
-  LineMemory one, other;
-  for (LineMemory* memory : {&one, &other, &one}) {
+  LineCache one, other;
+  for (LineCache* memory : {&one, &other, &one}) {
     memory->begin_frame();
     memory->aim(kRows);
     for (std::size_t row = 0; row < kRows; ++row) CHECK(numbers.insert(draw(*memory, row, 0)).second);

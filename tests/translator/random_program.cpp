@@ -1,4 +1,4 @@
-#include "tests/translator/program.hpp"
+#include "tests/translator/random_program.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,41 +14,47 @@ struct Case {
   std::size_t size;
 };
 
-constexpr Case kCases[] = {{"2K", 2048},    {"4K", 4096},   {"4K", 4096},     {"4K", 4096},    {"F8", 8192},   {"F8", 8192},
-                           {"F8SC", 8192},  {"F6", 16384},  {"F6SC", 16384},  {"F4", 32768},   {"F4SC", 32768}, {"FASC", 12288},
-                           {"E0", 8192},    {"E7", 16384},  {"FE", 8192},     {"DPC", 10240},  {"3F", 8192},    {"3E", 8192},
-                           {"UA", 8192},    {"CV", 2048},   {"CV 4K", 4096},  {"MB", 65536},   {"MC", 131072}};
+constexpr Case kCases[] = {{"2K", 2048},    {"4K", 4096},    {"4K", 4096},  {"4K", 4096},    {"F8", 8192},
+                           {"F8", 8192},    {"F8SC", 8192},  {"F6", 16384}, {"F6SC", 16384}, {"F4", 32768},
+                           {"F4SC", 32768}, {"FASC", 12288}, {"E0", 8192},  {"E7", 16384},   {"FE", 8192},
+                           {"DPC", 10240},  {"3F", 8192},    {"3E", 8192},  {"UA", 8192},    {"CV", 2048},
+                           {"CV 4K", 4096}, {"MB", 65536},   {"MC", 131072}};
 
 using Bytes = std::vector<std::uint8_t>;
 
-// What games do, and code seldom gets to by chance.
+// Idioms of games that random code seldom contains.
 const std::vector<Bytes> kIdioms = {
-    {0xAD, 0x84, 0x02, 0xD0, 0xFB},                          // LDA INTIM; BNE
-    {0xAE, 0x84, 0x02, 0x10, 0xFB},                          // LDX INTIM; BPL
-    {0x2C, 0x85, 0x02, 0x10, 0xFB},                          // BIT INSTAT; BPL
-    {0xA9, 0x20, 0x8D, 0x96, 0x02},                          // TIM64T = $20
-    {0xA9, 0x90, 0x8D, 0x95, 0x02},                          // TIM8T = $90
+    {0xAD, 0x84, 0x02, 0xD0, 0xFB},                                // LDA INTIM; BNE
+    {0xAE, 0x84, 0x02, 0x10, 0xFB},                                // LDX INTIM; BPL
+    {0x2C, 0x85, 0x02, 0x10, 0xFB},                                // BIT INSTAT; BPL
+    {0xA9, 0x20, 0x8D, 0x96, 0x02},                                // TIM64T = $20
+    {0xA9, 0x90, 0x8D, 0x95, 0x02},                                // TIM8T = $90
     {0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0xA9, 0x00, 0x85, 0x00},  // VSYNC on, WSYNC, off
     {0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0x85, 0x02, 0xA9, 0x00, 0x85, 0x00, 0x85, 0x01},
-    {0xA2, 0x08, 0x85, 0x02, 0xCA, 0xD0, 0xFB},              // LDX #8; WSYNC; DEX; BNE
+    {0xA2, 0x08, 0x85, 0x02, 0xCA, 0xD0, 0xFB},                          // LDX #8; WSYNC; DEX; BNE
     {0xA0, 0x14, 0x84, 0x02, 0x84, 0x09, 0x84, 0x1B, 0x88, 0x10, 0xF7},  // a picture of 21 lines
-    {0xA2, 0xFF, 0x9A, 0xD8},                                // LDX #$FF; TXS; CLD
-    {0xA2, 0x1F, 0x9A, 0x68, 0x68, 0x48, 0x48},              // the stack in the TIA: pulls and pushes
-    {0xF8}, {0xF8, 0x69, 0x37, 0xE9, 0x19}, {0xD8},          // decimal arithmetic
+    {0xA2, 0xFF, 0x9A, 0xD8},                                            // LDX #$FF; TXS; CLD
+    {0xA2, 0x1F, 0x9A, 0x68, 0x68, 0x48, 0x48},  // the stack in the TIA: pulls and pushes
+    {0xF8},
+    {0xF8, 0x69, 0x37, 0xE9, 0x19},
+    {0xD8},                                                              // decimal arithmetic
     {0xA9, 0xA5, 0x85, 0x90, 0xA9, 0x60, 0x85, 0x92, 0x20, 0x90, 0x00},  // a subroutine written into RAM
     {0xA9, 0xE6, 0x85, 0xA0, 0xA9, 0xB0, 0x85, 0xA1, 0xA9, 0x4C, 0x85, 0xA2, 0x4C, 0xA0, 0x00},
 };
 
 class Writer {
  public:
-  explicit Writer(std::uint32_t seed) : random_(seed), case_(kCases[pick(std::size(kCases))]), rom_(case_.size) {}
+  explicit Writer(std::uint32_t seed)
+      : random_(seed), case_(kCases[pick(std::size(kCases))]), rom_(case_.size) {}
 
   Program write() {
     const bool noise = chance(4);
     std::size_t at = 0;
     while (at < rom_.size()) {
-      if (noise) rom_[at++] = opcode();
-      else at = instruction(at);
+      if (noise)
+        rom_[at++] = opcode();
+      else
+        at = instruction(at);
     }
     if (!noise)
       for (unsigned i = pick(60); i > 0; --i) put(pick(rom_.size()), kIdioms[pick(kIdioms.size())]);
@@ -61,7 +67,7 @@ class Writer {
   bool chance(unsigned percent) { return pick(100) < percent; }
   std::uint8_t byte() { return static_cast<std::uint8_t>(random_()); }
 
-  // Seldom one that stops the processor for good.
+  // Seldom an opcode that halts the CPU.
   std::uint8_t opcode() {
     const std::uint8_t code = byte();
     return (code & 0x1F) == 0x12 && !chance(2) ? 0xEA : code;
@@ -72,9 +78,9 @@ class Writer {
   }
 
   std::size_t instruction(std::size_t at) {
-    static constexpr std::array<std::uint8_t, 24> kFrequent = {0xA9, 0xA2, 0xA0, 0xA5, 0xB5, 0xBD, 0xB9, 0xB1,
-                                                               0x85, 0x86, 0x84, 0x95, 0x99, 0x9D, 0x91, 0x8D,
-                                                               0x69, 0xC9, 0xE6, 0xC6, 0xCA, 0x88, 0x20, 0x60};
+    static constexpr std::array<std::uint8_t, 24> kFrequent = {
+        0xA9, 0xA2, 0xA0, 0xA5, 0xB5, 0xBD, 0xB9, 0xB1, 0x85, 0x86, 0x84, 0x95,
+        0x99, 0x9D, 0x91, 0x8D, 0x69, 0xC9, 0xE6, 0xC6, 0xCA, 0x88, 0x20, 0x60};
     const std::uint8_t code = chance(40) ? kFrequent[pick(kFrequent.size())] : opcode();
     const bool jsr = code == 0x20, branch = (code & 0x1F) == 0x10;
     switch (jsr ? 3 : kOpcodes[code].length) {
@@ -108,15 +114,15 @@ class Writer {
   unsigned far_operand() {
     const unsigned kind = pick(100);
     if (kind < 30) return mirror(0x1000 | pick(0x1000));
-    if (kind < 38) return mirror(0x1FE0 | pick(0x20));  // hot spots
-    if (kind < 45) return mirror(0x1000 | pick(0x80));  // and ports
-    if (kind < 65) return mirror(0x0280 | pick(0x20));  // RIOT
-    if (kind < 75) return mirror(0x0180 | pick(0x80));  // RAM, the stack
+    if (kind < 38) return mirror(0x1FE0 | pick(0x20));                                  // hot spots
+    if (kind < 45) return mirror(0x1000 | pick(0x80));                                  // and ports
+    if (kind < 65) return mirror(0x0280 | pick(0x20));                                  // RIOT
+    if (kind < 75) return mirror(0x0180 | pick(0x80));                                  // RAM, the stack
     if (kind < 90) return mirror((chance(50) ? 0 : 0x40 | pick(2) << 8) | pick(0x40));  // TIA
     return pick(0x10000);
   }
 
-  // Each slice that can be seen at the end of the address space has its own.
+  // Each slice that can be at the end of the address space gets its own vectors.
   void vectors() {
     for (std::size_t end = 1024; end <= rom_.size(); end += 1024)
       for (std::size_t at = end - 6; at < end; at += 2) {

@@ -1,4 +1,4 @@
-#include "emulator/translator/program.hpp"
+#include "emulator/translator/block_discovery.hpp"
 
 #include <algorithm>
 #include <map>
@@ -8,13 +8,14 @@
 namespace racebeam::translator {
 namespace {
 
-// What a batch may take, an instruction being 1: some 50 microseconds. The less, the later is code made that is seldom run.
+// The most work in a batch, where an instruction counts 1: some 50 microseconds. A smaller batch translates
+// less code that seldom runs.
 constexpr int kMostWork = 100;
 constexpr int kWorkOfBlock = 3;
 
 bool ends_flow(const Instruction& instruction) { return instruction.access == Access::Jump; }
 
-// After it the line is another one: the limit of the frame is looked at anew.
+// Whether the instruction starts a new line. The block after it checks the line limit again.
 bool is_wsync(const Instruction& instruction) {
   const bool fixed = instruction.mode == Mode::zero_page || instruction.mode == Mode::absolute;
   return instruction.access == Access::Write && fixed && (instruction.operand & 0x10BF) == WSYNC;
@@ -26,7 +27,7 @@ class Discovery {
       : window_(window), known_(known), seen_(window.span) {}
 
   std::vector<Block> run(std::uint16_t entry) {
-    lead(entry, kLeader);
+    add_leader(entry, kLeader);
     for (std::size_t next = 0; next < pending_.size(); ++next) scan(pending_[next]);
     std::erase_if(leaders_, [this](const auto& leader) { return !seen_[leader.first]; });
     std::vector<Block> blocks;
@@ -41,49 +42,51 @@ class Discovery {
   std::size_t offset(std::uint16_t pc) const { return static_cast<std::uint16_t>(pc - window_.first); }
   Instruction at(std::uint16_t pc) const { return decode(window_.memory + offset(pc), pc); }
 
-  void lead(std::uint16_t pc, Role role) {
-    if (!holds(window_, pc) || known_[offset(pc)]) return;
+  void add_leader(std::uint16_t pc, Role role) {
+    if (!contains(window_, pc) || known_[offset(pc)]) return;
     const auto [leader, is_new] = leaders_.emplace(offset(pc), role);
     if (is_new) pending_.push_back(pc), work_ += kWorkOfBlock;
     leader->second = std::max(leader->second, role);
   }
 
-  // What lies beyond the window may be a device, and reads what was on the data bus: the interpreter knows that.
+  // Whether the instruction may continue beyond the window. That may be a device, whose value depends on the
+  // data bus; the interpreter handles it.
   bool leads_out(const Instruction& instruction) const {
-    const bool branches = instruction.access == Access::Branch && !holds(window_, instruction.target());
-    return branches || (!ends_flow(instruction) && !holds(window_, instruction.next()));
+    const bool branches = instruction.access == Access::Branch && !contains(window_, instruction.target());
+    return branches || (!ends_flow(instruction) && !contains(window_, instruction.next()));
   }
 
-  // Follows the instructions from `pc` on, and makes leaders of all that they lead to.
+  // Follows the instructions from `pc`, and makes leaders of all addresses that they lead to.
   void scan(std::uint16_t pc) {
-    while (holds(window_, pc) && !seen_[offset(pc)] && work_ < kMostWork) {
+    while (contains(window_, pc) && !seen_[offset(pc)] && work_ < kMostWork) {
       seen_[offset(pc)] = true;
       ++work_;
       const Instruction instruction = at(pc);
       if (instruction.access == Access::Branch || instruction.operation == Operation::jsr ||
           (instruction.operation == Operation::jmp && instruction.mode == Mode::absolute))
-        lead(instruction.target(), instruction.target() <= pc ? kLoop : kLeader);
+        add_leader(instruction.target(), instruction.target() <= pc ? kLoop : kLeader);
       if (instruction.operation == Operation::jsr || is_wsync(instruction) || !is_translatable(instruction))
-        lead(instruction.next(), kLeader);
+        add_leader(instruction.next(), kLeader);
       if (ends_flow(instruction) || !is_translatable(instruction)) return;
       pc = instruction.next();
     }
   }
 
-  // Up to the next leader, a jump, what the interpreter must do, or the most cycles; then a new leader goes on.
+  // A block from `leader` to the next leader, a jump, an instruction for the interpreter, or
+  // kMostBlockCycles. In the last case a new leader continues it.
   Block block_at(const Leaders::value_type& leader) {
     const auto [start, role] = leader;
     Block block;
     block.pc = block.next = static_cast<std::uint16_t>(window_.first + start);
-    block.loops = role == kLoop;
-    for (int cycles = 0; holds(window_, block.next);) {
+    block.is_loop_head = role == kLoop;
+    for (int cycles = 0; contains(window_, block.next);) {
       const std::size_t here = offset(block.next);
       if (here != start && (leaders_.contains(here) || known_[here] || !seen_[here])) break;
       const Instruction instruction = at(block.next);
       if (!is_translatable(instruction) || leads_out(instruction)) break;
       cycles += instruction.cycles + 2;
       if (cycles > kMostBlockCycles) {
-        leaders_.emplace(here, kLeader);  // it lies further on: its turn comes
+        leaders_.emplace(here, kLeader);  // it lies further on, so the loop over the leaders reaches it
         break;
       }
       block.instructions.push_back(instruction);

@@ -1,0 +1,62 @@
+// How much time a machine may spend on translation. Translation saves time later or never. The budget is
+// therefore a fixed part of the time that the machine has run: no program takes much longer than interpreted
+// (docs/translator.md).
+#pragma once
+
+#include <x86intrin.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace racebeam::translator {
+
+// Reads the processor's time stamp counter: some two to four ticks a nanosecond. A read of the system's clock
+// would take as long as a short frame.
+inline std::int64_t ticks() { return static_cast<std::int64_t>(__rdtsc()); }
+
+class TranslationBudget {
+ public:
+  // unlimited: the budget covers every batch, whatever it costs.
+  explicit TranslationBudget(bool unlimited) : balance_(unlimited ? kCapacity : 0), unlimited_(unlimited) {}
+
+  // Called around each step of the machine. While the budget is full, the counter is not read.
+  void begin_step() { began_ = is_full() ? 0 : ticks(), spent_ = 0; }
+  void end_step() {
+    if (began_ != 0) balance_ = std::min(balance_ + std::min(ticks() - began_ - spent_, kLongestStep) * kPercent / 100, kCapacity);
+  }
+
+  // Charges the time from its construction to its destruction.
+  class Charge {
+   public:
+    explicit Charge(TranslationBudget& from) : budget_(from) {}
+    Charge(const Charge&) = delete;
+    Charge& operator=(const Charge&) = delete;
+    ~Charge() { budget_.charge(ticks() - began_); }
+
+   private:
+    TranslationBudget& budget_;
+    const std::int64_t began_ = ticks();
+  };
+
+  bool covers_batch() const { return balance_ >= kBatchCost; }
+  bool is_unlimited() const { return unlimited_; }
+
+ private:
+  void charge(std::int64_t cost) {
+    spent_ += cost;
+    if (!unlimited_) balance_ -= cost;
+  }
+
+  static constexpr std::int64_t kPercent = 25;  // of the time that the machine runs
+  // Longer steps are cut: another thread used the processor.
+  static constexpr std::int64_t kLongestStep = 1'000'000;
+  static constexpr std::int64_t kCapacity = 10'000'000;
+  static constexpr std::int64_t kBatchCost = 60'000;  // usual; a batch that costs more leaves a debt
+
+  bool is_full() const { return balance_ == kCapacity; }
+
+  std::int64_t balance_, began_ = 0, spent_ = 0;  // ticks
+  bool unlimited_;
+};
+
+}  // namespace racebeam::translator

@@ -1,0 +1,70 @@
+// Files and folders that appear whole or not at all: written under a temporary name, synced, renamed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace racebeam {
+
+class BudgetSpent : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Limits the bytes that may be written in total.
+class DiskBudget {
+ public:
+  explicit DiskBudget(std::size_t bytes) : most_(bytes) {}
+  void take(std::size_t bytes);  // throws BudgetSpent if less is left
+  void give_back(std::size_t bytes) { taken_ -= bytes; }
+  std::size_t taken() const { return taken_; }
+
+ private:
+  std::size_t most_, taken_ = 0;
+};
+
+// All throw BudgetSpent, or std::runtime_error with a sentence if the system refuses to write.
+class AtomicFile {
+ public:
+  // tail: the end of the file, whatever is written. Its space is reserved at the start, so that a full disk
+  // cannot prevent the end.
+  AtomicFile(std::string path, DiskBudget& budget, std::string tail = {});
+  ~AtomicFile();  // without commit(), nothing remains
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  // Appends all bytes; if it throws, the file has none of them.
+  void write(std::span<const std::uint8_t> bytes);
+  void write(std::string_view text);
+  void overwrite(std::size_t place, std::span<const std::uint8_t> bytes);  // bytes that were written before
+  void commit();  // refuses to replace an existing file
+
+ private:
+  std::string path_, temporary_;
+  DiskBudget& budget_;
+  const std::string tail_;
+  int descriptor_ = -1;
+  std::size_t size_ = 0;  // without the tail
+};
+
+class AtomicFolder {
+ public:
+  AtomicFolder(std::string path, DiskBudget& budget);
+  ~AtomicFolder();
+  AtomicFolder(const AtomicFolder&) = delete;
+  AtomicFolder& operator=(const AtomicFolder&) = delete;
+
+  void add(const std::string& name,
+           std::span<const std::uint8_t> bytes);  // writes the whole file, or none of it
+  void commit();
+
+ private:
+  std::string path_, temporary_;
+  DiskBudget& budget_;
+};
+
+}  // namespace racebeam
