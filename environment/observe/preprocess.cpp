@@ -16,14 +16,42 @@ constexpr std::size_t kRow = kScreenWidth;
 
 bool same_row(const std::uint8_t* a, const std::uint8_t* b) { return std::memcmp(a, b, kRow) == 0; }
 
-// Rows that repeat are common: they are copied.
-template <typename Same, typename Make>
-void make_rows(std::span<std::uint8_t> plane, Same same_as_above, Make make_row) {
+// Eight pixels of each of the pictures that a plane is made of, and what they give.
+template <std::size_t pictures>
+struct Octet {
+  std::array<std::uint64_t, pictures> pixels{};
+  std::uint64_t bytes = 0;
+};
+
+// Rows that repeat are common: they are copied. So are eight pixels that repeat: most of a row is background.
+template <std::size_t pictures>
+void make_rows(const std::array<const std::uint8_t*, pictures>& in, const BrightnessTable& table,
+               std::span<std::uint8_t> plane) {
+  const auto same_as_above = [&in](std::size_t at) {
+    return std::ranges::all_of(in, [at](const std::uint8_t* picture) { return same_row(picture + at, picture + at - kRow); });
+  };
+  const auto brightest = [&](std::size_t at) {
+    std::uint8_t most = table[in[0][at]];
+    if constexpr (pictures == 2) most = std::max(most, table[in[1][at]]);
+    return most;
+  };
+  Octet<pictures> last;
+  for (std::size_t i = 0; i < 8; ++i) last.bytes = last.bytes << 8 | table[0];
   for (std::size_t at = 0; at < plane.size(); at += kRow) {
     if (at > 0 && same_as_above(at)) {
       std::memcpy(&plane[at], &plane[at - kRow], kRow);
-    } else {
-      make_row(at);
+      continue;
+    }
+    for (std::size_t x = at; x < at + kRow; x += 8) {
+      Octet<pictures> octet;
+      for (std::size_t i = 0; i < pictures; ++i) std::memcpy(&octet.pixels[i], in[i] + x, 8);
+      if (octet.pixels != last.pixels) {
+        std::array<std::uint8_t, 8> bytes;
+        for (std::size_t i = 0; i < 8; ++i) bytes[i] = brightest(x + i);
+        std::memcpy(&octet.bytes, bytes.data(), 8);
+        last = octet;
+      }
+      std::memcpy(&plane[x], &last.bytes, 8);
     }
   }
 }
@@ -55,23 +83,12 @@ const std::array<BrightnessTable, 3>& colour_tables(Format format) {
 
 void make_plane(std::span<const std::uint8_t> screen, const BrightnessTable& table,
                 std::span<std::uint8_t> plane) {
-  const std::uint8_t* const in = screen.data();
-  make_rows(
-      plane, [&](std::size_t at) { return same_row(in + at, in + at - kRow); },
-      [&](std::size_t at) {
-        for (std::size_t x = at; x < at + kRow; ++x) plane[x] = table[in[x]];
-      });
+  make_rows<1>({screen.data()}, table, plane);
 }
 
 void make_brighter_plane(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
                          const BrightnessTable& table, std::span<std::uint8_t> plane) {
-  const std::uint8_t *const a = screen.data(), *const b = previous.data();
-  make_rows(
-      plane,
-      [&](std::size_t at) { return same_row(a + at, a + at - kRow) && same_row(b + at, b + at - kRow); },
-      [&](std::size_t at) {
-        for (std::size_t x = at; x < at + kRow; ++x) plane[x] = std::max(table[a[x]], table[b[x]]);
-      });
+  make_rows<2>({screen.data(), previous.data()}, table, plane);
 }
 
 const AreaResize& screen_resize(int height, int to_width, int to_height) {
