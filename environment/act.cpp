@@ -44,6 +44,7 @@ int Environment::Impl::act(const Presses& asked, int frames) {
     if (each_frame) each_frame();
   }
   if (settings.sound) console.sound().generate(audio);
+  raw_rewards = {reward_a, reward_b};
   play.rewards = {clamped(reward_a, settings), clamped(reward_b, settings)};
   return play.rewards[0];
 }

@@ -65,10 +65,11 @@ std::size_t ram_index(int index) {
 }  // namespace
 
 Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_ptr<const Game> game_given,
-                        const Settings& settings_given, Pace* pace)
+                        const Settings& settings_given, Pace* pace_given)
     : image(std::move(image_given)),
       game(by_settings(game_given, settings_given)),
       settings(checked(settings_given, *game)),
+      pace(pace_given),
       identity(*image, *game),
       properties(game->properties_for(image->md5)),
       random(settings.random_seed),
@@ -126,6 +127,15 @@ void Environment::rest() { impl_->console.rest(); }
 
 void Environment::reset_game() { impl_->reset(); }
 
+void Environment::reload(std::uint32_t random_seed) {
+  Settings settings = impl_->settings;
+  settings.random_seed = random_seed;
+  auto anew = std::make_unique<Impl>(impl_->image, impl_->game, settings, impl_->pace);
+  anew->each_frame = std::move(impl_->each_frame);
+  anew->drawing = impl_->drawing;
+  impl_ = std::move(anew);
+}
+
 void Environment::set_mode(int mode) {
   check_offered(mode, game().offered_modes(), "mode", game());
   impl_->play.mode = mode;
@@ -139,6 +149,7 @@ void Environment::set_difficulty(int difficulty) {
 int Environment::mode() const { return impl_->play.mode; }
 int Environment::difficulty() const { return impl_->play.difficulty; }
 
+Environment::RawRewards Environment::raw_rewards() const { return impl_->raw_rewards; }
 Environment::Rewards Environment::rewards() const {
   return {impl_->play.rewards[0], impl_->play.rewards[1]};
 }

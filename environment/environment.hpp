@@ -28,6 +28,13 @@ constexpr int kScreenWidth = 160;
 constexpr int kRamSize = 128;
 constexpr int kAudioSize = 512;
 
+// What both players ask for. a: 0-17, b: 18-35 (docs/spec/environment.md, 1). The strengths are of turning a
+// paddle.
+struct Act {
+  int a = 0, b = 18;
+  float strength_a = 1.0F, strength_b = 0.0F;
+};
+
 class Environment {
  public:
   // Powers a console on with `image` and resets `game`. Throws InvalidInput when a setting, or the
@@ -41,13 +48,22 @@ class Environment {
   // One agent step of `frame_skip` frames. a: 0-17, b: 18-35 (docs/spec/environment.md, 1). Returns the
   // clamped sum of rewards.
   int act(int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
+  int act(const Act& act) { return this->act(act.a, act.b, act.strength_a, act.strength_b); }
   // What both players got for the last act, clamped like its answer, which is `a`. `b` is 0 in games whose
   // rule has no second player.
   struct Rewards {
     int a, b;
   };
   Rewards rewards() const;
+  // The same before it was clamped. It is no part of a state: 0 after a reset and after a restore.
+  struct RawRewards {
+    std::int64_t a = 0, b = 0;
+  };
+  RawRewards raw_rewards() const;
   void reset_game();  // throws InvalidInput when the image does not come to the mode that was set
+
+  // As constructed anew with this random_seed: powered on, in the game's default mode. Drawing and watch() stay.
+  void reload(std::uint32_t random_seed);
 
   // The same for a number of frames that is not the settings': no-ops at the start of an episode.
   int act_for(int frames, int a);

@@ -27,6 +27,7 @@ struct Environment::Impl {
   const std::shared_ptr<const Image> image;
   const std::shared_ptr<const Game> game;
   const Settings settings;
+  Pace* const pace;
   const Identity identity;
   const Properties properties;
 
@@ -41,6 +42,7 @@ struct Environment::Impl {
   EpisodeState play;
   std::array<std::uint8_t, kAudioSize> audio{};
   std::optional<BootFacts> boot_facts;  // of the image; studied at the first reset
+  RawRewards raw_rewards;
   bool drew_at_reset = false;           // the generator took part in the last one
   std::function<void()> each_frame;  // empty: nobody watches
   Drawing drawing;

@@ -57,6 +57,7 @@ void Environment::Impl::copy_reset(const ResetEnd& end) {
   play.paddles = end.paddles;
   play.held = {};
   play.rewards = {};
+  raw_rewards = {};
   play.ram_is_stale = 0;
   blend_is_due = true;
 }
@@ -69,6 +70,7 @@ void Environment::Impl::run_reset() {
   soft_reset();
   for (const int action : game->starting_actions) run_frames(action, 1);
   play.rewards = {};
+  raw_rewards = {};
 }
 
 void Environment::Impl::run_frames(int action, int count) {

@@ -133,10 +133,9 @@ void check_words(std::string_view text) {
     require(!word.empty() && word.find(' ') == std::string_view::npos, "a word has no blanks");
     may_refuse([&] {
       const Action action = parse_action(word, {"a game", 0x3FFFF});
-      require(action.a >= 0 && action.a < 18 && action.b >= 18 && action.b < 36,
-              "actions are those of the players");
-      require(action.strength_a >= 0 && action.strength_a <= 1 && action.strength_b >= 0 &&
-                  action.strength_b <= 1,
+      const Act& act = action.act;
+      require(act.a >= 0 && act.a < 18 && act.b >= 18 && act.b < 36, "actions are those of the players");
+      require(act.strength_a >= 0 && act.strength_a <= 1 && act.strength_b >= 0 && act.strength_b <= 1,
               "strengths are 0 to 1");
       require(action.times >= 1, "an action is played at least once");
     });

@@ -35,10 +35,13 @@ std::string crc(const std::vector<std::uint8_t>& bytes) {
 
 BatchSettings batch_settings(const MachineOptions& machine, const BatchBenchOptions& options) {
   BatchSettings settings;
-  settings.machine = machine.settings;
-  settings.mode = machine.mode;
-  settings.difficulty = machine.difficulty;
-  settings.frame_skip = machine.settings.frame_skip;
+  const Settings defaults = settings.slot.machine;
+  settings.slot.machine = machine.settings;
+  settings.slot.machine.max_episode_frames = defaults.max_episode_frames;
+  settings.slot.machine.reward_min = defaults.reward_min;
+  settings.slot.machine.reward_max = defaults.reward_max;
+  settings.slot.mode = machine.mode;
+  settings.slot.difficulty = machine.difficulty;
   settings.threads = static_cast<unsigned>(options.threads);
   if (options.same_step) settings.autoreset = Autoreset::kSameStep;
   return settings;
@@ -69,25 +72,27 @@ nlohmann::ordered_json time_batch(const Cartridge& cartridge, const MachineOptio
   const auto count = static_cast<std::size_t>(options.machines);
   const double memory_before = resident_bytes();
   Batch batch(std::vector<Cartridge>(count, cartridge), settings);
+  BatchResults results = batch.make_results();
+  const int frame_skip = settings.slot.machine.frame_skip;
 
   Dealer dealer(actions, batch.actions(0).size());
   std::vector<int> dealt(count);
-  const int steps = std::max(1, frames / (options.machines * settings.frame_skip));
+  const int steps = std::max(1, frames / (options.machines * frame_skip));
   int resets = 0;
   const double wall = wall_seconds(), cpu = cpu_seconds();
   for (int step = 0; step < steps; ++step) {
     dealer.deal(dealt);
-    batch.step(dealt);
-    resets += static_cast<int>(std::ranges::count(batch.results().finished, 1));
+    batch.step(dealt, results.arrays());
+    resets += static_cast<int>(std::ranges::count(results.finished, 1));
   }
   const double wall_used = wall_seconds() - wall, cpu_used = cpu_seconds() - cpu;
   const double memory = resident_bytes() - memory_before;
-  const double run = static_cast<double>(steps) * options.machines * settings.frame_skip;
+  const double run = static_cast<double>(steps) * options.machines * frame_skip;
   return {
       {"game", cartridge.game->name},
       {"machines", options.machines},
       {"threads", options.threads},
-      {"frame_skip", settings.frame_skip},
+      {"frame_skip", frame_skip},
       {"steps", steps},
       {"frames", run},
       {"seconds", wall_used},
@@ -96,8 +101,8 @@ nlohmann::ordered_json time_batch(const Cartridge& cartridge, const MachineOptio
       {"frames_per_cpu_second", run / cpu_used},
       {"episodes_ended", resets},
       {"resident_bytes_per_machine", memory / options.machines},
-      {"observation_crc", crc(batch.results().observations)},
-      {"ram_crc", crc(batch.results().ram)},
+      {"observation_crc", crc(results.observations)},
+      {"ram_crc", crc(results.ram)},
   };
 }
 

@@ -13,9 +13,9 @@ namespace {
 constexpr int kBranches = 500, kFrames = 300;
 constexpr int kFramesBefore = 600;
 
-std::vector<std::vector<BranchAct>> random_branches(const std::vector<int>& legal, int acts) {
+std::vector<std::vector<Act>> random_branches(const std::vector<int>& legal, int acts) {
   std::mt19937 random{1};
-  std::vector<std::vector<BranchAct>> branches(kBranches);
+  std::vector<std::vector<Act>> branches(kBranches);
   for (auto& branch : branches) {
     for (int act = 0; act < acts; ++act) branch.push_back({.a = legal[random() % legal.size()]});
   }

@@ -11,10 +11,10 @@
 
 #include "cli/commands/serve_options.hpp"
 #include "emulator/translator/translator.hpp"
+#include "environment/vector/thread_pool.hpp"
 #include "recording/recorder.hpp"
 #include "server/operation/log.hpp"
 #include "server/operation/ready_file.hpp"
-#include "server/scheduling/workers.hpp"
 #include "server/server.hpp"
 #include "system/resources.hpp"
 
@@ -73,7 +73,7 @@ ClassicService classic_service(const ServeOptions& options) {
   return {power_on_one, options.protocol, nullptr};
 }
 
-LineService line_service(const ServeOptions& options, Workers& workers) {
+LineService line_service(const ServeOptions& options, ThreadPool& pool) {
   const auto images = std::make_shared<Images>();
   if (!options.machine.rom.empty())
     images->add_file(options.machine.rom, options.machine.game, options.machine.game_file);
@@ -89,8 +89,8 @@ LineService line_service(const ServeOptions& options, Workers& workers) {
   service.cpu = options.machine.settings.cpu;
   service.strict = options.strict;
   service.report_fault = [](const std::string& sentence) { log(LogLevel::kError, sentence); };
-  service.parallel = [&workers](std::size_t count, const std::function<void(std::size_t)>& task) {
-    workers.run(count, task);
+  service.parallel = [&pool](std::size_t count, const std::function<void(std::size_t)>& task) {
+    pool.run(count, task);
   };
   return service;
 }
@@ -132,11 +132,11 @@ void limit_memory(Services& services, std::uint64_t most) {
 }
 
 int serve(const ServeOptions& options) {
-  Workers workers(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1,
+  ThreadPool pool(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1,
                   options.server.busy_poll);
   Services services;
   if (serves(options, true)) services.classic = classic_service(options);
-  if (serves(options, false)) services.line = line_service(options, workers);
+  if (serves(options, false)) services.line = line_service(options, pool);
   limit_memory(services, options.server.max_memory);
   return serve(options.server, services);
 }

@@ -13,6 +13,7 @@ raised as Refused, with .code and .sentence; the session goes on.
 """
 
 import base64
+import re
 import socket
 import subprocess
 import zlib
@@ -176,8 +177,8 @@ class Session:
         return {"ram": 128, "palette": 768, "audio": 512, "screen": 160 * self.height, "grey": 160 * self.height,
                 "rgb": 480 * self.height}[field]
 
-    def _shown(self, *words):
-        return self.decoded(self.ask(*words)[0])
+    def _shown(self, *words, **settings):
+        return self.decoded(self.ask(*words, **settings)[0])
 
     def _machines(self, *words, **settings):
         return [self.decoded(texts, machine) for machine, texts in enumerate(self.ask(*words, **settings)[1:], 1)]
@@ -185,7 +186,7 @@ class Session:
     @staticmethod
     def _encodings(fields):
         pairs = [field.partition(":") for field in fields]
-        usual = {name: USUAL_ENCODING.get(name, "zlib" if name.startswith("grey84") else None) for name, _, _ in pairs}
+        usual = {name: USUAL_ENCODING.get(name, "zlib" if re.match(r"(grey|rgb)\d", name) else None) for name, _, _ in pairs}
         return {name: encoding or usual[name] for name, _, encoding in pairs if encoding or usual[name]}
 
     # Commands
@@ -246,8 +247,8 @@ class Session:
     def act(self, *actions):
         return self._shown("act", *actions)
 
-    def reset(self):
-        return self._shown("reset")
+    def reset(self, seed=None):
+        return self._shown("reset", **({} if seed is None else {"seed": seed}))
 
     def peek(self, index, count=1):
         return bytes.fromhex(self.ask("peek", index, count)[0]["bytes"])
@@ -282,15 +283,15 @@ class Session:
             results.append({key: decode_rewards(text) if key.startswith("rewards") else number(text) for key, text in texts.items()})
         return results
 
-    def open(self, count, autoreset="next-step"):
+    def open(self, count, autoreset="next-step", **settings):
         self.arrays.clear()
-        return self._machines("open", count, autoreset=autoreset)
+        return self._machines("open", count, autoreset=autoreset, **settings)
 
     def step(self, *actions):
         return self._machines("step", *actions)
 
-    def restart(self, *mask):
-        return self._machines("restart", *mask)
+    def restart(self, *mask, seed=None):
+        return self._machines("restart", *mask, **({} if seed is None else {"seed": seed}))
 
     def close(self):
         self.ask("close")

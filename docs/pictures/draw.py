@@ -61,7 +61,7 @@ THREADS = {
         "loops": (1, 0, 1, "event loops", ["--threads of them;", "a connection stays on one"], "code"),
         "streams": (2, 0, 1, "stream threads", ["one for each session", "on stdio or pipes"], "code"),
         "session": (1, 1, 1, "session", ["each request on a fiber,", "in slices of 2 ms"], "outside"),
-        "workers": (0, 2, 1, "workers", ["step the machines of open,", "each thread the same ones"], "code"),
+        "pool": (0, 2, 1, "thread pool", ["step the machines of open,", "each thread the same ones"], "code"),
         "log": (1, 2, 1, "log thread", ["if the log is a file;", "1,024 lines may wait"], "code"),
         "recorder": (2, 2, 1, "recorder: 2 threads", ["encode and write", "from short queues"], "code"),
         "code": (0, 3, 1, "translated code", ["one lock for each image;", "only grows"], "data"),
@@ -69,7 +69,7 @@ THREADS = {
         "meters": (2, 3, 1, "meters", ["one for each loop: no lock;", "summed for --http"], "data"),
     },
     "arrows": [("first", "loops", "accepts"), ("loops", "session", ""), ("streams", "session", ""),
-               ("session", "workers", "step"), ("session", "log", "lines"), ("session", "recorder", "frames")],
+               ("session", "pool", "step"), ("session", "log", "lines"), ("session", "recorder", "frames")],
 }
 
 STATE = {

@@ -4,6 +4,10 @@
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <tuple>
+
+#include "environment/environment.hpp"
+#include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
@@ -12,65 +16,86 @@ constexpr std::size_t kRow = kScreenWidth;
 
 bool same_row(const std::uint8_t* a, const std::uint8_t* b) { return std::memcmp(a, b, kRow) == 0; }
 
-// Rows that repeat are common: they are copied.
-template <typename Same, typename Make>
-void make_rows(std::span<std::uint8_t> grey, Same same_as_above, Make make_row) {
-  for (std::size_t at = 0; at < grey.size(); at += kRow) {
+// Eight pixels of each of the pictures that a plane is made of, and what they give.
+template <std::size_t pictures>
+struct Octet {
+  std::array<std::uint64_t, pictures> pixels{};
+  std::uint64_t bytes = 0;
+};
+
+// Rows that repeat are common: they are copied. So are eight pixels that repeat: most of a row is background.
+template <std::size_t pictures>
+void make_rows(const std::array<const std::uint8_t*, pictures>& in, const BrightnessTable& table,
+               std::span<std::uint8_t> plane) {
+  const auto same_as_above = [&in](std::size_t at) {
+    return std::ranges::all_of(in, [at](const std::uint8_t* picture) { return same_row(picture + at, picture + at - kRow); });
+  };
+  const auto brightest = [&](std::size_t at) {
+    std::uint8_t most = table[in[0][at]];
+    if constexpr (pictures == 2) most = std::max(most, table[in[1][at]]);
+    return most;
+  };
+  Octet<pictures> last;
+  for (std::size_t i = 0; i < 8; ++i) last.bytes = last.bytes << 8 | table[0];
+  for (std::size_t at = 0; at < plane.size(); at += kRow) {
     if (at > 0 && same_as_above(at)) {
-      std::memcpy(&grey[at], &grey[at - kRow], kRow);
-    } else {
-      make_row(at);
+      std::memcpy(&plane[at], &plane[at - kRow], kRow);
+      continue;
+    }
+    for (std::size_t x = at; x < at + kRow; x += 8) {
+      Octet<pictures> octet;
+      for (std::size_t i = 0; i < pictures; ++i) std::memcpy(&octet.pixels[i], in[i] + x, 8);
+      if (octet.pixels != last.pixels) {
+        std::array<std::uint8_t, 8> bytes;
+        for (std::size_t i = 0; i < 8; ++i) bytes[i] = brightest(x + i);
+        std::memcpy(&octet.bytes, bytes.data(), 8);
+        last = octet;
+      }
+      std::memcpy(&plane[x], &last.bytes, 8);
     }
   }
 }
 
+std::array<BrightnessTable, 3> make_colour_tables(Format format) {
+  std::array<BrightnessTable, 3> tables{};
+  const Palette& colours = palette(format);
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    tables[0][i] = colours[i].r;
+    tables[1][i] = colours[i].g;
+    tables[2][i] = colours[i].b;
+  }
+  return tables;
+}
+
 }  // namespace
 
-void make_grey(std::span<const std::uint8_t> screen, const GreyTable& table, std::span<std::uint8_t> grey) {
-  const std::uint8_t* const in = screen.data();
-  make_rows(
-      grey, [&](std::size_t at) { return same_row(in + at, in + at - kRow); },
-      [&](std::size_t at) {
-        for (std::size_t x = at; x < at + kRow; ++x) grey[x] = table[in[x]];
-      });
+const std::array<BrightnessTable, 3>& colour_tables(Format format) {
+  static const std::array<std::array<BrightnessTable, 3>, 4> all = {
+      make_colour_tables(Format::kNtsc), make_colour_tables(Format::kPal), make_colour_tables(Format::kPal60),
+      make_colour_tables(Format::kSecam)};
+  switch (format) {
+    case Format::kPal: return all[1];
+    case Format::kPal60: return all[2];
+    case Format::kSecam: return all[3];
+    default: return all[0];
+  }
 }
 
-void make_brighter_grey(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
-                        const GreyTable& table, std::span<std::uint8_t> grey) {
-  const std::uint8_t *const a = screen.data(), *const b = previous.data();
-  make_rows(
-      grey,
-      [&](std::size_t at) { return same_row(a + at, a + at - kRow) && same_row(b + at, b + at - kRow); },
-      [&](std::size_t at) {
-        for (std::size_t x = at; x < at + kRow; ++x) grey[x] = std::max(table[a[x]], table[b[x]]);
-      });
+void make_plane(std::span<const std::uint8_t> screen, const BrightnessTable& table,
+                std::span<std::uint8_t> plane) {
+  make_rows<1>({screen.data()}, table, plane);
 }
 
-const AreaResize& small_screen_maker(int height) {
+void make_brighter_plane(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
+                         const BrightnessTable& table, std::span<std::uint8_t> plane) {
+  make_rows<2>({screen.data(), previous.data()}, table, plane);
+}
+
+const AreaResize& screen_resize(int height, int to_width, int to_height) {
   static std::mutex mutex;
-  static std::map<int, AreaResize> all;
+  static std::map<std::tuple<int, int, int>, AreaResize> all;
   const std::lock_guard lock(mutex);
-  return all.try_emplace(height, kScreenWidth, height, kSmallSide, kSmallSide).first->second;
-}
-
-SmallScreens::SmallScreens(int depth, int height)
-    : resize_(&small_screen_maker(height)),
-      bytes_(static_cast<std::size_t>(depth) * kSmallSize) {}
-
-void SmallScreens::clear() { std::ranges::fill(bytes_, std::uint8_t{0}); }
-
-void SmallScreens::push(const Environment& environment, bool pooled) {
-  const auto screen = environment.screen();
-  const GreyTable& table = grey_table(environment.format());
-  grey_.resize(screen.size());
-  pooled ? make_brighter_grey(screen, environment.previous_screen(), table, grey_)
-         : make_grey(screen, table, grey_);
-  std::shift_left(bytes_.begin(), bytes_.end(), kSmallSize);
-  (*resize_)(grey_, std::span(bytes_).last(kSmallSize));
-}
-
-void SmallScreens::set_bytes(std::span<const std::uint8_t> bytes) {
-  std::ranges::copy(bytes, bytes_.begin());
+  return all.try_emplace({height, to_width, to_height}, kScreenWidth, height, to_width, to_height).first->second;
 }
 
 }  // namespace racebeam

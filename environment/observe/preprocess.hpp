@@ -1,48 +1,31 @@
-// Screens as learning agents take them: small, grey, the brighter of two frames, several in a stack
-// (docs/spec/environment.md, 15; the figures of OpenCV's INTER_AREA).
+// Pictures of palette indices as planes of brightness, alone or the brighter of two, and the tables that make a
+// plane smaller (docs/spec/environment.md, 15).
 #pragma once
 
-#include <cstddef>
+#include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "emulator/tia/palette.hpp"
-#include "environment/environment.hpp"
 #include "environment/observe/area_resize.hpp"
 
 namespace racebeam {
 
-constexpr int kSmallSide = 84;
-constexpr std::size_t kSmallSize = std::size_t{kSmallSide} * kSmallSide;
+// One byte of brightness for each palette index: a grey_table(), or one of colour_tables().
+using BrightnessTable = GreyTable;
 
-// The grey of a picture of palette indices, or, of each pixel, the brighter grey of two. All spans are equally
-// long, and a whole number of rows of 160.
-void make_grey(std::span<const std::uint8_t> screen, const GreyTable& table, std::span<std::uint8_t> grey);
-void make_brighter_grey(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
-                        const GreyTable& table, std::span<std::uint8_t> grey);
+// Red, green and blue of each palette index.
+const std::array<BrightnessTable, 3>& colour_tables(Format format);
 
-// Makes a screen of so many rows 84 x 84. One for all: it lives on.
-const AreaResize& small_screen_maker(int height);
+// A plane of a picture of palette indices, or, of each pixel, the brighter of two pictures. All spans are
+// equally long, and a whole number of rows of 160.
+void make_plane(std::span<const std::uint8_t> screen, const BrightnessTable& table,
+                std::span<std::uint8_t> plane);
+void make_brighter_plane(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
+                         const BrightnessTable& table, std::span<std::uint8_t> plane);
 
-// The last `depth` screens of an environment, made small, oldest first; those that are not there yet are
-// zero.
-class SmallScreens {
- public:
-  SmallScreens(int depth, int height);
-
-  void clear();
-
-  // Adds what `environment` shows. pooled: of each pixel, the brighter grey of its last two frames.
-  void push(const Environment& environment, bool pooled);
-
-  int depth() const { return static_cast<int>(bytes_.size() / kSmallSize); }
-  std::span<const std::uint8_t> bytes() const { return bytes_; }  // depth x 84 x 84
-  void set_bytes(std::span<const std::uint8_t> bytes);            // as bytes() gave them
-
- private:
-  const AreaResize* resize_;
-  std::vector<std::uint8_t> grey_, bytes_;
-};
+// Reduces a plane of 160 x height. Made when first asked for, and shared by the process. Throws InvalidInput
+// for a size that it can't make; see AreaResize.
+const AreaResize& screen_resize(int height, int to_width, int to_height);
 
 }  // namespace racebeam

@@ -1,94 +1,260 @@
 #include "environment/vector/batch.hpp"
 
 #include <algorithm>
-#include <exception>
-#include <optional>
-#include <stdexcept>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <numeric>
 #include <string>
+#include <utility>
 
-#include "environment/vector/lane.hpp"
 #include "environment/vector/thread_pool.hpp"
+#include "games/game/actions.hpp"
+#include "system/invalid_input.hpp"
+#include "system/resources.hpp"
 
 namespace racebeam {
 namespace {
 
 void refuse_unless(bool good, const std::string& sentence) {
-  if (!good) throw std::invalid_argument(sentence);
+  if (!good) throw InvalidInput(sentence);
 }
 
-const BatchSettings& checked(const BatchSettings& settings) {
-  refuse_unless(settings.frame_skip >= 1, "a step has " + std::to_string(settings.frame_skip) +
-                                              " frames; it must have 1 or more");
-  refuse_unless(settings.stack >= 0, "the stack has " + std::to_string(settings.stack) +
-                                         " screens; it must have 0 or more");
-  refuse_unless(!settings.machine.color_averaging, "a batch has no colour averaging; it takes max_pool");
-  return settings;
+std::string count_of(std::size_t count, const std::string& what) { return std::to_string(count) + ' ' + what; }
+
+void check_count(std::size_t given, const std::string& what, std::size_t machines) {
+  refuse_unless(given == machines,
+                "there are " + count_of(given, what) + " for " + count_of(machines, "machines"));
+}
+
+void check_act(const Act& act) {
+  refuse_unless(act.a >= 0 && act.a < kActions, "player A has no action " + std::to_string(act.a) + "; there are 0 to 17");
+  refuse_unless(act.b >= kActions && act.b < 2 * kActions,
+                "player B has no action " + std::to_string(act.b) + "; there are 18 to 35");
+  refuse_unless(!std::isnan(act.strength_a) && !std::isnan(act.strength_b), "the strength of a paddle is not a number");
+}
+
+// Bytes of a machine that has played, beside its stack and results; measured (docs/performance.md).
+constexpr std::size_t kMachine = std::size_t{240} << 10;
+
+// Before any memory is taken: a system that promises more than it has ends the process later.
+std::size_t checked_size(std::size_t machines, const BatchSettings& settings) {
+  refuse_unless(machines > 0, "there are 0 machines; there must be 1 or more");
+  refuse_unless(settings.batch_size <= machines, "batch_size is " + std::to_string(settings.batch_size) +
+                                                     "; it takes 1 to " + std::to_string(machines) +
+                                                     ", or 0 for all machines");
+  const StackSettings& stack = settings.stack;
+  refuse_unless(stack.depth >= 0, "the stack has " + std::to_string(stack.depth) +
+                                      " screens; it must have 0 or more");
+  const std::uint64_t bytes = machines * kMachine, all = usable_memory().amount;
+  refuse_unless(bytes <= all, count_of(machines, "machines") + " take about " +
+                                  count_of(bytes >> 20, "MiB; this process may use ") +
+                                  count_of(all >> 20, "MiB"));
+  return settings.batch_size == 0 ? machines : settings.batch_size;
+}
+
+template <typename T>
+void put(std::span<T> array, std::size_t position, std::int64_t value) {
+  if (!array.empty()) array[position] = static_cast<T>(value);
 }
 
 }  // namespace
 
-struct Batch::Impl {
-  Impl(std::span<const Cartridge> cartridges, const BatchSettings& given);
+BatchArrays BatchResults::arrays() {
+  return {observations, final_observations, screens,    ram,      rewards,   rewards_b, raw_rewards,    raw_rewards_b,
+          terminated,   truncated,          finished,   game_over, lives,    frames,    episode_frames, numbers};
+}
 
-  void open(std::span<const Cartridge> cartridges);
-  void make_room();
-  void reset(std::size_t machine) { lanes[machine]->reset(results); }
-  void check(std::span<const int> actions) const;
+struct Batch::Impl final : VectorHost {
+  Impl(std::span<const Cartridge> cartridges, const BatchSettings& given)
+      : settings(given),
+        batch_size(checked_size(cartridges.size(), given)),
+        pool(given.threads, given.busy_poll, given.first_processor),
+        finals(cartridges.size()),
+        vector(cartridges, given.slot, given.autoreset, *this),
+        playing(vector.size()),
+        jobs(vector.size()),
+        queue(pool, [this](std::size_t number) { play(number); }) {
+    height = 0;
+    for (std::size_t number = 0; number < vector.size(); ++number)
+      height = std::max(height, vector.slot(number).environment().height());
+    done.reserve(vector.size());
+  }
+
+  // VectorHost
+  void run_all(std::size_t count, const std::function<void(std::size_t)>& task) override { pool.run(count, task); }
+  void opened(std::size_t, Slot& slot) override {
+    slot.set_drawing(settings.screens ? Drawing::kLast : Drawing::kNone);
+    slot.set_stack(settings.stack);
+  }
+  void ended(std::size_t number, const Slot& slot) override {
+    if (slot.stack() == nullptr) return;
+    if (out != nullptr) return put_stack(slot, out->final_observations, number);
+    finals[number].resize(observation_size());
+    put_stack(slot, finals[number], 0);
+  }
+  void shown(std::size_t number, const Slot&) override {
+    if (out != nullptr) write(number, number, *out);
+  }
+
+  std::size_t screen_size() const;  // of a stack, with the zeros behind lower ones
+  std::size_t observation_size() const { return static_cast<std::size_t>(settings.stack.depth) * screen_size(); }
+  void put_stack(const Slot& slot, std::span<std::uint8_t> observations, std::size_t position) const;
+  void write(std::size_t number, std::size_t position, const BatchArrays& arrays) const;
+
+  std::span<const Act> acts_of(std::span<const int> actions, auto machine_of);
+  void check_free() const;
+  void check_machines(std::span<const std::int32_t> machines) const;
+  void begin(std::span<const std::size_t> numbers);
+  void play(std::size_t number);
+  std::span<const std::size_t> await_batch();
+
+  struct Job {
+    Act act;
+    bool resets = false;
+    std::int64_t seed = -1;
+    std::exception_ptr failure;
+  };
+
+  // Sets where results go while a request runs.
+  struct Output {
+    Output(Impl& of, const BatchArrays& arrays) : impl(of) { impl.out = &arrays; }
+    ~Output() { impl.out = nullptr; }
+    Impl& impl;
+  };
 
   const BatchSettings settings;
-  ThreadPool threads;
-  std::vector<std::unique_ptr<Lane>> lanes;
-  BatchResults results;
+  const std::size_t batch_size;
+  ThreadPool pool;
+  const BatchArrays* out = nullptr;  // null: nowhere
   int height = 0;
+  std::vector<std::vector<std::uint8_t>> finals;  // by machine, from the end of an episode to receive()
+  VectorEnvironment vector;
+
+  std::vector<Act> acts;              // of a request; kept for their memory
+  std::vector<std::uint8_t> playing;  // by machine: from send() to receive()
+  std::vector<Job> jobs;
+  std::vector<std::size_t> received;
+  std::mutex mutex;
+  std::condition_variable one_is_done;
+  std::vector<std::size_t> done;  // under the mutex
+  ThreadPool::Queue queue;        // the last, so that it goes first
 };
 
-Batch::Impl::Impl(std::span<const Cartridge> cartridges, const BatchSettings& given)
-    : settings(checked(given)), threads(settings.threads) {
-  open(cartridges);
-  make_room();
-  threads.run(lanes.size(), [this](std::size_t machine) { reset(machine); });
+std::size_t Batch::Impl::screen_size() const {
+  const StackSettings& stack = settings.stack;
+  const int rows = stack.height == 0 ? height : stack.height;
+  const int columns = stack.width == 0 ? kScreenWidth : stack.width;
+  return static_cast<std::size_t>(rows * columns * stack.channels());
 }
 
-// The first error of any machine is everybody's.
-void Batch::Impl::open(std::span<const Cartridge> cartridges) {
-  lanes.resize(cartridges.size());
-  std::vector<std::exception_ptr> errors(cartridges.size());
-  threads.run(lanes.size(), [&](std::size_t machine) {
-    try {
-      lanes[machine] = std::make_unique<Lane>(cartridges[machine], settings, machine);
-    } catch (...) {
-      errors[machine] = std::current_exception();
-    }
-  });
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
-  for (const auto& lane : lanes) height = std::max(height, lane->environment().height());
+void Batch::Impl::put_stack(const Slot& slot, std::span<std::uint8_t> observations, std::size_t position) const {
+  if (observations.empty()) return;
+  const std::size_t stride = screen_size(), size = observation_size();
+  const auto own = observations.subspan(position * size, size);
+  const ScreenStack& stack = *slot.stack();
+  stack.copy_to(own, stride);
+  if (stack.screen_size() == stride) return;
+  for (std::size_t at = 0; at < own.size(); at += stride)
+    std::ranges::fill(own.subspan(at + stack.screen_size(), stride - stack.screen_size()), std::uint8_t{0});
 }
 
-void Batch::Impl::make_room() {
-  const std::size_t count = lanes.size(), stack = static_cast<std::size_t>(settings.stack) * kSmallSize;
-  results.observations.resize(count * stack);
-  if (settings.autoreset == Autoreset::kSameStep) results.final_observations.resize(count * stack);
-  if (settings.screens) results.screens.resize(count * static_cast<std::size_t>(height) * kScreenWidth);
-  results.ram.resize(count * kRamSize);
-  for (auto* numbers : {&results.rewards, &results.lives, &results.frames, &results.episode_frames})
-    numbers->resize(count);
-  for (auto* flags : {&results.terminated, &results.truncated, &results.finished}) flags->resize(count);
+void Batch::Impl::write(std::size_t number, std::size_t position, const BatchArrays& arrays) const {
+  const Slot& slot = vector.slot(number);
+  const Environment& environment = slot.environment();
+  const Outcome& outcome = slot.outcome();
+  put(arrays.rewards, position, outcome.reward);
+  put(arrays.rewards_b, position, outcome.reward_b);
+  put(arrays.raw_rewards, position, outcome.raw_reward);
+  put(arrays.raw_rewards_b, position, outcome.raw_reward_b);
+  put(arrays.terminated, position, outcome.terminated);
+  put(arrays.truncated, position, outcome.truncated);
+  put(arrays.finished, position, outcome.finished);
+  put(arrays.game_over, position, outcome.game_over);
+  put(arrays.lives, position, environment.lives());
+  put(arrays.frames, position, environment.frame_number());
+  put(arrays.episode_frames, position, environment.episode_frame_number());
+  put(arrays.numbers, position, static_cast<std::int64_t>(number));
+  if (!arrays.ram.empty()) std::ranges::copy(environment.ram(), &arrays.ram[position * kRamSize]);
+  if (slot.stack() != nullptr) put_stack(slot, arrays.observations, position);
+  if (arrays.screens.empty()) return;
+  const auto room = static_cast<std::size_t>(height) * kScreenWidth;
+  const auto own = arrays.screens.subspan(position * room, room);
+  const auto rest = std::ranges::copy(environment.screen(), own.begin()).out;
+  std::fill(rest, own.end(), std::uint8_t{0});
 }
 
-void Batch::Impl::check(std::span<const int> actions) const {
-  if (actions.size() != lanes.size()) {
-    throw std::invalid_argument("there are " + std::to_string(actions.size()) + " actions for " +
-                                std::to_string(lanes.size()) + " machines");
+std::span<const Act> Batch::Impl::acts_of(std::span<const int> actions, auto machine_of) {
+  acts.clear();
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    const std::size_t machine = machine_of(i);
+    const std::vector<int>& all = vector.slot(machine).actions();
+    refuse_unless(actions[i] >= 0 && static_cast<std::size_t>(actions[i]) < all.size(),
+                  "machine " + std::to_string(machine) + " has no action " + std::to_string(actions[i]) +
+                      "; it takes 0 to " + std::to_string(all.size() - 1));
+    acts.push_back({.a = all[static_cast<std::size_t>(actions[i])]});
   }
-  for (std::size_t machine = 0; machine < lanes.size(); ++machine) {
-    const std::size_t count = lanes[machine]->actions().size();
-    if (actions[machine] >= 0 && static_cast<std::size_t>(actions[machine]) < count) continue;
-    throw std::invalid_argument("machine " + std::to_string(machine) + " has no action " +
-                                std::to_string(actions[machine]) + "; it takes 0 to " +
-                                std::to_string(count - 1));
+  return acts;
+}
+
+void Batch::Impl::check_free() const {
+  const auto busy = std::ranges::count(playing, 1);
+  refuse_unless(busy == 0, count_of(static_cast<std::size_t>(busy), "machines play; receive them first"));
+}
+
+void Batch::Impl::check_machines(std::span<const std::int32_t> machines) const {
+  std::vector<std::uint8_t> taken = playing;
+  for (const std::int32_t machine : machines) {
+    const bool is_there = machine >= 0 && static_cast<std::size_t>(machine) < taken.size();
+    refuse_unless(is_there, "there is no machine " + std::to_string(machine) + "; there are 0 to " +
+                                std::to_string(taken.size() - 1));
+    refuse_unless(std::exchange(taken[static_cast<std::size_t>(machine)], std::uint8_t{1}) == 0,
+                  "machine " + std::to_string(machine) + " plays already; receive it first");
   }
+}
+
+void Batch::Impl::begin(std::span<const std::size_t> numbers) {
+  for (const std::size_t number : numbers) playing[number] = 1;
+  queue.push(numbers);
+}
+
+// On any thread.
+void Batch::Impl::play(std::size_t number) {
+  Job& job = jobs[number];
+  try {
+    finals[number].clear();
+    job.resets ? vector.reset_one(number, job.seed) : vector.step_one(number, job.act);
+  } catch (const std::exception&) {
+    job.failure = std::current_exception();
+  }
+  {
+    const std::lock_guard lock(mutex);
+    done.push_back(number);
+  }
+  one_is_done.notify_one();
+}
+
+// The caller's thread helps.
+std::span<const std::size_t> Batch::Impl::await_batch() {
+  const auto busy = static_cast<std::size_t>(std::ranges::count(playing, 1));
+  refuse_unless(busy >= batch_size, count_of(busy, "machines play, and a receive takes ") +
+                                        std::to_string(batch_size) + "; send some first");
+  const auto enough = [this] { return done.size() >= batch_size; };
+  for (;;) {
+    std::unique_lock lock(mutex);
+    if (enough()) break;
+    lock.unlock();
+    if (queue.work_once()) continue;
+    lock.lock();
+    one_is_done.wait(lock, enough);
+    break;
+  }
+  const std::lock_guard lock(mutex);
+  const auto end = done.begin() + static_cast<std::ptrdiff_t>(batch_size);
+  received.assign(done.begin(), end);
+  done.erase(done.begin(), end);
+  for (const std::size_t number : received) playing[number] = 0;
+  return received;
 }
 
 Batch::Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings)
@@ -98,30 +264,91 @@ Batch::~Batch() = default;
 Batch::Batch(Batch&&) noexcept = default;
 Batch& Batch::operator=(Batch&&) noexcept = default;
 
-std::size_t Batch::size() const { return impl_->lanes.size(); }
+std::size_t Batch::size() const { return impl_->vector.size(); }
+std::size_t Batch::batch_size() const { return impl_->batch_size; }
 int Batch::height() const { return impl_->height; }
+std::size_t Batch::observation_size() const { return impl_->observation_size(); }
+unsigned Batch::threads() const { return impl_->pool.threads(); }
+Slot& Batch::slot(std::size_t machine) { return impl_->vector.slot(machine); }
 const std::vector<int>& Batch::actions(std::size_t machine) const {
-  return impl_->lanes.at(machine)->actions();
-}
-const BatchResults& Batch::results() const { return impl_->results; }
-
-void Batch::step(std::span<const int> actions) {
-  impl_->check(actions);
-  impl_->threads.run(size(), [this, actions](std::size_t machine) {
-    impl_->lanes[machine]->step(actions[machine], impl_->results);
-  });
+  return impl_->vector.slot(machine).actions();
 }
 
-void Batch::reset() {
-  impl_->threads.run(size(), [this](std::size_t machine) { impl_->reset(machine); });
+BatchResults Batch::make_results() const {
+  const std::size_t count = batch_size();
+  BatchResults results;
+  results.observations.resize(count * observation_size());
+  if (impl_->settings.autoreset == Autoreset::kSameStep) results.final_observations.resize(count * observation_size());
+  if (impl_->settings.screens) results.screens.resize(count * static_cast<std::size_t>(height()) * kScreenWidth);
+  results.ram.resize(count * kRamSize);
+  for (auto* numbers : {&results.rewards, &results.rewards_b, &results.raw_rewards, &results.raw_rewards_b, &results.lives,
+                        &results.frames, &results.episode_frames, &results.numbers})
+    numbers->resize(count);
+  for (auto* flags : {&results.terminated, &results.truncated, &results.finished, &results.game_over})
+    flags->resize(count);
+  return results;
 }
 
-void Batch::reset(std::span<const std::uint8_t> chosen) {
-  refuse_unless(chosen.size() == size(), "there are " + std::to_string(chosen.size()) + " choices for " +
-                                             std::to_string(size()) + " machines");
-  impl_->threads.run(size(), [this, chosen](std::size_t machine) {
-    if (chosen[machine] != 0) impl_->reset(machine);
-  });
+void Batch::step(std::span<const Act> acts, const BatchArrays& out) {
+  check_count(acts.size(), "actions", size());
+  for (const Act& act : acts) check_act(act);
+  impl_->check_free();
+  const Impl::Output output(*impl_, out);
+  impl_->vector.step(acts);
+}
+
+void Batch::step(std::span<const int> actions, const BatchArrays& out) {
+  check_count(actions.size(), "actions", size());
+  step(impl_->acts_of(actions, [](std::size_t i) { return i; }), out);
+}
+
+void Batch::reset(const BatchArrays& out, std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds) {
+  if (!chosen.empty()) check_count(chosen.size(), "choices", size());
+  if (!seeds.empty()) check_count(seeds.size(), "seeds", size());
+  impl_->check_free();
+  const Impl::Output output(*impl_, out);
+  impl_->vector.reset(chosen, seeds);
+}
+
+void Batch::show(const BatchArrays& out) const {
+  impl_->check_free();
+  for (std::size_t number = 0; number < size(); ++number) impl_->write(number, number, out);
+}
+
+void Batch::send(std::span<const Act> acts, std::span<const std::int32_t> machines) {
+  check_count(acts.size(), "actions", machines.size());
+  for (const Act& act : acts) check_act(act);
+  impl_->check_machines(machines);
+  std::vector<std::size_t> numbers(machines.begin(), machines.end());
+  for (std::size_t i = 0; i < numbers.size(); ++i) impl_->jobs[numbers[i]] = {.act = acts[i], .failure = nullptr};
+  impl_->begin(numbers);
+}
+
+void Batch::send(std::span<const int> actions, std::span<const std::int32_t> machines) {
+  check_count(actions.size(), "actions", machines.size());
+  impl_->check_machines(machines);
+  send(impl_->acts_of(actions, [&](std::size_t i) { return static_cast<std::size_t>(machines[i]); }), machines);
+}
+
+void Batch::send_resets(std::span<const std::int64_t> seeds) {
+  if (!seeds.empty()) check_count(seeds.size(), "seeds", size());
+  impl_->check_free();
+  std::vector<std::size_t> numbers(size());
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  for (const std::size_t number : numbers)
+    impl_->jobs[number] = {.act = {}, .resets = true, .seed = seeds.empty() ? -1 : seeds[number], .failure = nullptr};
+  impl_->begin(numbers);
+}
+
+void Batch::receive(const BatchArrays& out) {
+  const auto numbers = impl_->await_batch();
+  for (std::size_t position = 0; position < numbers.size(); ++position) {
+    const std::size_t number = numbers[position];
+    if (impl_->jobs[number].failure) std::rethrow_exception(std::exchange(impl_->jobs[number].failure, nullptr));
+    impl_->write(number, position, out);
+    if (impl_->finals[number].empty() || out.final_observations.empty()) continue;
+    std::ranges::copy(impl_->finals[number], &out.final_observations[position * observation_size()]);
+  }
 }
 
 }  // namespace racebeam

@@ -1,80 +1,98 @@
-// Many machines, of one game or of several, stepped together on a few threads. With the defaults it shows what
-// ale_py.vector_env.AtariVectorEnv of ALE 0.12 shows, byte for byte (docs/spec/environment.md, 15), as
+// A vector environment on threads, whose results are arrays: what programs in the same process use. With the defaults it
+// shows what ale_py.vector_env.AtariVectorEnv of ALE 0.12 shows, byte for byte (docs/spec/environment.md, 15), as
 // tests/environment/vector/test_batch.py checks.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "environment/environment.hpp"
-#include "environment/vector/autoreset.hpp"
-#include "games/catalogue.hpp"
+#include "environment/vector/vector_environment.hpp"
 
 namespace racebeam {
 
 struct BatchSettings {
-  // Of all machines. random_seed is the first machine's; the n-th after it has n more. Not looked at are
-  // frame_skip and frame_skip_max, reward_min and reward_max, max_episode_frames and truncate_on_life_loss,
-  // for which there are others here. Colour averaging is refused.
-  Settings machine{.sticky = 0};
-  std::optional<int> mode, difficulty;  // the game's defaults if not given
-
-  int frame_skip = 4;               // frames of a step, at least 1
-  int max_episode_frames = 108000;  // of play, no-ops apart; 0: no limit
-  int noop_max = 30;                // an episode begins with 0 to noop_max - 1 frames of NOOP
-  bool fire_at_reset = true;        // and with FIRE before them, which counts as one, if the game has it
-  bool clip_rewards = true;         // to -1, 0, 1
-  bool life_loss_ends = false;      // a lost life terminates the episode (episodic_life)
-  bool life_loss_is_told = false;   // a lost life sets `terminated`; the episode goes on (life_loss_info)
-  bool all_legal_actions = false;   // actions are indices into the legal ones instead of the minimal ones
+  SlotSettings slot;
   Autoreset autoreset = Autoreset::kNextStep;
+  StackSettings stack;
+  bool screens = false;        // give out whole screens too
+  std::size_t batch_size = 0;  // machines whose results one receive() has; 0: all
 
-  int stack = 4;         // small screens of an observation, at least 1; 0: none are made
-  bool max_pool = true;  // small screens are of the brighter of the last two frames, pixel by pixel
-  bool screens = false;  // give out screens too
-  unsigned threads = 0;  // 0: one for each processor that the process may use
+  unsigned threads = 0;     // 0: one for each processor that the process may use
+  int first_processor = -1;  // ThreadPool's
+  std::chrono::microseconds busy_poll{50};
 };
 
-// One array each, the machines one after the other. Their memory stays where it is.
+// Where results go, the machines one after the other: memory of the caller. An empty array is not written.
+struct BatchArrays {
+  std::span<std::uint8_t> observations;  // machines x stack x height x width [x 3], oldest first
+  // The same of the episodes that ended, with Autoreset::kSameStep; the other machines' parts are not written.
+  std::span<std::uint8_t> final_observations;
+  std::span<std::uint8_t> screens;  // machines x tallest height x 160 palette indices
+  std::span<std::uint8_t> ram;      // machines x 128
+  std::span<std::int32_t> rewards, rewards_b, raw_rewards, raw_rewards_b;  // of players A and B
+  std::span<std::uint8_t> terminated, truncated;
+  std::span<std::uint8_t> finished;   // the episode is over: what Autoreset goes by
+  std::span<std::uint8_t> game_over;  // the game is, whatever lives and limits say
+  std::span<std::int32_t> lives, frames, episode_frames;  // as Environment counts them
+  std::span<std::int32_t> numbers;                        // of the machines
+};
+
+// Memory for all of them.
 struct BatchResults {
-  std::vector<std::uint8_t> observations;  // machines x stack x 84 x 84, grey, oldest first
-  std::vector<std::uint8_t> final_observations;  // the same, of ended episodes, with Autoreset::kSameStep only
-  std::vector<std::uint8_t> screens;  // machines x tallest height x 160 palette indices, if asked for
-  std::vector<std::uint8_t> ram;      // machines x 128
-  std::vector<std::int32_t> rewards;
-  std::vector<std::uint8_t> terminated, truncated;
-  std::vector<std::uint8_t> finished;  // the episode is over: what Autoreset goes by
-  std::vector<std::int32_t> lives, frames, episode_frames;  // as Environment counts them
+  std::vector<std::uint8_t> observations, final_observations, screens, ram;
+  std::vector<std::int32_t> rewards, rewards_b, raw_rewards, raw_rewards_b;
+  std::vector<std::uint8_t> terminated, truncated, finished, game_over;
+  std::vector<std::int32_t> lives, frames, episode_frames, numbers;
+
+  BatchArrays arrays();
 };
 
 class Batch {
  public:
-  // A machine for each cartridge, powered on and reset: `results` are those of the resets. Throws
-  // std::invalid_argument, in a sentence, for what can't be used.
+  // A machine for each cartridge, powered on and reset. Throws InvalidInput, in a sentence, for what can't be used.
   Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings);
   ~Batch();
   Batch(Batch&&) noexcept;
   Batch& operator=(Batch&&) noexcept;
 
   std::size_t size() const;
-  int height() const;  // rows of a screen in the results; those of lower machines are followed by zeros
+  std::size_t batch_size() const;
+  int height() const;                    // rows of a screen in the results; those of lower machines are followed by zeros
+  std::size_t observation_size() const;  // bytes of a machine's
+  unsigned threads() const;
+  BatchResults make_results() const;  // of batch_size() machines
 
-  // The actions of a machine: player A's numbers, of which a step's action is an index.
+  // A machine's, of which a step's action is an index: player A's numbers.
   const std::vector<int>& actions(std::size_t machine) const;
+  // A machine: for its states, and what else it can tell. Not while it plays, from send() to receive().
+  Slot& slot(std::size_t machine);
 
-  // One action each. Throws std::invalid_argument, and does nothing, when there are not as many actions as
-  // machines or one is not an index. Nothing is allocated, but at first: a reset from each value of the
-  // timer, a buffer that was not used before; and records of lines where objects begin to flicker (emulator/tia/line_cache/flicker_detector.hpp).
-  void step(std::span<const int> actions);
+  // One act each; `out` is of all machines. Throws InvalidInput, and does nothing, when there are not as many
+  // as machines, or when one is not an index. Nothing is allocated, but at first: a reset from each value of
+  // the timer, a buffer that was not used before; and records of lines where objects begin to flicker
+  // (emulator/tia/line_cache/flicker_detector.hpp).
+  void step(std::span<const Act> acts, const BatchArrays& out);
+  void step(std::span<const int> actions, const BatchArrays& out);  // indices
 
-  // New episodes, for those machines whose byte is not 0; without an argument, for all. Generators go on.
-  void reset();
-  void reset(std::span<const std::uint8_t> chosen);
+  // New episodes, for those machines whose byte is not 0; empty: for all. A seed of a machine from 0 on powers
+  // it on anew; with a negative one, or none, generators go on.
+  void reset(const BatchArrays& out, std::span<const std::uint8_t> chosen = {},
+             std::span<const std::int64_t> seeds = {});
 
-  const BatchResults& results() const;
+  // What the machines show now.
+  void show(const BatchArrays& out) const;
+
+  // The same in two halves, for batch_size() below size(): while some machines play, the caller works with the
+  // results of others. send() begins a step of each machine of `machines`, none of which plays; send_resets()
+  // begins resets of all. receive() returns the results of those batch_size() machines that have finished first.
+  // Throw InvalidInput, and do nothing, when that can't be; receive() throws a machine's failure.
+  void send(std::span<const Act> acts, std::span<const std::int32_t> machines);
+  void send(std::span<const int> actions, std::span<const std::int32_t> machines);
+  void send_resets(std::span<const std::int64_t> seeds = {});
+  void receive(const BatchArrays& out);
 
  private:
   struct Impl;

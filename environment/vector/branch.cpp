@@ -20,9 +20,9 @@ void Branching::enter(const Environment::Saved& root) {
   end_.lives = environment_.lives();
 }
 
-int Branching::act(const BranchAct& act) {
+int Branching::act(const Act& act) {
   const int before = environment_.frame_number();
-  const int reward = environment_.act(act.a, act.b, act.strength_a, act.strength_b);
+  const int reward = environment_.act(act);
   end_.reward += reward;
   end_.reward_b += environment_.rewards().b;
   ++end_.acts;
@@ -39,7 +39,7 @@ Branching::~Branching() {
 }
 
 void branch(Environment& environment, const Environment::Saved& root,
-            std::span<const std::vector<BranchAct>> sequences, std::span<BranchEnd> ends) {
+            std::span<const std::vector<Act>> sequences, std::span<BranchEnd> ends) {
   if (sequences.size() != ends.size()) {
     throw std::invalid_argument("there is room for " + std::to_string(ends.size()) + " results of " +
                                 std::to_string(sequences.size()) + " branches");
@@ -47,7 +47,7 @@ void branch(Environment& environment, const Environment::Saved& root,
   Branching branching(environment);
   for (std::size_t i = 0; i < sequences.size(); ++i) {
     branching.enter(root);
-    for (const BranchAct& act : sequences[i]) {
+    for (const Act& act : sequences[i]) {
       if (branching.over()) break;
       branching.act(act);
     }

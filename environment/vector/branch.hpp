@@ -10,11 +10,6 @@
 
 namespace racebeam {
 
-struct BranchAct {  // as Environment::act() takes them
-  int a = 0, b = 18;
-  float strength_a = 1.0F, strength_b = 0.0F;
-};
-
 // What a list of actions led to. It is played until its end, or the episode's.
 struct BranchEnd {
   std::int64_t reward = 0, reward_b = 0;  // sums over the acts
@@ -39,7 +34,7 @@ class Branching {
   bool over() const { return environment_.game_over(); }
 
   // One act; its reward to player A. Throws as Environment::act().
-  int act(const BranchAct& act);
+  int act(const Act& act);
 
   // Of the branch so far.
   const BranchEnd& end() const { return end_; }
@@ -54,6 +49,6 @@ class Branching {
 // All at once: ends[i] is what sequences[i] led to; there are as many of both. Afterwards, and after a throw, the
 // environment is as it was.
 void branch(Environment& environment, const Environment::Saved& root,
-            std::span<const std::vector<BranchAct>> sequences, std::span<BranchEnd> ends);
+            std::span<const std::vector<Act>> sequences, std::span<BranchEnd> ends);
 
 }  // namespace racebeam

@@ -1,53 +1,199 @@
 #include "environment/vector/thread_pool.hpp"
 
+#include <pthread.h>
+#include <sched.h>
+
+#include <algorithm>
+
 #include "system/resources.hpp"
 
 namespace racebeam {
+namespace {
 
-ThreadPool::ThreadPool(unsigned threads) : shares_(threads != 0 ? threads : usable_processors().amount) {
-  for (std::size_t thread = 1; thread < shares_.size(); ++thread)
-    threads_.emplace_back([this, thread] { wait_for_work(thread); });
+unsigned number_of_threads(unsigned asked) {
+  return asked != 0 ? asked : static_cast<unsigned>(usable_processors().amount);
+}
+
+// Where the process may not run on the processor, the thread stays free.
+void bind_to(std::jthread& thread, unsigned processor) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(processor % std::max(1U, std::thread::hardware_concurrency()), &set);
+  pthread_setaffinity_np(thread.native_handle(), sizeof set, &set);
+}
+
+}  // namespace
+
+// Numbers from 0 on, in one share for each thread; the caller's is the first.
+class ThreadPool::Round final : public Job {
+ public:
+  Round(const Task& task, std::size_t count, std::size_t threads) : task_(task), shares_(shares(threads)) {
+    for (std::size_t i = 0; i < threads; ++i) {
+      shares_[i].next = count * i / threads;
+      shares_[i].end = count * (i + 1) / threads;
+    }
+  }
+
+  bool can_use_help() const override {
+    return std::ranges::any_of(shares_, [](const Share& share) { return share.next < share.end; });
+  }
+
+  void work(std::size_t own) override {
+    for (std::size_t i = 0; i < shares_.size(); ++i) {
+      Share& share = shares_[(own + i) % shares_.size()];
+      for (;;) {
+        const std::size_t number = share.next.fetch_add(1, std::memory_order_relaxed);
+        if (number >= share.end) break;
+        task_(number);
+      }
+    }
+  }
+
+ private:
+  static std::span<Share> shares(std::size_t threads) {
+    static thread_local std::vector<Share> all;  // for its memory
+    if (all.size() < threads) all = std::vector<Share>(threads);
+    return std::span(all).first(threads);
+  }
+
+  const Task& task_;
+  const std::span<Share> shares_;
+};
+
+ThreadPool::ThreadPool(unsigned threads, std::chrono::microseconds busy_poll, int first_processor)
+    : busy_poll_(busy_poll) {
+  const unsigned count = number_of_threads(threads);
+  for (unsigned thread = 1; thread < count; ++thread) {
+    threads_.emplace_back([this, thread] { help(thread); });
+    if (first_processor >= 0) bind_to(threads_.back(), static_cast<unsigned>(first_processor) + thread - 1);
+  }
 }
 
 ThreadPool::~ThreadPool() {
-  stopping_ = true;
-  ++round_;
-  round_.notify_all();
-}
-
-void ThreadPool::run_all(std::size_t count) {
-  for (std::size_t i = 0; i < shares_.size(); ++i) {
-    shares_[i].next = count * i / shares_.size();
-    shares_[i].end = count * (i + 1) / shares_.size();
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
   }
-  busy_ = static_cast<std::uint32_t>(threads_.size());
-  ++round_;
-  round_.notify_all();
-  work(0);
-  for (std::uint32_t busy = busy_; busy != 0; busy = busy_) busy_.wait(busy);
+  job_is_here_.notify_all();
 }
 
-// First the thread's own share, then what is left of the others'.
-void ThreadPool::work(std::size_t own) {
-  for (std::size_t i = 0; i < shares_.size(); ++i) {
-    Share& share = shares_[(own + i) % shares_.size()];
-    for (;;) {
-      const std::size_t number = share.next.fetch_add(1, std::memory_order_relaxed);
-      if (number >= share.end) break;
-      call_(context_, number);
+void ThreadPool::add(Job& job) {
+  const std::lock_guard lock(mutex_);
+  jobs_.push_back(&job);
+}
+
+void ThreadPool::announce() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++jobs_so_far_;
+  }
+  job_is_here_.notify_all();
+}
+
+void ThreadPool::remove(Job& job) {
+  std::unique_lock lock(mutex_);
+  std::erase(jobs_, &job);
+  if (job.helpers != 0) {
+    lock.unlock();
+    await_helpers(job);
+    lock.lock();
+  }
+  helper_left_.wait(lock, [&job] { return job.helpers == 0; });
+}
+
+void ThreadPool::run(std::size_t count, const Task& task) {
+  Round round(task, count, threads());
+  {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back(&round);
+    ++jobs_so_far_;
+    ++working_;
+  }
+  job_is_here_.notify_all();
+  round.work(0);
+  remove(round);
+  const std::lock_guard lock(mutex_);
+  --working_;
+}
+
+ThreadPool::Job* ThreadPool::pick() {
+  if (working_ >= threads()) return nullptr;
+  const auto found = std::ranges::find_if(jobs_, [](const Job* job) { return job->can_use_help(); });
+  return found == jobs_.end() ? nullptr : *found;
+}
+
+// Other threads that want the processor have it: the client is one of them.
+void ThreadPool::await_job(BusyPoll& busy, std::size_t jobs) const {
+  for (busy.begin(); busy.again() && jobs_so_far_ == jobs;) std::this_thread::yield();
+}
+
+// They are at their last task.
+void ThreadPool::await_helpers(const Job& job) const {
+  const auto end = BusyPoll::Clock::now() + busy_poll_;
+  while (job.helpers != 0 && BusyPoll::Clock::now() < end) std::this_thread::yield();
+}
+
+void ThreadPool::help(std::size_t own) {
+  BusyPoll busy(busy_poll_);
+  bool quick = false;  // the last job came soon after the one before
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    const auto idle = BusyPoll::Clock::now();
+    if (quick && pick() == nullptr) {
+      const std::size_t jobs = jobs_so_far_;
+      lock.unlock();
+      await_job(busy, jobs);
+      lock.lock();
     }
+    Job* job = nullptr;
+    job_is_here_.wait(lock, [&] { return stopping_ || (job = pick()) != nullptr; });
+    if (stopping_) return;
+    ++job->helpers;
+    ++working_;
+    lock.unlock();
+    quick = busy.came_after(BusyPoll::Clock::now() - idle);
+    job->work(own);
+    lock.lock();
+    --working_;
+    if (--job->helpers == 0) helper_left_.notify_all();
   }
 }
 
-// All threads finish a round before the next one begins, so that none can miss one.
-void ThreadPool::wait_for_work(std::size_t own) {
-  for (std::uint32_t seen = 0;;) {
-    round_.wait(seen);
-    ++seen;
-    if (stopping_) return;
-    work(own);
-    if (--busy_ == 0) busy_.notify_one();
+ThreadPool::Queue::Queue(ThreadPool& pool, Task task) : pool_(pool), task_(std::move(task)) { pool_.add(*this); }
+
+ThreadPool::Queue::~Queue() {
+  {
+    const std::lock_guard lock(mutex_);
+    numbers_.clear();
+    waiting_ = 0;
   }
+  pool_.remove(*this);
+}
+
+void ThreadPool::Queue::push(std::span<const std::size_t> numbers) {
+  {
+    const std::lock_guard lock(mutex_);
+    numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
+    waiting_ = numbers_.size();
+  }
+  pool_.announce();
+}
+
+bool ThreadPool::Queue::work_once() {
+  std::size_t number = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (numbers_.empty()) return false;
+    number = numbers_.front();
+    numbers_.pop_front();
+    waiting_ = numbers_.size();
+  }
+  task_(number);
+  return true;
+}
+
+void ThreadPool::Queue::work(std::size_t) {
+  while (work_once()) continue;
 }
 
 }  // namespace racebeam

@@ -54,8 +54,8 @@ Action parse_action(std::string_view word, const AllowedActions& actions) {
     strength = text.size() < whole ? strength_of(given) : 1;
     return number_of(text, actions);
   };
-  action.a = player(a, action.strength_a);
-  if (has_b) action.b = kActions + player(b, action.strength_b);
+  action.act.a = player(a, action.act.strength_a);
+  if (has_b) action.act.b = kActions + player(b, action.act.strength_b);
   return action;
 }
 

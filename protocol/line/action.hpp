@@ -4,11 +4,12 @@
 #include <cstdint>
 #include <string_view>
 
+#include "environment/environment.hpp"
+
 namespace racebeam {
 
 struct Action {
-  int a = 0, b = 18;  // as Environment::act takes them
-  float strength_a = 1, strength_b = 0;
+  Act act;
   int times = 1;
 };
 

@@ -11,7 +11,7 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 using Scratch = std::vector<std::uint8_t>;
 
-constexpr std::string_view kStack = "grey84";
+constexpr std::string_view kGreyStack = "greyWxHxN", kRgbStack = "rgbWxHxN";
 constexpr int kDeepest = 16;
 
 #define NUMBER(name, of_request, expression, summary)                                  \
@@ -26,8 +26,11 @@ constexpr int kDeepest = 16;
 constexpr std::array kFields = {
     NUMBER("reward", true, o.reward, "sum over the acts of the request; each act's is limited as loaded"),
     NUMBER("reward_b", true, o.reward_b, "the same for player B"),
+    NUMBER("raw_reward", true, o.raw_reward, "reward before it was limited"),
+    NUMBER("raw_reward_b", true, o.raw_reward_b, "the same for player B"),
     NUMBER("terminated", true, o.terminated, "1: the game is over"),
     NUMBER("truncated", true, o.truncated, "1: the episode was cut short, by frames or by a lost life"),
+    NUMBER("game_over", true, o.game_over, "1: the game is over, whatever lives and limits say"),
     NUMBER("lives", false, e.lives(), "lives that are left; 0 in games without"),
     NUMBER("frame", false, e.frame_number(), "frames since the game was loaded"),
     NUMBER("episode_frame", false, e.episode_frame_number(), "frames since the episode began"),
@@ -49,9 +52,13 @@ constexpr std::array kFields = {
                return scratch;
              },
              Encoding::kZlib, Drawing::kLast},
-    FieldRow{kStack,
+    FieldRow{"grey84",
              "84 x 84 grey, the brighter of the last two frames; grey84x4: a stack of 4, oldest first", false,
              nullptr, nullptr, Encoding::kZlib, Drawing::kLastTwo},
+    FieldRow{kGreyStack, "a stack of N screens, W x H, grey, each the brighter of two frames; grey84x4 is short for grey84x84x4",
+             false, nullptr, nullptr, Encoding::kZlib, Drawing::kLastTwo},
+    FieldRow{kRgbStack, "the same, red, green and blue of each pixel, row by row", false, nullptr, nullptr,
+             Encoding::kZlib, Drawing::kLastTwo},
     FieldRow{"palette", "256 x 3: red, green, blue of each value of screen", false, nullptr,
              [](const Environment& e, Scratch& scratch) -> Bytes {
                scratch.clear();
@@ -65,13 +72,36 @@ constexpr std::array kFields = {
 
 #undef NUMBER
 
-int parse_depth(std::string_view& name) {
-  if (!name.starts_with(kStack)) return 0;
-  if (name == kStack) return 1;
-  const std::string_view depth = name.substr(kStack.size());
-  name = kStack;
-  if (!depth.starts_with('x')) throw Refusal(Code::kBadArguments, "a stack is written as in grey84x4");
-  return static_cast<int>(number_within(depth.substr(1), "the depth of a stack", 1, kDeepest));
+int size_within(std::string_view text, std::string_view what, int least, int most) {
+  return static_cast<int>(number_within(text, what, least, most));
+}
+
+// grey84, grey84xN, greyWxHxN and rgbWxHxN, whose name then is that of their row; nothing for other fields.
+std::optional<StackSettings> parse_stack(std::string_view& name) {
+  constexpr int kLeastHeight = 9, kMostHeight = 300;  // a machine's screen may be lower: ScreenStack looks
+  const bool rgb = name.starts_with("rgb");
+  if (!rgb && !name.starts_with("grey")) return std::nullopt;
+  std::string_view width = name.substr(rgb ? 3 : 4);
+  if (width.empty() || width[0] < '0' || width[0] > '9') return std::nullopt;
+  std::string_view height = cut_behind(width, 'x');
+  std::string_view depth = cut_behind(height, 'x');
+  const auto stack_of = [rgb](std::string_view screens, int wide, int high) {
+    return StackSettings{size_within(screens, "the depth of a stack", 1, kDeepest), wide, high, rgb};
+  };
+  if (!rgb && width == "84" && depth.empty() && !name.ends_with('x')) {
+    const bool alone = name == "grey84";
+    name = "grey84";
+    return stack_of(alone ? "1" : height, kSmallSide, kSmallSide);
+  }
+  if (depth.empty() || depth.find('x') != std::string_view::npos)
+    throw Refusal(Code::kBadArguments, "a stack is written as in grey84x4, grey100x50x4 or rgb100x50x4");
+  name = rgb ? kRgbStack : kGreyStack;
+  return stack_of(depth, size_within(width, "the width of a stack", 1, kScreenWidth),
+                  size_within(height, "the height of a stack", kLeastHeight, kMostHeight));
+}
+
+std::size_t bytes_of(const StackSettings& stack) {
+  return static_cast<std::size_t>(stack.depth * stack.width * stack.height * stack.channels());
 }
 
 Field parse_field(std::string_view word) {
@@ -79,18 +109,18 @@ Field parse_field(std::string_view word) {
   const std::string_view encoding = cut_behind(name, ':');
   const bool encoded = name.size() < word.size();
   std::string written(name);
-  const int depth = parse_depth(name);
+  const auto stack = parse_stack(name);
   const auto row = std::ranges::find(kFields, name, &FieldRow::name);
-  if (row == kFields.end()) {
+  if (row == kFields.end() || (!stack && (name == kGreyStack || name == kRgbStack))) {
     auto known = names_of(kFields);
     known.insert(known.end(), {"ends", "none"});
     refuse_name(Code::kBadArguments, "field", name, known);
   }
-  if (!encoded) return {&*row, row->usual, depth, std::move(written)};
+  if (!encoded) return {&*row, row->usual, stack, std::move(written)};
   if (row->number) throw Refusal(Code::kBadArguments, written + " is a number, and has no encoding");
   const auto chosen = encoding_of(encoding);
   if (!chosen) refuse_name(Code::kBadArguments, "encoding", encoding, names_of(encodings()));
-  return {&*row, *chosen, depth, std::move(written)};
+  return {&*row, *chosen, stack, std::move(written)};
 }
 
 void check(const std::vector<Field>& fields) {
@@ -98,6 +128,8 @@ void check(const std::vector<Field>& fields) {
     for (std::size_t j = 0; j < i; ++j) {
       if (fields[i].row == fields[j].row)
         throw Refusal(Code::kBadArguments, std::string(fields[i].row->name) + " is asked for twice");
+      if (fields[i].stack && fields[j].stack)
+        throw Refusal(Code::kBadArguments, fields[j].name + " and " + fields[i].name + " are two stacks; there can be one");
     }
   }
 }
@@ -135,18 +167,16 @@ std::size_t text_size(const std::vector<Field>& fields, const Environment& machi
   std::size_t size = 0;
   Scratch scratch;
   for (const Field& field : fields) {
-    const auto screens = static_cast<std::size_t>(field.depth) * kSmallSize;
-    const std::size_t bytes = field.row->bytes ? field.row->bytes(machine, scratch).size() : screens;
+    const std::size_t bytes = field.stack         ? bytes_of(*field.stack)
+                              : field.row->bytes ? field.row->bytes(machine, scratch).size()
+                                                 : 0;
     size += field.name.size() + 2 + (field.row->number ? kNumber : text_size(field.encoding, bytes));
   }
   return size;
 }
 
-View::View(std::vector<Field> fields, int height) : fields_(std::move(fields)) {
-  for (const Field& field : fields_) {
-    encoders_.emplace_back(field.encoding);
-    if (field.depth > 0) stack_.emplace(field.depth, height);
-  }
+View::View(std::vector<Field> fields) : fields_(std::move(fields)) {
+  for (const Field& field : fields_) encoders_.emplace_back(field.encoding);
 }
 
 std::size_t View::footprint(const std::vector<Field>& fields) {
@@ -154,7 +184,7 @@ std::size_t View::footprint(const std::vector<Field>& fields) {
   std::size_t bytes = 0;
   for (const Field& field : fields) {
     if (field.row->number) continue;
-    const std::size_t stack = static_cast<std::size_t>(field.depth) * kSmallSize;
+    const std::size_t stack = field.stack ? 2 * bytes_of(*field.stack) : 0;  // and a copy
     bytes += 3 * kTallScreen + stack;  // the scratch copy, at most
     if (field.encoding == Encoding::kZlib) bytes += kDeflater;
     if (field.encoding == Encoding::kDelta) bytes += 3 * kTallScreen + stack;
@@ -162,38 +192,29 @@ std::size_t View::footprint(const std::vector<Field>& fields) {
   return bytes;
 }
 
-void View::acted(const Environment& machine, int frames) {
-  if (stack_ && frames > 0) stack_->push(machine, frames > 1);
-}
-
-void View::began(const Environment& machine, bool blends) {
-  if (!stack_) return;
-  stack_->clear();
-  stack_->push(machine, blends);
-}
-
-void View::append(std::string& out, const Environment& machine, const Outcome& outcome) {
-  if (outcome.over) append_pair(out, "over", 1);
+void View::append(std::string& out, const Shown& shown) {
+  if (shown.outcome.over) append_pair(out, "over", 1);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     ((out += ' ') += fields_[i].name) += '=';
-    append_value(out, i, machine, outcome);
+    append_value(out, i, shown);
   }
 }
 
-void View::append_final(std::string& out, const Environment& machine) {
+void View::append_final(std::string& out, const Slot& slot) {
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (fields_[i].row->of_request) continue;
     ((out += " final_") += fields_[i].name) += '=';
-    append_value(out, i, machine, {});
+    append_value(out, i, shown(slot));
   }
 }
 
-void View::append_value(std::string& out, std::size_t field, const Environment& machine,
-                        const Outcome& outcome) {
+void View::append_value(std::string& out, std::size_t field, const Shown& shown) {
   const FieldRow& row = *fields_[field].row;
-  if (row.number) return append_number(out, row.number(machine, outcome));
-  const bool stacked = fields_[field].depth > 0;
-  encoders_[field].append(out, stacked ? stack_->bytes() : row.bytes(machine, scratch_));
+  if (row.number) return append_number(out, row.number(shown.machine, shown.outcome));
+  if (!fields_[field].stack) return encoders_[field].append(out, row.bytes(shown.machine, scratch_));
+  scratch_.resize(shown.stack->size());
+  shown.stack->copy_to(scratch_);
+  encoders_[field].append(out, scratch_);
 }
 
 }  // namespace racebeam

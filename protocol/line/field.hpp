@@ -8,20 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "environment/observe/preprocess.hpp"
+#include "environment/vector/slot.hpp"
 #include "protocol/encoding/encoding.hpp"
 #include "protocol/line/words.hpp"
 
 namespace racebeam {
-
-// Of the acts of one request.
-struct Outcome {
-  std::int64_t reward = 0, reward_b = 0;
-  int acts = 0;
-  int frames = 0;
-  bool terminated = false, truncated = false;
-  bool over = false;  // nothing was done: the episode had ended before
-};
 
 struct FieldRow {
   std::string_view name;
@@ -37,11 +28,11 @@ std::span<const FieldRow> field_rows();
 struct Field {
   const FieldRow* row;
   Encoding encoding;
-  int depth;         // of a stack of small screens; 0: no stack
-  std::string name;  // with the depth
+  std::optional<StackSettings> stack;  // of screens; none: it is no stack
+  std::string name;                    // with the stack's size
 };
 
-// Words such as lives, screen:rle, grey84x4; `ends` is two of them, `none` is none. Throws Refusal.
+// Words such as lives, screen:rle, grey84x4, rgb100x50x2; `ends` is two of them, `none` is none. Throws Refusal.
 std::vector<Field> parse_fields(Words words);
 
 // Which of an act's screens they look at, on a machine with colour averaging or without.
@@ -53,32 +44,30 @@ std::size_t text_size(const std::vector<Field>& fields, const Environment& machi
 // Writes the chosen fields of one machine, reply after reply.
 class View {
  public:
-  View(std::vector<Field> fields, int height);
-
-  const std::vector<Field>& fields() const { return fields_; }
+  explicit View(std::vector<Field> fields);
 
   static std::size_t footprint(const std::vector<Field>& fields);  // bytes of memory, about
 
-  // Called when the machine has run, so that stacks are right.
-  void acted(const Environment& machine, int frames);
-  // A stack begins anew, with what is there: a new episode, other fields, or a state of unknown past.
-  // `blends`: made of two frames.
-  void began(const Environment& machine, bool blends);
+  // What a machine shows, what acts led to, and the stack of screens; null: no field is one.
+  struct Shown {
+    const Environment& machine;
+    const Outcome& outcome;
+    const ScreenStack* stack;
+  };
 
   // " name=value" for each field, behind " over=1" where nothing was done.
-  void append(std::string& out, const Environment& machine, const Outcome& outcome);
+  void append(std::string& out, const Shown& shown);
+  void append(std::string& out, const Slot& slot) { append(out, shown(slot)); }
 
   // " final_name=value" for each that the machine shows: how an episode ended.
-  void append_final(std::string& out, const Environment& machine);
-
-  SmallScreens* stack() { return stack_ ? &*stack_ : nullptr; }
+  void append_final(std::string& out, const Slot& slot);
 
  private:
-  void append_value(std::string& out, std::size_t field, const Environment& machine, const Outcome& outcome);
+  static Shown shown(const Slot& slot) { return {slot.environment(), slot.outcome(), slot.stack()}; }
+  void append_value(std::string& out, std::size_t field, const Shown& shown);
 
   std::vector<Field> fields_;
   std::vector<Encoder> encoders_;  // one a field
-  std::optional<SmallScreens> stack_;
   std::vector<std::uint8_t> scratch_;
 };
 

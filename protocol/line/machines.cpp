@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
+#include <new>
+#include <optional>
 
 #include "protocol/line/session.hpp"
 
@@ -10,181 +13,205 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kAutoresets = {"next-step", "same-step", "disabled"};
 
+struct Seat {
+  Pacer pacer;
+  std::optional<View> view;
+  bool done = false;            // with the request
+  std::exception_ptr no_fiber;  // why it was not begun
+  std::string text;             // the machine's part of the reply; kept for its memory
+};
+
 }  // namespace
 
 std::span<const std::string_view> autoresets() { return kAutoresets; }
 
-std::string_view name_of(Autoreset autoreset) { return kAutoresets[static_cast<std::size_t>(autoreset)]; }
+// Each machine's part of a reply is made by itself before it is put into the whole.
+class Machines::Host final : public VectorHost {
+ public:
+  Host(Session& session, std::size_t count) : session_(session), seats_(count) {
+    for (auto& seat : seats_) seat = std::make_unique<Seat>();
+  }
 
-void Machines::observe(Session& session, const std::vector<Field>& fields) {
+  Seat& seat(std::size_t number) { return *seats_[number]; }
+  std::span<const std::unique_ptr<Seat>> seats() const { return seats_; }
+
+  void run_all(std::size_t count, const std::function<void(std::size_t)>& task) override;
+  Pace* pace(std::size_t number) override { return &seats_[number]->pacer; }
+
+  void opened(std::size_t number, Slot& slot) override {
+    racebeam::observe(slot, session_.fields);
+    seats_[number]->view.emplace(session_.fields);
+  }
+  void ended(std::size_t number, const Slot& slot) override {
+    seats_[number]->view->append_final(seats_[number]->text, slot);
+  }
+  void shown(std::size_t number, const Slot& slot) override {
+    seats_[number]->view->append(seats_[number]->text, slot);
+  }
+
+ private:
+  std::int64_t frames() const;
+  void work_on(Seat& seat, std::size_t number, const std::function<void(std::size_t)>& task,
+               Pacer::Clock::time_point end);
+
+  Session& session_;
+  std::vector<std::unique_ptr<Seat>> seats_;
+};
+
+struct Machines::Opened {
+  Opened(Session& session, std::size_t count, const SlotSettings& settings, Autoreset autoreset,
+         std::size_t reply)
+      : host(session, count),
+        vector(std::vector<Cartridge>(count, session.cartridge), settings, autoreset, host),
+        reply_bytes(reply) {}
+
+  Host host;
+  VectorEnvironment vector;
+  std::size_t reply_bytes;  // that a reply may have
+};
+
+Machines::Machines(Session& session) : session_(session) {}
+Machines::~Machines() = default;
+
+std::size_t Machines::size() const { return opened_ ? opened_->vector.size() : 0; }
+Environment& Machines::machine(std::size_t number) { return opened_->vector.slot(number).environment(); }
+Pacer& Machines::pacer(std::size_t number) { return opened_->host.seat(number).pacer; }
+void Machines::close() { opened_.reset(); }
+
+void Machines::observe(const std::vector<Field>& fields) {
   if (empty()) return;
-  reply_bytes_ = check(session, fields, size(), autoreset_);
-  for (const auto& seat : seats_) seat->player->observe(fields);
-}
-
-void Machines::rest() {
-  for (const auto& seat : seats_) {
-    seat->player->machine().rest();
-    std::string().swap(seat->text);
+  opened_->reply_bytes = check(fields, size(), opened_->vector.autoreset());
+  for (std::size_t number = 0; number < size(); ++number) {
+    racebeam::observe(opened_->vector.slot(number), fields);
+    opened_->host.seat(number).view.emplace(fields);
   }
 }
 
-// Each machine's part of a reply is made by itself before it is put into the whole.
-std::size_t Machines::check(Session& session, const std::vector<Field>& fields, std::size_t count,
-                            Autoreset autoreset) {
-  const std::size_t once = text_size(fields, session.player->machine());
+void Machines::rest() {
+  for (std::size_t number = 0; number < size(); ++number) {
+    machine(number).rest();
+    std::string().swap(opened_->host.seat(number).text);
+  }
+}
+
+// So many machines with these fields. Throws Refusal when replies about them are longer than they may be, or
+// when there is no memory for the machines. Returns how many bytes a reply may have.
+std::size_t Machines::check(const std::vector<Field>& fields, std::size_t count, Autoreset autoreset) {
+  const std::size_t once = text_size(fields, session_.player->machine());
   const std::size_t reply = count * (autoreset == Autoreset::kSameStep ? 2 * once : once);
-  session.check_reply(reply, std::to_string(count) + " machines with these fields");
-  session.memory.check(count * (sizeof(Seat) + Player::footprint(fields)) + 2 * reply,
-                       std::to_string(count) + " machines with these fields");
+  session_.check_reply(reply, std::to_string(count) + " machines with these fields");
+  session_.memory.check(count * (sizeof(Seat) + Player::footprint(fields)) + 2 * reply,
+                        std::to_string(count) + " machines with these fields");
   return reply;
 }
 
 std::size_t Machines::footprint(const std::vector<Field>& fields) const {
-  std::size_t bytes = size() * (sizeof(Seat) + (empty() ? 0 : Player::footprint(fields)));
-  for (const auto& seat : seats_) bytes += seat->text.capacity();
+  if (empty()) return 0;
+  std::size_t bytes = size() * (sizeof(Seat) + Player::footprint(fields));
+  for (const auto& seat : opened_->host.seats()) bytes += seat->text.capacity();
   return bytes;
 }
 
-void Machines::open(Session& session, std::size_t count, Autoreset autoreset) {
-  const std::size_t reply_bytes = check(session, session.fields, count, autoreset);
-  Seats seats(count);
-  for (auto& seat : seats) seat = std::make_unique<Seat>();
-  session.allow_resets(count);
-  work_on_all(session, seats, [&session](Seat& seat, std::size_t number) {
-    PlaySettings settings = session.settings;
-    settings.machine.random_seed += static_cast<std::uint32_t>(number);
-    seat.player = std::make_unique<Player>(session.cartridge, settings, session.fields, seat.pacer);
-    seat.player->begin_request();
-    seat.tell();
-  });
-  session.stop_recording_machines();
-  seats_.swap(seats);
-  autoreset_ = autoreset;
-  reply_bytes_ = reply_bytes;
-  session.out += "ok";
-  append_pair(session.out, "machines", static_cast<std::int64_t>(count));
-  append_pair(session.out, "autoreset", name_of(autoreset));
-  append_texts(session);
+void Machines::open(std::size_t count, const SlotSettings& settings, Autoreset autoreset) {
+  const std::size_t reply_bytes = check(session_.fields, count, autoreset);
+  session_.allow_resets(count);
+  auto opened = std::make_unique<Opened>(session_, count, settings, autoreset, reply_bytes);
+  session_.stop_recording_machines();
+  opened_ = std::move(opened);
+  session_.out += "ok";
+  append_pair(session_.out, "machines", static_cast<std::int64_t>(count));
+  append_pair(session_.out, "autoreset", kAutoresets[static_cast<std::size_t>(autoreset)]);
+  append_texts();
 }
 
-void Machines::step(Session& session, std::span<const Action> actions) {
-  const std::vector<std::uint8_t> resets(size(), autoreset_ != Autoreset::kDisabled);
-  check_frames(session, static_cast<std::int64_t>(size()), resets);
-  session.memory.check(reply_bytes_, "the reply");
-  work_on_all(session, seats_, [this, actions](Seat& seat, std::size_t number) {
-    seat.player->begin_request();
-    seat.step(actions[number], autoreset_);
-    seat.tell();
-  });
-  session.out += "ok";
-  append_pair(session.out, "machines", static_cast<std::int64_t>(size()));
-  session.append_cut();
-  append_texts(session);
-  for (const auto& seat : seats_) session.count(seat->player->outcome());
+void Machines::step(std::span<const Act> acts) {
+  const std::vector<std::uint8_t> resets(size(), opened_->vector.autoreset() != Autoreset::kDisabled);
+  check_frames(static_cast<std::int64_t>(size()), resets);
+  session_.memory.check(opened_->reply_bytes, "the reply");
+  opened_->vector.step(acts);
+  session_.out += "ok";
+  append_pair(session_.out, "machines", static_cast<std::int64_t>(size()));
+  session_.append_cut();
+  append_texts();
+  for (std::size_t number = 0; number < size(); ++number)
+    session_.count(opened_->vector.slot(number).outcome());
 }
 
-void Machines::restart(Session& session, std::span<const std::uint8_t> chosen) {
-  check_frames(session, 0, chosen);
-  session.memory.check(reply_bytes_, "the reply");
-  work_on_all(session, seats_, [chosen](Seat& seat, std::size_t number) {
-    seat.player->begin_request();
-    if (chosen[number] != 0) seat.player->reset();
-    seat.tell();
-  });
-  session.out += "ok";
-  append_pair(session.out, "machines", static_cast<std::int64_t>(size()));
-  append_texts(session);
+void Machines::restart(std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds) {
+  check_frames(0, chosen);
+  session_.memory.check(opened_->reply_bytes, "the reply");
+  opened_->vector.reset(chosen, seeds);
+  session_.out += "ok";
+  append_pair(session_.out, "machines", static_cast<std::int64_t>(size()));
+  append_texts();
 }
 
 // A reset is taken to last as long as the machine's longest one so far.
-void Machines::check_frames(const Session& session, std::int64_t acts,
-                            std::span<const std::uint8_t> resets) const {
+void Machines::check_frames(std::int64_t acts, std::span<const std::uint8_t> resets) const {
   std::int64_t frames = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     if (resets[i] != 0)
-      frames += std::max<std::int64_t>(seats_[i]->player->reset_frames() - kFreeResetFrames, 0);
+      frames += std::max<std::int64_t>(opened_->vector.slot(i).reset_frames() - kFreeResetFrames, 0);
   }
-  session.check_frames(acts, frames);
+  session_.check_frames(acts, frames);
 }
 
-std::int64_t Machines::frames_of(const Seats& seats) {
+void Machines::append_texts() {
+  for (const auto& seat : opened_->host.seats()) {
+    (session_.out += " |") += seat->text;
+    session_.pacer.breathe();
+  }
+}
+
+std::int64_t Machines::Host::frames() const {
   std::int64_t frames = 0;
-  for (const auto& seat : seats) frames += seat->pacer.frames();
+  for (const auto& seat : seats_) frames += seat->pacer.frames();
   return frames;
 }
 
 // Rounds of a slice each; the session yields between them. A machine begins only while its round lasts, so
 // that no more machines are in progress than there are threads. The first begins in any case.
-void Machines::work_on_all(Session& session, Seats& seats, const Task& task) {
+void Machines::Host::run_all(std::size_t count, const std::function<void(std::size_t)>& task) {
   struct Guard {  // the task does not outlive this call
     ~Guard() {
       for (const auto& seat : of) seat->pacer.cancel();
     }
-    Seats& of;
+    std::span<const std::unique_ptr<Seat>> of;
   };
-  const Guard guard{seats};
-  for (const auto& seat : seats) {
+  const Guard guard{seats_};
+  for (const auto& seat : seats_) {
     seat->done = false;
-    seat->failure = nullptr;
+    seat->no_fiber = nullptr;
     seat->text.clear();
   }
-  std::int64_t counted = frames_of(seats);
+  std::int64_t counted = frames();
   for (std::size_t first = 0;;) {  // that is not done
-    const auto end = session.pacer.end();
-    session.run_parallel(seats.size() - first, [&](std::size_t i) {
-      Seat& seat = *seats[first + i];
+    const auto end = session_.pacer.end();
+    session_.run_parallel(count - first, [&](std::size_t i) {
+      Seat& seat = *seats_[first + i];
       const bool begins = i == 0 || seat.pacer.in_progress() || Pacer::Clock::now() < end;
       if (!seat.done && begins) work_on(seat, first + i, task, end);
     });
-    session.pacer.count(frames_of(seats) - counted);
-    counted = frames_of(seats);
-    while (first < seats.size() && seats[first]->done) ++first;
-    if (first == seats.size()) break;
-    session.pacer.pause();
+    session_.pacer.count(frames() - counted);
+    counted = frames();
+    while (first < count && seats_[first]->done) ++first;
+    if (first == count) break;
+    session_.pacer.pause();
   }
-  for (const auto& seat : seats) {
-    if (seat->failure) std::rethrow_exception(seat->failure);
+  for (const auto& seat : seats_) {
+    if (seat->no_fiber) std::rethrow_exception(seat->no_fiber);
   }
 }
 
 // On any thread; touches nothing but its own seat.
-void Machines::work_on(Seat& seat, std::size_t number, const Task& task, Pacer::Clock::time_point end) {
-  const auto attempt = [&seat, number, &task] {
-    try {
-      task(seat, number);
-    } catch (const std::exception&) {
-      seat.failure = std::current_exception();
-    }
-  };
+void Machines::Host::work_on(Seat& seat, std::size_t number, const std::function<void(std::size_t)>& task,
+                             Pacer::Clock::time_point end) {
   try {
-    seat.done = seat.pacer.work(end, attempt);
+    seat.done = seat.pacer.work(end, [number, &task] { task(number); });
   } catch (const std::bad_alloc&) {
-    seat.failure = std::current_exception();
+    seat.no_fiber = std::current_exception();
     seat.done = true;
   }
-}
-
-void Machines::append_texts(Session& session) const {
-  for (const auto& seat : seats_) {
-    (session.out += " |") += seat->text;
-    session.pacer.breathe();
-  }
-}
-
-void Machines::Seat::tell() {
-  player->append_view(text);
-  over = player->machine().game_over();
-}
-
-void Machines::Seat::step(const Action& action, Autoreset autoreset) {
-  if (autoreset == Autoreset::kNextStep && over) return player->reset();
-  player->act(action);
-  if (autoreset != Autoreset::kSameStep || !player->machine().game_over()) return;
-  player->view().append_final(text, player->machine());
-  const Outcome outcome = player->outcome();
-  player->reset();
-  player->set_outcome(outcome);
 }
 
 }  // namespace racebeam

@@ -7,7 +7,6 @@
 #include <limits>
 #include <random>
 
-#include "games/game/actions.hpp"
 
 namespace racebeam {
 namespace {
@@ -32,7 +31,7 @@ bool flag(std::string_view value, std::string_view what) { return number_within(
 }
 
 void set_seed(PlaySettings& settings, std::string_view value) {
-  settings.machine.random_seed = static_cast<std::uint32_t>(number_within(value, "seed", 0, kMostSeed));
+  settings.machine.random_seed = parse_seed(value);
 }
 
 void set_system_seed(PlaySettings& settings, std::string_view value) {
@@ -213,12 +212,10 @@ void append_settings(std::string& out, const PlaySettings& settings, const Envir
   }
 }
 
-std::string_view name_of(ActionSet set) { return kActionSets[static_cast<std::size_t>(set)]; }
-
-const std::vector<int>& actions_of(ActionSet set, const Game& game) {
-  static const std::vector<int> full = all_actions();
-  if (set == ActionSet::kFull) return full;
-  return set == ActionSet::kLegal ? game.legal_actions : game.minimal_actions;
+std::uint32_t parse_seed(std::string_view text) {
+  return static_cast<std::uint32_t>(number_within(text, "seed", 0, kMostSeed));
 }
+
+std::string_view name_of(ActionSet set) { return kActionSets[static_cast<std::size_t>(set)]; }
 
 }  // namespace racebeam

@@ -8,11 +8,10 @@
 #include <string_view>
 
 #include "environment/environment.hpp"
+#include "environment/input/action_set.hpp"
 #include "protocol/line/words.hpp"
 
 namespace racebeam {
-
-enum class ActionSet { kFull, kLegal, kMinimal };
 
 struct PlaySettings {
   PlaySettings();  // the defaults of the line protocol
@@ -49,6 +48,6 @@ void read_settings(Words words, PlaySettings& settings, Words other_keys = {});
 void append_settings(std::string& out, const PlaySettings& settings, const Environment& machine);
 
 std::string_view name_of(ActionSet set);
-const std::vector<int>& actions_of(ActionSet set, const Game& game);  // player A's numbers, ascending
+std::uint32_t parse_seed(std::string_view text);  // throws Refusal
 
 }  // namespace racebeam

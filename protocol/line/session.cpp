@@ -57,6 +57,7 @@ Session::Session(const LineService& with, const CommandTable& table, Meter* coun
       admitted(!with.admission),
       fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})),
       memory(with.memory),
+      machines(*this),
       table_(table),
       meter_(counting) {
   memory.set(footprint());
@@ -104,7 +105,7 @@ void Session::append_cut() {
 }
 
 void Session::stop_recording_machines() {
-  if (recording && !recording->shows(*player)) recording.reset();
+  if (recording && !recording->shows(player->machine())) recording.reset();
 }
 
 void Session::run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const {
@@ -257,7 +258,7 @@ void Session::measure() {
 std::size_t Session::footprint() const {
   constexpr std::size_t kSession = std::size_t{48} << 10;  // with connection, fiber and buffers
   std::size_t bytes = kSession + out.capacity() + input.capacity() + states.footprint() +
-                      machines.footprint(fields) + actions.capacity() * sizeof(Action) +
+                      machines.footprint(fields) + actions.capacity() * sizeof(Action) + step_acts.capacity() * sizeof(Act) +
                       words_.capacity() * sizeof(std::string_view);
   if (player) bytes += Player::footprint(fields);
   if (has_own_image) bytes += kOwnImage;
@@ -295,6 +296,7 @@ void Session::rest() {
   machines.rest();
   if (out.empty()) out.shrink_to_fit();
   std::vector<Action>().swap(actions);
+  std::vector<Act>().swap(step_acts);
   std::vector<std::string_view>().swap(words_);
   if (!pacer.in_progress()) memory.set(footprint());
 }

@@ -60,6 +60,7 @@ class Session {
 
   MemoryShare memory;           // of the server's; what a request is going to take is checked before
   std::vector<Action> actions;  // of a request; kept for their memory
+  std::vector<Act> step_acts;   // the same, of `step`
   Machines machines;
 
   // Throws Refusal when so many acts, and frames beside them, are more than a request may ask for.

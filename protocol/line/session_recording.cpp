@@ -6,17 +6,17 @@
 
 namespace racebeam {
 
-SessionRecording::SessionRecording(std::shared_ptr<Recording> recording, Player& player)
-    : recording_(std::move(recording)), player_(player) {
+SessionRecording::SessionRecording(std::shared_ptr<Recording> recording, Environment& machine, Pacer& pacer)
+    : recording_(std::move(recording)), machine_(machine), pacer_(pacer) {
   watch();
 }
 
-SessionRecording::~SessionRecording() { player_.machine().watch({}); }
+SessionRecording::~SessionRecording() { machine_.watch({}); }
 
 void SessionRecording::watch() {
-  player_.machine().watch([this] {
-    await(*recording_, player_.pacer());
-    recording_->add(player_.machine());
+  machine_.watch([this] {
+    await(*recording_, pacer_);
+    recording_->add(machine_);
   });
 }
 

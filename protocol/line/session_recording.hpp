@@ -4,21 +4,22 @@
 #include <memory>
 #include <string>
 
-#include "protocol/line/player.hpp"
+#include "environment/environment.hpp"
+#include "protocol/running/pacer.hpp"
 #include "recording/recording.hpp"
 
 namespace racebeam {
 
 class SessionRecording {
  public:
-  // Watches the player's machine, which outlives it.
-  SessionRecording(std::shared_ptr<Recording> recording, Player& player);
+  // Watches the machine, which outlives it, as `pacer` does, on which it runs.
+  SessionRecording(std::shared_ptr<Recording> recording, Environment& machine, Pacer& pacer);
   ~SessionRecording();  // keeps what there is, without waiting for it
   SessionRecording(const SessionRecording&) = delete;
   SessionRecording& operator=(const SessionRecording&) = delete;
 
   void watch();  // the machine, again
-  bool shows(const Player& player) const { return &player == &player_; }
+  bool shows(const Environment& machine) const { return &machine == &machine_; }
   bool is_behind() const { return recording_->is_behind(); }
   Recording& recording() { return *recording_; }
   const std::string& names() const { return recording_->names(); }
@@ -28,7 +29,8 @@ class SessionRecording {
 
  private:
   std::shared_ptr<Recording> recording_;
-  Player& player_;
+  Environment& machine_;
+  Pacer& pacer_;
   bool told_ = false;
 };
 

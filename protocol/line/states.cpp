@@ -4,12 +4,12 @@
 
 namespace racebeam {
 
-const Place* States::find(std::string_view name) const {
+const Slot::Saved* States::find(std::string_view name) const {
   const auto found = by_name_.find(name);
   return found == by_name_.end() ? nullptr : &found->second;
 }
 
-void States::put(std::string_view name, Place place) {
+void States::put(std::string_view name, Slot::Saved place) {
   drop(name);
   footprint_ += place.footprint();
   by_name_.emplace(name, std::move(place));

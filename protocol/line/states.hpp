@@ -12,11 +12,11 @@ namespace racebeam {
 
 class States {
  public:
-  using Map = std::map<std::string, Place, std::less<>>;
+  using Map = std::map<std::string, Slot::Saved, std::less<>>;
 
-  const Place* find(std::string_view name) const;  // null: there is none of this name
+  const Slot::Saved* find(std::string_view name) const;  // null: there is none of this name
   bool contains(std::string_view name) const { return by_name_.contains(name); }
-  void put(std::string_view name, Place place);  // in the place of one of the same name
+  void put(std::string_view name, Slot::Saved place);  // in the place of one of the same name
   void drop(std::string_view name);              // if it is there
   void clear();
 

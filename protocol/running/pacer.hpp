@@ -56,7 +56,7 @@ class Pacer final : public Pace {
     frames_ += frames;
     if (frames_ > most_frames_) refuse();
   }
-  std::int64_t frames() const { return frames_; }  // counted so far, of all bodies
+  std::int64_t frames() const override { return frames_; }  // counted so far, of all bodies
 
   void allow_frames(std::int64_t more);  // from now on
   void allow_any_frames() { most_frames_ = kNoLimit; }

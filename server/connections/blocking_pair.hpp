@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/scheduling/busy_poll.hpp"
+#include "system/busy_poll.hpp"
 
 namespace racebeam {
 

@@ -6,11 +6,13 @@
 #include <array>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include <boost/asio/ssl.hpp>
 
 #include "server/connections/departure.hpp"
 #include "server/connections/request_peeker.hpp"
+#include "server/connections/session_loop.hpp"
 #include "server/operation/log.hpp"
 
 namespace racebeam {
@@ -169,55 +171,64 @@ net::awaitable<void> await_recording(Client& client) {
   client.working = false;
 }
 
+// `piece`: everything that was received last is part of a line.
+template <typename Stream>
+net::awaitable<void> read(Stream& stream, Client& client, LineSession& session, RequestPeeker& ahead, bool piece) {
+  if (piece) acknowledge(client.socket);
+  ahead.take();
+  const auto flags = ahead.flags(client.sleeps());
+  const std::size_t count = co_await receive(stream, client, session.space(), flags);
+  ahead.was_read(flags, count);
+  if (count > 0 || !client.ending()) session.received(count);
+  if (client.guesser) co_await hold_back(client);
+}
+
 // Between two slices of a long request, or of many that were sent ahead, other sessions of the loop have
 // their turn. Requests that were sent ahead are split further: each part ends by sending its replies.
 template <typename Stream>
 net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSession& session,
                                       Metrics& metrics) {
+  using Next = SessionLoop::Next;
   constexpr int kMostParts = 4;
   RequestPeeker ahead = look_ahead(stream);
   Departure departure;
   Turns& turns = client.loop.turns;
-  bool piece = false;  // all that was received last is part of a line
-  for (int parts = 0;;) {
-    if (!turns.may_work(client.usage)) co_await take_turn(client);
+  SessionLoop loop(session);
+  const auto run = [&] {
     const bool more = session.run();
     turns.worked(client.usage, session.worked());
-    if (session.wants_more() && found_more(ahead, client, session)) continue;
+    return more;
+  };
+  const auto find_more = [&] { return turns.may_work(client.usage) && found_more(ahead, client, session); };
+  bool piece = false;
+  for (int parts = 0;;) {
+    if (!turns.may_work(client.usage)) co_await take_turn(client);
+    Next next = loop.work(run, find_more);
     client.admitted = session.admitted();
     if (client.guesser) judge(client, session, metrics);
-    const std::string_view text = session.output();
-    if (!text.empty()) {
-      piece = false;
+    const bool sends = next == Next::kSend;
+    if (sends) {
+      const std::string_view text = loop.output();
       const std::size_t count = send_at_once(stream, text);
       client.sent(count);
       if (count < text.size()) co_await send_rest(stream, client, text.substr(count));
-      session.sent(text.size());
+      next = loop.sent();
       ahead.take();
+      piece = false;
     }
-    if (session.finished()) break;
-    if (more) {
-      if (text.empty() && departure.has_gone(client.socket))
+    if (next == Next::kDone) break;
+    if (next == Next::kRead) {
+      if (!client.ending()) co_await read(stream, client, session, ahead, std::exchange(piece, true));
+    } else {
+      if (!sends && departure.has_gone(client.socket))
         throw std::runtime_error("the client left in the middle of a request");
-      if (!text.empty() && ++parts < kMostParts) continue;
+      if (sends && ++parts < kMostParts) continue;
       parts = 0;
-      if (session.waits()) {  // GCC 12 destroys both results of a conditional expression
+      if (next == Next::kPause) {  // GCC 12 destroys both results of a conditional expression
         co_await await_recording(client);
       } else {
         co_await take_turn(client);
       }
-      if (client.ending()) co_await take_leave(stream, client);
-      continue;
-    }
-    if (!client.ending()) {
-      if (piece) acknowledge(client.socket);
-      ahead.take();
-      const auto flags = ahead.flags(client.sleeps());
-      const std::size_t count = co_await receive(stream, client, session.space(), flags);
-      ahead.was_read(flags, count);
-      if (count > 0 || !client.ending()) session.received(count);
-      piece = true;
-      if (client.guesser) co_await hold_back(client);
     }
     if (client.ending()) co_await take_leave(stream, client);
   }

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "server/connections/session_loop.hpp"
 #include "server/operation/log.hpp"
 #include "server/operation/terminal.hpp"
 
@@ -56,20 +57,25 @@ class StreamSession::LineConversation final : public Conversation {
   }
 
   int hold(BlockingPair& streams, const Halt& halt) override {
-    while (!session_.finished()) {
-      const bool more = session_.run();
-      if (session_.waits()) std::this_thread::sleep_for(1ms);
-      if (session_.wants_more() && read_at_once(streams)) continue;
-      const std::string_view text = session_.output();
-      if (!streams.write(text)) return client_gone(halt);
-      meter_.bytes_out.add(static_cast<std::int64_t>(text.size()));
-      session_.sent(text.size());
-      if (more && (halt.all || streams.reader_left())) return client_gone(halt);
-      if (more || session_.finished()) continue;
-      const std::size_t count = streams.read(session_.space());
-      if (halt.reading) break;
-      meter_.bytes_in.add(static_cast<std::int64_t>(count));
-      session_.received(count);
+    using Next = SessionLoop::Next;
+    SessionLoop loop(session_);
+    for (;;) {
+      Next next = loop.work([this] { return session_.run(); }, [&] { return read_at_once(streams); });
+      if (next == Next::kSend) {
+        if (!streams.write(loop.output())) return client_gone(halt);
+        meter_.bytes_out.add(static_cast<std::int64_t>(loop.output().size()));
+        next = loop.sent();
+      }
+      if (next == Next::kDone) break;
+      if (next == Next::kRead) {
+        const std::size_t count = streams.read(session_.space());
+        if (halt.reading) break;
+        meter_.bytes_in.add(static_cast<std::int64_t>(count));
+        session_.received(count);
+        continue;
+      }
+      if (halt.all || streams.reader_left()) return client_gone(halt);
+      if (next == Next::kPause) std::this_thread::sleep_for(1ms);
     }
     return session_.refused() ? kRefused : 0;
   }

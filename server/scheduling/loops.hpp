@@ -11,7 +11,7 @@
 #include <boost/asio/io_context.hpp>
 
 #include "server/operation/metrics.hpp"
-#include "server/scheduling/busy_poll.hpp"
+#include "system/busy_poll.hpp"
 #include "server/scheduling/turns.hpp"
 
 namespace racebeam {

@@ -23,21 +23,21 @@ std::string refusal(const std::string& word, const AllowedActions& actions = kAl
 }  // namespace
 
 TEST_CASE("Actions are names or numbers") {
-  CHECK(parse_action("NOOP", kAll).a == 0);
-  CHECK(parse_action("17", kAll).a == 17);
-  CHECK(parse_action("DOWNLEFTFIRE", kAll).a == 17);
-  CHECK(parse_action("3", kAll).b == 18);
+  CHECK(parse_action("NOOP", kAll).act.a == 0);
+  CHECK(parse_action("17", kAll).act.a == 17);
+  CHECK(parse_action("DOWNLEFTFIRE", kAll).act.a == 17);
+  CHECK(parse_action("3", kAll).act.b == 18);
 }
 
 TEST_CASE("Player B, strengths and repetition") {
   const Action action = parse_action("RIGHT@0.5/UPFIRE@0.25*30", kAll);
-  CHECK(action.a == 3);
-  CHECK(action.strength_a == 0.5F);
-  CHECK(action.b == 18 + 10);
-  CHECK(action.strength_b == 0.25F);
+  CHECK(action.act.a == 3);
+  CHECK(action.act.strength_a == 0.5F);
+  CHECK(action.act.b == 18 + 10);
+  CHECK(action.act.strength_b == 0.25F);
   CHECK(action.times == 30);
-  CHECK(parse_action("RIGHT/LEFT", kAll).strength_b == 1);
-  CHECK(parse_action("RIGHT", kAll).strength_b == 0);
+  CHECK(parse_action("RIGHT/LEFT", kAll).act.strength_b == 1);
+  CHECK(parse_action("RIGHT", kAll).act.strength_b == 0);
 }
 
 TEST_CASE("An unknown action is refused with the list of actions") {
@@ -53,7 +53,7 @@ TEST_CASE("An unknown action is refused with the list of actions") {
 }
 
 TEST_CASE("With a smaller set the others are refused, the numbers are the same") {
-  CHECK(parse_action("RIGHT", kSome).a == 3);
+  CHECK(parse_action("RIGHT", kSome).act.a == 3);
   CHECK_THAT(refusal("UP", kSome),
              Contains("'UP' is not in the action set that was loaded; pong takes 0=NOOP 1=FIRE 3=RIGHT"));
   CHECK_THAT(refusal("0/2", kSome), Contains("bad-action"));

@@ -110,6 +110,13 @@ const std::string kAlternating = "act RIGHT NOOP RIGHT NOOP RIGHT NOOP RIGHT NOO
                   kThreeSteps = "step NOOP\nstep NOOP\nstep NOOP",
                   kOpen = "open 2\nobserve episode_frame\nstep NOOP";
 
+const std::string kOtherSticky = "load duel seed=8 sticky=0.5",
+                  kManySticky = "load duel seed=8 sticky=0.5 frame_skip=20\nopen 9\n",
+                  kFrames = "load beamfall seed=7 sticky=0 frame_skip=4 noop_max=30\nobserve ram\n",
+                  kLongSteps = "load beamfall seed=7 sticky=0 frame_skip=900\nobserve ends lives episode_frame\n",
+                  kStart = "open 1 steps=frames start=", kLives = "open 1 steps=frames lives=",
+                  kStacked = "load beamfall seed=7 sticky=0 frame_skip=4\nobserve grey84x3:hex\nopen 1 steps=frames ";
+
 const std::string kUneven = "load duel seed=7 sticky=0 frame_skip=1-9\nopen 2\n",
                   kFourSteps = "step NOOP\nstep NOOP\nstep NOOP\nstep NOOP\nrecord stop";
 
@@ -165,6 +172,8 @@ const Cases kPlaying = {
     {"act B", "act NOOP/RIGHT", "act NOOP", "look reward_b"},
     {"act TIMES", "act RIGHT*3", "act RIGHT"},
     {"reset", "act NOOP\nreset", "act NOOP", "look episode_frame"},
+    {"reset seed", kOtherSticky + "\nreset seed=9", kOtherSticky + "\nreset", kAlternating},
+    {"reset N", kOtherSticky + "\nreset seed=9", kOtherSticky + "\nreset seed=10", kAlternating},
     {"peek", "peek 0", "poke 0 12\npeek 0"},
     {"peek INDEX", "peek 0", "peek 40"},
     {"peek COUNT", "peek 0 2", "peek 0"},
@@ -202,10 +211,31 @@ const Cases kPlaying = {
      kThreeSteps},
     {"open disabled", kEnds + "\nopen 1 autoreset=disabled", kEnds + "\nopen 1 autoreset=same-step",
      kThreeSteps},
+    {"open steps", kFrames + "open 1 steps=frames", kFrames + "open 1", "step NOOP"},
+    {"open acts", kFrames + "open 1 steps=acts", kFrames + "open 1 steps=frames", "step NOOP"},
+    {"open frames", kFrames + "open 1 steps=frames", kFrames + "open 1 steps=acts", "step NOOP"},
+    {"open start", kFrames + kStart + "baselines", kFrames + "open 1 steps=frames", "step NOOP"},
+    {"open fire-noops", kFrames + kStart + "fire-noops", kFrames + kStart + "noops", "step NOOP"},
+    {"open noops-fire", kFrames + kStart + "noops-fire", kFrames + kStart + "fire-noops", "step NOOP"},
+    {"open baselines", kFrames + kStart + "baselines", kFrames + kStart + "noops-fire", "step NOOP"},
+    {"open noops", kFrames + kStart + "noops", kFrames + kStart + "baselines", "step NOOP"},
+    {"open lives", kLongSteps + kLives + "told", kLongSteps + "open 1 steps=frames", "step FIRE"},
+    {"open ignored", kLongSteps + kLives + "ignored", kLongSteps + kLives + "told", "step FIRE"},
+    {"open told", kLongSteps + kLives + "told", kLongSteps + kLives + "ignored", "step FIRE"},
+    {"open end", kLongSteps + kLives + "end", kLongSteps + kLives + "restart", "step FIRE\nstep FIRE"},
+    {"open restart", kLongSteps + kLives + "restart", kLongSteps + kLives + "told", "step FIRE\nstep FIRE"},
+    {"open stack", kStacked + "stack=repeats", kStacked, "restart"},
+    {"open zeros", kStacked + "stack=zeros", kStacked + "stack=repeats", "restart"},
+    {"open repeats", kStacked + "stack=repeats", kStacked + "stack=zeros", "restart"},
+    {"open pool", kStacked + "pool=0", kStacked, "step FIRE\nstep RIGHT"},
+    {"open 0", kStacked + "pool=0", kStacked + "pool=1", "step FIRE\nstep RIGHT"},
+    {"open 1", kStacked + "pool=1", kStacked + "pool=0", "step FIRE\nstep RIGHT"},
     {"step", kOpen + "\nstep NOOP", kOpen, "step NOOP"},
     {"step ACTION", "open 2\nstep RIGHT NOOP", "open 2\nstep NOOP RIGHT"},
     {"restart", kOpen + "\nrestart", kOpen, "step NOOP"},
     {"restart MASK", kOpen + "\nrestart 10", kOpen + "\nrestart 01", "step NOOP"},
+    {"restart seed", kManySticky + "restart seed=9", kManySticky + "restart", "step NOOP\nstep RIGHT"},
+    {"restart N", kManySticky + "restart seed=9", kManySticky + "restart seed=30", "step NOOP\nstep RIGHT"},
     {"close", "open 2\nclose", "open 2", "stats"},
     {"record", "", "record gif a", "record gif b"},
     {"record png", "record png a", "record gif a"},
@@ -247,16 +277,21 @@ const Cases kSettings = {
 // What a field says in a conversation in which everything happens, over both television standards.
 std::string values_of_field(const std::string& field) {
   std::string values;
+  const std::string key = field.substr(0, field.find(':'));
   for (const std::string game : {"duel", "duel_pal"}) {
     LineClient client(duel_service());
-    client.ask("load " + game + " seed=7 sticky=0 frame_skip=2 sound=1 max_episode_frames=40");
+    client.ask("load " + game + " seed=7 sticky=0 frame_skip=2 sound=1 max_episode_frames=40 reward_max=1");
     client.ask("observe " + field);
     for (const std::string request :
          {"act NOOP", "act RIGHT*3", "act NOOP/RIGHT", "poke 18 02", "act RIGHT/RIGHT", "reset", "poke 17 01",
           "act LEFT*4", "reset", "act UP*30"})
-      (values += value(client.ask(request), field.substr(0, field.find(':')))) += ' ';
+      (values += value(client.ask(request), key)) += ' ';
   }
-  return values;
+  LineClient client(duel_service());
+  client.ask("load beamfall seed=7 sticky=0 frame_skip=900 sound=1");
+  client.ask("observe " + field);
+  client.ask("open 1 steps=frames lives=told");
+  return values + value(client.ask("step FIRE"), key, 1);
 }
 
 bool is_constant(const std::string& values) {
@@ -328,8 +363,11 @@ TEST_CASE("Each preset sets what the table says") {
 
 TEST_CASE("Each field tells something that no other tells") {
   std::vector<std::string> fields;
-  for (const FieldRow& row : field_rows())
-    fields.push_back(std::string(row.name) + (row.number ? "" : ":hex"));
+  for (const FieldRow& row : field_rows()) {
+    std::string name(row.name);
+    if (const std::size_t size = name.find("WxHxN"); size != name.npos) name.replace(size, 5, "40x30x2");
+    fields.push_back(name + (row.number ? "" : ":hex"));
+  }
   check_told_apart(fields);
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("Commands say what they need") {
   CHECK(code(client.ask("step NOOP")) == "no-machines");
   CHECK_THAT(client.ask("act"), Contains("takes at least 1 arguments, not 0: act A["));
   CHECK_THAT(client.ask("peek 1 2 3"), Contains("takes 1 to 2 arguments, not 3"));
-  CHECK_THAT(client.ask("reset now"), Contains("takes 0 arguments, not 1"));
+  CHECK_THAT(client.ask("modes now"), Contains("takes 0 arguments, not 1"));
 }
 
 TEST_CASE("The examples of help are executed") {
@@ -273,7 +273,7 @@ TEST_CASE("Errors name what is accepted") {
   CHECK_THAT(client.ask("observe none reward"), Contains("none stands alone"));
   CHECK_THAT(client.ask("load updraft as=x"), Contains("games all lists"));
   CHECK_THAT(client.ask("load beamfall rules=x"), Contains("ale-0.12 or fixed"));
-  CHECK(client.ask("reset now") == "error bad-arguments reset takes 0 arguments, not 1: reset");
+  CHECK(client.ask("modes now") == "error bad-arguments modes takes 0 arguments, not 1: modes");
 }
 
 TEST_CASE("Names of states and recordings cannot lead out of their folder") {

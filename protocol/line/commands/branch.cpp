@@ -12,11 +12,11 @@ namespace {
 // The session's player, lent to branches.
 class Loan {
  public:
-  explicit Loan(Session& session) : session_(session), undisturbed_(session.player->place(true)) {
+  explicit Loan(Session& session) : session_(session), undisturbed_(session.player->slot().save(true)) {
     session.player->machine().watch({});  // no recording of what did not happen
   }
   ~Loan() {
-    session_.player->go_to(undisturbed_);
+    session_.player->slot().restore(undisturbed_);
     if (session_.recording) session_.recording->watch();
   }
   Loan(const Loan&) = delete;
@@ -24,7 +24,7 @@ class Loan {
 
  private:
   Session& session_;
-  const Place undisturbed_;  // with generator and stack
+  const Slot::Saved undisturbed_;  // with generator and stack
 };
 
 class RewardRuns {  // the rewards of one act after the other, runs of equal ones together
@@ -64,7 +64,7 @@ Rewards play(Branching& branching, const Environment& machine, const std::vector
   Rewards rewards;
   for (const Action& action : actions) {
     for (int n = 0; n < action.times && !branching.over(); ++n) {
-      rewards.a.add(branching.act({action.a, action.b, action.strength_a, action.strength_b}));
+      rewards.a.add(branching.act(action.act));
       rewards.b.add(machine.rewards().b);
     }
   }
@@ -86,7 +86,7 @@ void append_end(std::string& out, const BranchEnd& end, const Rewards& rewards, 
 }  // namespace
 
 void play_branches(Session& session, const BranchRequest& request) {
-  std::vector<std::pair<std::string, Place>> kept;
+  std::vector<std::pair<std::string, Slot::Saved>> kept;
   append_pair(session.out += "ok", "branches", static_cast<std::int64_t>(request.lists.size()));
   {
     const Loan loan(session);
@@ -97,12 +97,12 @@ void play_branches(Session& session, const BranchRequest& request) {
       const Rewards rewards = play(branching, machine, request.lists[i]);
       const BranchEnd& end = branching.end();
       append_end(session.out, end, rewards, machine.game().has_second_reward());
-      session.count({end.reward, end.reward_b, end.acts, end.frames});
+      session.count({.reward = end.reward, .reward_b = end.reward_b, .acts = end.acts, .frames = end.frames});
       if (request.keep.empty()) continue;
       const std::string name = request.keep + std::to_string(i);
       append_pair(session.out, "state", name);
       const bool with_random = request.root.with_random;
-      kept.emplace_back(name, Place{machine.save(with_random), {}, with_random});
+      kept.emplace_back(name, Slot::Saved{machine.save(with_random), {}, with_random, {}});
       session.memory.check(kept.back().second.footprint(), "a state");
     }
   }

@@ -11,7 +11,7 @@ namespace racebeam {
 class Session;
 
 struct BranchRequest {
-  Place root;
+  Slot::Saved root;
   std::vector<std::vector<Action>> lists;
   std::string keep;  // the ends are saved as this name with 0, 1, 2 ... behind it; empty: they are not
 };

@@ -5,7 +5,6 @@
 
 #include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
-#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/play_settings.hpp"
 #include "protocol/line/session.hpp"
 #include "protocol/line/session_recording.hpp"

@@ -1,16 +1,70 @@
 // open, step, restart, close
+#include <algorithm>
 #include <limits>
 
-#include "protocol/line/commands/command_table.hpp"
+#include "protocol/line/play_settings.hpp"
 #include "protocol/line/session.hpp"
 
 namespace racebeam {
 namespace {
 
-Autoreset read_autoreset(Words words) {
-  if (words.empty()) return Autoreset::kNextStep;
-  const auto value = value_of(words[0], "autoreset", "open");
-  return static_cast<Autoreset>(choice_of(value, "autoreset", autoresets()));
+struct OpenSettings {
+  SlotSettings slot;
+  Autoreset autoreset = Autoreset::kNextStep;
+};
+
+struct OpenRow {
+  std::string_view name;
+  std::vector<std::string_view> values;
+  bool of_frames;  // goes with steps=frames
+  void (*set)(OpenSettings& settings, std::size_t value);
+};
+
+// Values count as their enumerations do.
+const std::vector<OpenRow>& open_rows() {
+  static const std::vector<OpenRow> rows = {
+      {"autoreset", {autoresets().begin(), autoresets().end()}, false,
+       [](OpenSettings& s, std::size_t value) { s.autoreset = static_cast<Autoreset>(value); }},
+      {"steps", {"frames", "acts"}, false,
+       [](OpenSettings& s, std::size_t value) { s.slot.steps = static_cast<Steps>(value); }},
+      {"start", {"fire-noops", "noops-fire", "baselines", "noops"}, true,
+       [](OpenSettings& s, std::size_t value) {
+         s.slot.fire_at_reset = value < 3;
+         if (value < 3) s.slot.reset_order = static_cast<ResetOrder>(value);
+       }},
+      {"lives", {"ignored", "told", "end", "restart"}, true,
+       [](OpenSettings& s, std::size_t value) { s.slot.life_loss = static_cast<LifeLoss>(value); }},
+      {"stack", {"zeros", "repeats"}, true,
+       [](OpenSettings& s, std::size_t value) { s.slot.stack_start = static_cast<StackStart>(value); }},
+      {"pool", {"0", "1"}, true, [](OpenSettings& s, std::size_t value) { s.slot.max_pool = value == 1; }},
+  };
+  return rows;
+}
+
+[[noreturn]] void refuse_word(std::string_view word) {
+  std::string keys;
+  for (const OpenRow& row : open_rows()) keys += (keys.empty() ? "" : " ") + std::string(row.name) + '=';
+  throw Refusal(Code::kBadArguments, quote(word) + " is no setting; open takes " + keys);
+}
+
+OpenSettings read_open_settings(const Session& session, Words words) {
+  OpenSettings settings{slot_settings(session.settings)};
+  std::vector<std::string_view> given;
+  std::string_view of_frames;
+  for (const std::string_view word : words) {
+    if (word.find('=') == std::string_view::npos) refuse_word(word);
+    const auto [key, value] = key_value(word);
+    const auto row = std::ranges::find(open_rows(), key, &OpenRow::name);
+    if (row == open_rows().end()) refuse_name(Code::kBadArguments, "setting", key, names_of(open_rows()));
+    if (std::ranges::find(given, key) != given.end()) refuse_twice(key);
+    given.push_back(key);
+    if (row->of_frames) of_frames = key;
+    row->set(settings, choice_of(value, key, row->values));
+  }
+  if (settings.slot.steps == Steps::kActs && !of_frames.empty())
+    throw Refusal(Code::kBadArguments, std::string(of_frames) + "= goes with steps=frames");
+  if (std::ranges::find(given, "start") == given.end()) settings.slot.fire_at_reset = settings.slot.steps == Steps::kFrames;
+  return settings;
 }
 
 std::size_t read_machines(const Session& session, std::string_view word) {
@@ -25,9 +79,7 @@ std::size_t read_machines(const Session& session, std::string_view word) {
                                          " machines, but " + std::to_string(given) + " " + what);
 }
 
-std::vector<std::uint8_t> read_mask(const Session& session, Words words) {
-  if (words.empty()) return std::vector<std::uint8_t>(session.machines.size(), 1);
-  const std::string_view mask = words[0];
+std::vector<std::uint8_t> read_mask(const Session& session, std::string_view mask) {
   if (mask.find_first_not_of("01") != std::string_view::npos)
     throw Refusal(Code::kBadValue, quote(mask) + " is no mask; it takes a 0 or a 1 for each machine");
   if (mask.size() != session.machines.size()) refuse_count(session, mask.size(), "digits in the mask");
@@ -40,8 +92,8 @@ std::vector<std::uint8_t> read_mask(const Session& session, Words words) {
 
 void run_open(Session& session, Words arguments) {
   const std::size_t machines = read_machines(session, arguments[0]);
-  const Autoreset autoreset = read_autoreset(arguments.subspan(1));
-  session.machines.open(session, machines, autoreset);
+  const OpenSettings settings = read_open_settings(session, arguments.subspan(1));
+  session.machines.open(machines, settings.slot, settings.autoreset);
 }
 
 void run_step(Session& session, Words arguments) {
@@ -49,19 +101,30 @@ void run_step(Session& session, Words arguments) {
   const std::size_t machines = session.machines.size();
   if (arguments.size() != 1 && arguments.size() != machines)
     refuse_count(session, arguments.size(), "actions; give one each, or one for all");
-  auto& actions = session.actions;
-  actions.clear();
+  auto& acts = session.step_acts;
+  acts.clear();
   for (const std::string_view word : arguments) {
-    actions.push_back(parse_action(word, allowed));
-    if (actions.back().times > 1)
-      throw Refusal(Code::kBadValue, "a step is one act; *TIMES is for act and branch");
+    const Action action = parse_action(word, allowed);
+    if (action.times > 1) throw Refusal(Code::kBadValue, "a step is one act; *TIMES is for act and branch");
+    acts.push_back(action.act);
   }
-  actions.resize(machines, actions[0]);
-  session.machines.step(session, actions);
+  acts.resize(machines, acts[0]);
+  session.machines.step(acts);
 }
 
 void run_restart(Session& session, Words arguments) {
-  session.machines.restart(session, read_mask(session, arguments));
+  std::vector<std::uint8_t> chosen(session.machines.size(), 1);
+  std::vector<std::int64_t> seeds;
+  for (const std::string_view word : arguments) {
+    if (word.find('=') == std::string_view::npos) {
+      chosen = read_mask(session, word);
+      continue;
+    }
+    seeds.resize(session.machines.size());
+    const std::uint32_t first = parse_seed(value_of(word, "seed", "restart"));
+    for (std::size_t i = 0; i < seeds.size(); ++i) seeds[i] = first + static_cast<std::uint32_t>(i);
+  }
+  session.machines.restart(chosen, seeds);
 }
 
 void run_close(Session& session, Words) {

@@ -1,7 +1,7 @@
 // observe, look, act, reset, peek, poke
 #include <algorithm>
+#include <optional>
 
-#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/session.hpp"
 
 namespace racebeam {
@@ -18,7 +18,7 @@ void check_look(const std::vector<Field>& fields) {
   for (const Field& field : fields) {
     if (field.encoding == Encoding::kDelta)
       throw Refusal(Code::kBadArguments, "delta is for observe: it tells what changed from reply to reply");
-    if (field.depth > 1)
+    if (field.stack && field.stack->depth > 1)
       throw Refusal(Code::kBadArguments, "a stack is for observe: it is made of what replies have shown");
   }
 }
@@ -31,13 +31,25 @@ void append_bytes_of(Session& session, int index, std::size_t count) {
       .append(session.out, session.player->machine().ram().subspan(static_cast<std::size_t>(index), count));
 }
 
-void play(Player& player, const std::vector<Action>& actions) {
+void play(Slot& slot, const std::vector<Action>& actions) {
   for (const Action& action : actions) {
     for (int n = 0; n < action.times; ++n) {
-      player.act(action);
-      if (player.machine().game_over()) return;
+      slot.act(action.act);
+      if (slot.finished()) return;
     }
   }
+}
+
+// The stack that one of the fields is, of one screen.
+std::optional<ScreenStack> stack_of(const std::vector<Field>& fields, const Slot& slot) {
+  std::optional<ScreenStack> stack;
+  for (const Field& field : fields) {
+    if (!field.stack) continue;
+    stack.emplace(*field.stack, slot.environment());
+    stack->look(slot.environment(), slot.blends());
+    stack->push();
+  }
+  return stack;
 }
 
 int ram_index(std::string_view text) {
@@ -51,7 +63,8 @@ void run_observe(Session& session, Words arguments) {
     std::vector<Field> fields = parse_fields(arguments);
     check_sound(session, fields);
     session.memory.check(View::footprint(fields), "a view of these fields");
-    session.machines.observe(session, fields);
+    if (session.player) stack_of(fields, session.player->slot());  // it can be made
+    session.machines.observe(fields);
     session.fields = std::move(fields);
     if (session.player) session.player->observe(session.fields);
   }
@@ -72,10 +85,21 @@ void run_look(Session& session, Words arguments) {
   check_sound(session, fields);
   check_look(fields);
   session.memory.check(View::footprint(fields) + text_size(fields, player.machine()), "a look at these fields");
-  View view(std::move(fields), player.machine().height());
-  view.began(player.machine(), player.blends());
+  const auto stack = stack_of(fields, player.slot());
   session.out += "ok";
-  view.append(session.out, player.machine(), player.outcome());
+  View(std::move(fields))
+      .append(session.out, {player.machine(), player.slot().outcome(), stack ? &*stack : nullptr});
+}
+
+void run_reset(Session& session, Words arguments) {
+  Player& player = *session.player;
+  std::optional<std::uint32_t> seed;
+  if (!arguments.empty()) seed = parse_seed(value_of(arguments[0], "seed", "reset"));
+  session.allow_resets(1);
+  player.slot().reset(seed);
+  player.slot().begin_request();
+  session.out += "ok";
+  player.append_view(session.out);
 }
 
 // Ends early with the episode.
@@ -90,21 +114,12 @@ void run_act(Session& session, Words arguments) {
     if (actions.size() % 256 == 0) session.pacer.breathe();
   }
   session.check_frames(acts);
-  if (session.settings.autoreset && player.machine().game_over()) return run_reset(session, {});
-  player.begin_request();
-  play(player, actions);
-  session.count(player.outcome());
+  if (session.settings.autoreset && player.slot().finished()) return run_reset(session, {});
+  player.slot().begin_request();
+  play(player.slot(), actions);
+  session.count(player.slot().outcome());
   session.out += "ok";
   session.append_cut();
-  player.append_view(session.out);
-}
-
-void run_reset(Session& session, Words) {
-  Player& player = *session.player;
-  session.allow_resets(1);
-  player.reset();
-  player.begin_request();
-  session.out += "ok";
   player.append_view(session.out);
 }
 

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "games/similar.hpp"
-#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/session.hpp"
 #include "protocol/line/session_recording.hpp"
 #include "recording/recorder.hpp"
@@ -49,13 +48,19 @@ std::vector<MediaKind> parse_kinds(std::string_view words) {
   return kinds;
 }
 
-// That of `load`, or one of `open`.
-Player& player_of(Session& session, Words arguments) {
-  if (arguments.empty()) return *session.player;
+struct Subject {  // of a recording
+  Environment& machine;
+  Pacer& pacer;  // on which it runs
+};
+
+// The machine of `load`, or one of `open`.
+Subject subject_of(Session& session, Words arguments) {
+  if (arguments.empty()) return {session.player->machine(), session.player->pacer()};
   const std::string_view number = value_of(arguments[0], "machine", "record");
   if (session.machines.empty()) throw Refusal(Code::kNoMachines, "machine= needs machines; open some first");
   const auto last = static_cast<std::int64_t>(session.machines.size()) - 1;
-  return session.machines.player(static_cast<std::size_t>(number_within(number, "machine", 0, last)));
+  const auto machine = static_cast<std::size_t>(number_within(number, "machine", 0, last));
+  return {session.machines.machine(machine), session.machines.pacer(machine)};
 }
 
 // To the server. What is written slowly may outlive the session by far.
@@ -77,9 +82,9 @@ std::shared_ptr<Recording> begin(const LineService& service, const std::vector<M
   }
 }
 
-void start(Session& session, const std::vector<MediaKind>& kinds, std::string_view name, Player& player) {
-  const auto recording = begin(session.service, kinds, name, player.machine());
-  session.recording = std::make_unique<SessionRecording>(recording, player);
+void start(Session& session, const std::vector<MediaKind>& kinds, std::string_view name, Subject subject) {
+  const auto recording = begin(session.service, kinds, name, subject.machine);
+  session.recording = std::make_unique<SessionRecording>(recording, subject.machine, subject.pacer);
   await(*recording, session.pacer);
   if (recording->finished()) {
     session.recording.reset();
@@ -101,7 +106,7 @@ void run_record(Session& session, Words arguments) {
     throw Refusal(Code::kRecording,
                   session.recording->names() + " has not been stopped; record stop does it");
   const std::string_view name = checked_name(arguments[1], "recording");
-  start(session, kinds, name, player_of(session, arguments.subspan(2)));
+  start(session, kinds, name, subject_of(session, arguments.subspan(2)));
 }
 
 }  // namespace racebeam

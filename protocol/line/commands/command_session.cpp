@@ -1,7 +1,6 @@
 // hello, help, stats, quit
 #include <utility>
 
-#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/commands/help.hpp"
 #include "protocol/line/play_settings.hpp"
 #include "protocol/line/session.hpp"

@@ -7,15 +7,14 @@
 #include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/line/commands/branch.hpp"
-#include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/session.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
 namespace {
 
-const Place& find_state(const Session& session, std::string_view name) {
-  if (const Place* const found = session.states.find(name)) return *found;
+const Slot::Saved& find_state(const Session& session, std::string_view name) {
+  if (const Slot::Saved* const found = session.states.find(name)) return *found;
   std::vector<std::string_view> names;
   for (const auto& [known, place] : session.states) names.push_back(known);
   std::string sentence = "there is no state " + quote(name) + ';';
@@ -39,7 +38,7 @@ void check_room(const Session& session, std::size_t more) {
                                   " states; drop some, or save under a name that is in use");
 }
 
-void keep(Session& session, std::string_view name, Place place) {
+void keep(Session& session, std::string_view name, Slot::Saved place) {
   if (!session.states.contains(name)) check_room(session, 1);
   session.memory.check(place.footprint(), "a state");
   session.states.put(name, std::move(place));
@@ -89,15 +88,15 @@ std::int64_t acts_of(const std::vector<Action>& list) {
 
 void run_save(Session& session, Words arguments) {
   const std::string_view name = state_name(arguments[0]);
-  keep(session, name, session.player->place(read_random(arguments.subspan(1))));
+  keep(session, name, session.player->slot().save(read_random(arguments.subspan(1))));
   session.out += "ok";
   append_pair(session.out, "state", name);
 }
 
 void run_restore(Session& session, Words arguments) {
-  const Place& place = find_state(session, arguments[0]);
-  session.player->go_to(place);
-  session.player->begin_request();
+  const Slot::Saved& place = find_state(session, arguments[0]);
+  session.player->slot().restore(place);
+  session.player->slot().begin_request();
   session.out += "ok";
   session.player->append_view(session.out);
 }
@@ -137,7 +136,7 @@ void run_import(Session& session, Words arguments) {
   const std::string_view name = state_name(arguments[0]);
   const auto bytes = bytes_of_base64(arguments[1]);
   if (!bytes) throw Refusal(Code::kBadState, "the state is not base64 (A-Z a-z 0-9 + / and = at the end)");
-  Place place;
+  Slot::Saved place;
   try {
     place.machine = from_bytes(*bytes, session.player->machine());
     place.with_random = place.machine->random.has_value();

@@ -3,6 +3,48 @@
 #include <array>
 
 namespace racebeam {
+
+// command_session.cpp
+void run_hello(Session&, Words);
+void run_help(Session&, Words);
+void run_stats(Session&, Words);
+void run_quit(Session&, Words);
+
+// command_load.cpp
+void run_games(Session&, Words);
+void run_load(Session&, Words);
+void run_settings(Session&, Words);
+void run_set(Session&, Words);
+void run_modes(Session&, Words);
+void run_difficulties(Session&, Words);
+void run_actions(Session&, Words);
+
+// command_play.cpp
+void run_observe(Session&, Words);
+void run_look(Session&, Words);
+void run_act(Session&, Words);
+void run_reset(Session&, Words);
+void run_peek(Session&, Words);
+void run_poke(Session&, Words);
+
+// command_state.cpp
+void run_save(Session&, Words);
+void run_restore(Session&, Words);
+void run_drop(Session&, Words);
+void run_states(Session&, Words);
+void run_export(Session&, Words);
+void run_import(Session&, Words);
+void run_branch(Session&, Words);
+
+// command_machines.cpp
+void run_open(Session&, Words);
+void run_step(Session&, Words);
+void run_restart(Session&, Words);
+void run_close(Session&, Words);
+
+// command_record.cpp
+void run_record(Session&, Words);
+
 namespace {
 
 // name, arguments, summary, hint, example, least and most arguments, what it needs, handler
@@ -34,7 +76,8 @@ constexpr std::array kCommands = {
     Command{"act", "A[@STRENGTH][/B[@STRENGTH]][*TIMES]...", "play actions until the episode ends",
             "actions has the actions; B is player B's, STRENGTH how far a paddle is turned, 0 to 1",
             "act FIRE RIGHT*10 3", 1, kAnyNumber, Needs::kGame, run_act},
-    Command{"reset", "", "begin an episode", "", "", 0, 0, Needs::kGame, run_reset},
+    Command{"reset", "[seed=N]", "begin an episode; with a seed, power on anew with it", "", "reset seed=8", 0, 1,
+            Needs::kGame, run_reset},
     Command{"peek", "INDEX [COUNT]", "bytes of RAM, 0 to 127", "", "peek 3 4", 1, 2, Needs::kGame, run_peek},
     Command{"poke", "INDEX HEX", "write bytes of RAM", "", "poke 3 FF00", 2, 2, Needs::kGame, run_poke},
     Command{"save", "NAME [random=1]", "keep the state, with the generator of what is random if wished", "",
@@ -50,13 +93,18 @@ constexpr std::array kCommands = {
             "from a state, play lists of actions; the session stays where it is",
             "actions are written as for act; keep= saves where the lists end, as PREFIX0, PREFIX1, ...",
             "branch start FIRE*50 UP,RIGHT*9", 2, kAnyNumber, Needs::kGame, run_branch},
-    Command{"open", "N [autoreset=next-step|same-step|disabled]",
-            "N machines with the game and settings that are loaded, seeds counting up", "",
-            "open 4 autoreset=same-step", 1, 2, Needs::kGame, run_open},
+    Command{"open",
+            "N [autoreset=next-step|same-step|disabled] [steps=acts|frames] "
+            "[start=fire-noops|noops-fire|baselines|noops] [lives=ignored|told|end|restart] "
+            "[stack=zeros|repeats] [pool=0|1]",
+            "N machines with the game and settings that are loaded, seeds counting up",
+            "start, lives, stack and pool go with steps=frames", "open 4 autoreset=same-step", 1, 7,
+            Needs::kGame, run_open},
     Command{"step", "ACTION...", "an action for each machine, or one for all", "written as for act",
             "step FIRE UP RIGHT 4", 1, kAnyNumber, Needs::kMachines, run_step},
-    Command{"restart", "[MASK]", "reset machines: those with 1 in a mask such as 0110; without, all", "",
-            "restart 0110", 0, 1, Needs::kMachines, run_restart},
+    Command{"restart", "[MASK] [seed=N]",
+            "reset machines: those with 1 in a mask such as 0110; without, all; seeds count up",
+            "with a seed, the machines are powered on anew", "restart 0110", 0, 2, Needs::kMachines, run_restart},
     Command{"close", "", "give the machines back", "", "", 0, 0, Needs::kMachines, run_close},
     Command{"record", "png|gif|y4m|wav[,...] NAME [machine=N] | stop",
             "write frames, sound or both below the server's folder",

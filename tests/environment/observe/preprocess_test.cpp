@@ -1,5 +1,5 @@
 // Beside this, tests/clients/test_small_screens.py compares with OpenCV and the reference.
-#include "environment/observe/preprocess.hpp"
+#include "environment/observe/screen_stack.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -15,6 +15,12 @@ using test::plain;
 using test::steered;
 
 using Bytes = std::vector<std::uint8_t>;
+constexpr std::size_t kSmallSize = 84 * 84;
+
+void push(ScreenStack& stack, const Environment& environment, bool pooled) {
+  stack.look(environment, pooled);
+  stack.push();
+}
 
 // How much of [begin, end) lies in cell `cell` of the axis.
 double covered(double begin, double end, int cell) {
@@ -64,22 +70,23 @@ TEST_CASE("A plane of one colour stays so, and one of the same size is copied") 
 
 TEST_CASE("A stack holds the last screens, oldest first, and zeros before") {
   Environment environment = steered(plain());
-  SmallScreens stack(3, environment.height());
+  ScreenStack stack({.depth = 3}, environment);
   std::vector<Bytes> planes(2, Bytes(kSmallSize));
   for (int frame = 0; frame < 5; ++frame) {
     environment.act(0);
-    stack.push(environment, false);
-    SmallScreens alone(1, environment.height());
-    alone.push(environment, false);
-    planes.emplace_back(alone.bytes().begin(), alone.bytes().end());
+    push(stack, environment, false);
+    ScreenStack alone({.depth = 1}, environment);
+    push(alone, environment, false);
+    planes.push_back(alone.bytes());
+    const Bytes shown = stack.bytes();
     for (std::size_t age = 0; age < 3; ++age) {
-      const auto part = stack.bytes().subspan(age * kSmallSize, kSmallSize);
+      const auto part = std::span(shown).subspan(age * kSmallSize, kSmallSize);
       CHECK(std::ranges::equal(part, planes[planes.size() - 3 + age]));
     }
   }
   CHECK(planes[3] != planes[4]);
   stack.clear();
-  CHECK(std::ranges::count(stack.bytes(), 0) == std::ssize(stack.bytes()));
+  CHECK(stack.bytes() == Bytes(3 * kSmallSize));
 }
 
 TEST_CASE("A pooled screen has of each pixel the brighter of the last two frames") {
@@ -90,12 +97,52 @@ TEST_CASE("A pooled screen has of each pixel the brighter of the last two frames
     environment.act(0);
     environment.screen_grey(now);
     for (std::size_t i = 0; i < now.size(); ++i) now[i] = std::max(now[i], before[i]);
-    SmallScreens pooled(1, environment.height());
-    pooled.push(environment, true);
+    ScreenStack pooled({.depth = 1}, environment);
+    push(pooled, environment, true);
     Bytes expected(kSmallSize);
     AreaResize(160, environment.height(), 84, 84)(now, expected);
     CHECK(std::ranges::equal(pooled.bytes(), expected));
   }
+}
+
+TEST_CASE("A stack in colour has red, green and blue of each pixel, and may be as large as the screen") {
+  Environment environment = steered(plain());
+  environment.act(0);
+  Bytes rgb;
+  environment.screen_rgb(rgb);
+  ScreenStack whole({.depth = 2, .width = 0, .height = 0, .rgb = true}, environment);
+  push(whole, environment, false);
+  const Bytes shown = whole.bytes();
+  CHECK(whole.screen_size() == rgb.size());
+  CHECK(std::ranges::equal(std::span(shown).last(rgb.size()), rgb));
+  ScreenStack small({.depth = 1, .width = 40, .height = 70, .rgb = true}, environment);
+  push(small, environment, false);
+  const Bytes reduced = small.bytes();
+  REQUIRE(reduced.size() == 40 * 70 * 3);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    Bytes plane, of_small, expected(40 * 70);
+    for (std::size_t at = channel; at < rgb.size(); at += 3) plane.push_back(rgb[at]);
+    for (std::size_t at = channel; at < reduced.size(); at += 3) of_small.push_back(reduced[at]);
+    AreaResize(160, environment.height(), 40, 70)(plane, expected);
+    CHECK(of_small == expected);
+  }
+}
+
+TEST_CASE("A stack can be filled with its newest screen, and refuses sizes that can't be made") {
+  Environment environment = steered(plain());
+  environment.act(0);
+  ScreenStack stack({.depth = 3}, environment);
+  push(stack, environment, false);
+  const Bytes zeros(2 * kSmallSize), before = stack.bytes();
+  CHECK(std::ranges::equal(std::span(before).first(zeros.size()), zeros));
+  stack.repeat();
+  const Bytes shown = stack.bytes();
+  for (std::size_t age = 0; age < 3; ++age)
+    CHECK(std::ranges::equal(std::span(shown).subspan(age * kSmallSize, kSmallSize), std::span(before).last(kSmallSize)));
+  CHECK_THROWS_WITH(ScreenStack({.depth = 1, .width = 161}, environment),
+                    "the width of an observation is 161; it takes 1 to 160, or 0 for the screen's own");
+  CHECK_THROWS_WITH(ScreenStack({.depth = 1, .height = 8}, environment),
+                    "the height of an observation is 8; it takes 9 to 210, or 0 for the screen's own");
 }
 
 TEST_CASE("An act can draw its frames from a range, and a few can run by themselves") {

@@ -2,11 +2,11 @@
 #include "environment/vector/batch.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <catch2/catch.hpp>
 #include <random>
 
 #include "environment/observe/area_resize.hpp"
-#include "environment/vector/thread_pool.hpp"
 #include "tests/environment/steered.hpp"
 
 namespace racebeam {
@@ -18,32 +18,37 @@ std::vector<Cartridge> copies(std::size_t count) { return {count, {test::counter
 
 BatchSettings short_episodes() {
   BatchSettings settings;
-  settings.machine.random_seed = 5;
-  settings.machine.sticky = 0.25F;
-  settings.max_episode_frames = 30;
-  settings.noop_max = 7;
+  settings.slot.machine.random_seed = 5;
+  settings.slot.machine.sticky = 0.25F;
+  settings.slot.machine.max_episode_frames = 30;
+  settings.slot.noop_max = 7;
   return settings;
 }
 
-void play(Batch& batch, int steps) {
+// What the machines show after so many steps of random actions.
+BatchResults play(Batch& batch, int steps) {
   std::mt19937 random(3);
   std::vector<int> actions(batch.size());
+  BatchResults results = batch.make_results();
+  batch.show(results.arrays());
   for (int step = 0; step < steps; ++step) {
     for (int& action : actions) action = static_cast<int>(random() % batch.actions(0).size());
-    batch.step(actions);
+    batch.step(actions, results.arrays());
   }
+  return results;
 }
 
-TEST_CASE("Every task runs once in each round, whatever the number of threads") {
-  for (const unsigned count : {1U, 2U, 5U}) {
-    ThreadPool threads(count);
-    CHECK(threads.threads() == count);
-    for (int round = 0; round < 300; ++round) {
-      std::vector<std::atomic<int>> runs(static_cast<std::size_t>(round));
-      threads.run(runs.size(), [&runs](std::size_t number) { ++runs[number]; });
-      REQUIRE(std::ranges::all_of(runs, [](const auto& run) { return run == 1; }));
-    }
-  }
+void check_same(const BatchResults& a, const BatchResults& b) {
+  CHECK(a.observations == b.observations);
+  CHECK(a.final_observations == b.final_observations);
+  CHECK(a.screens == b.screens);
+  CHECK(a.ram == b.ram);
+  CHECK(a.rewards == b.rewards);
+  CHECK(a.terminated == b.terminated);
+  CHECK(a.truncated == b.truncated);
+  CHECK(a.finished == b.finished);
+  CHECK(a.frames == b.frames);
+  CHECK(a.episode_frames == b.episode_frames);
 }
 
 TEST_CASE("A batch gives the same on one thread and on several") {
@@ -53,41 +58,35 @@ TEST_CASE("A batch gives the same on one thread and on several") {
   Batch alone(copies(7), settings);
   settings.threads = 3;
   Batch together(copies(7), settings);
-  play(alone, 40);
-  play(together, 40);
-  const auto &a = alone.results(), &b = together.results();
-  CHECK(a.observations == b.observations);
-  CHECK(a.screens == b.screens);
-  CHECK(a.ram == b.ram);
-  CHECK(a.frames == b.frames);
+  const BatchResults a = play(alone, 40), b = play(together, 40);
+  check_same(a, b);
   CHECK(std::ranges::count(a.ram, a.ram[0]) != std::ssize(a.ram));
 }
 
 TEST_CASE("The machines of a batch have seeds of their own, one after the other") {
   auto settings = short_episodes();
   Batch three(copies(3), settings);
-  settings.machine.random_seed += 2;
+  settings.slot.machine.random_seed += 2;
   Batch last(copies(1), settings);
-  play(three, 0);
-  CHECK(three.results().frames[2] == last.results().frames[0]);
-  const std::vector<std::int32_t>& frames = three.results().frames;
+  const std::vector<std::int32_t> frames = play(three, 0).frames;
+  CHECK(frames[2] == play(last, 0).frames[0]);
   CHECK_FALSE((frames[0] == frames[1] && frames[1] == frames[2]));
 }
 
 TEST_CASE("After an episode a machine resets in the next step, in the same one, or when it is told to") {
   auto settings = short_episodes();
-  settings.machine.sticky = 0;
-  settings.frame_skip = 10;
-  settings.noop_max = 0;
-  settings.fire_at_reset = false;
+  settings.slot.machine.sticky = 0;
+  settings.slot.machine.frame_skip = 10;
+  settings.slot.noop_max = 0;
+  settings.slot.fire_at_reset = false;
   const std::vector<int> noop{0};
   const auto counters = [&](Autoreset autoreset) {
     settings.autoreset = autoreset;
     Batch batch(copies(1), settings);
+    BatchResults results = batch.make_results();
     std::vector<std::array<int, 3>> seen;  // episode frame, truncated, finished
     for (int step = 0; step < 5; ++step) {
-      batch.step(noop);
-      const auto& results = batch.results();
+      batch.step(noop, results.arrays());
       seen.push_back({results.episode_frames[0], results.truncated[0], results.finished[0]});
     }
     return seen;
@@ -99,28 +98,198 @@ TEST_CASE("After an episode a machine resets in the next step, in the same one, 
 
   settings.autoreset = Autoreset::kDisabled;
   Batch batch(copies(2), settings);
-  for (int step = 0; step < 3; ++step) batch.step(std::vector{0, 0});
-  batch.reset(std::vector<std::uint8_t>{0, 1});
-  CHECK(batch.results().episode_frames == std::vector{30, 0});
-  CHECK(batch.results().finished == Bytes{1, 0});
-  batch.reset();
-  CHECK(batch.results().finished == Bytes{0, 0});
+  BatchResults results = batch.make_results();
+  for (int step = 0; step < 3; ++step) batch.step(std::vector{0, 0}, results.arrays());
+  batch.reset(results.arrays(), std::vector<std::uint8_t>{0, 1});
+  CHECK(results.episode_frames == std::vector{30, 0});
+  CHECK(results.finished == Bytes{1, 0});
+  batch.reset(results.arrays());
+  CHECK(results.finished == Bytes{0, 0});
+}
+
+TEST_CASE("A reset with a seed leads where a new batch with that seed begins") {
+  auto settings = short_episodes();
+  Batch played(copies(3), settings);
+  play(played, 23);
+  BatchResults results = played.make_results();
+  played.reset(results.arrays(), {}, std::vector<std::int64_t>{90, 91, 92});
+  settings.slot.machine.random_seed = 90;
+  Batch fresh(copies(3), settings);
+  check_same(results, play(fresh, 0));
+  check_same(play(played, 50), play(fresh, 50));
+  played.reset(results.arrays(), std::vector<std::uint8_t>{0, 1, 0}, std::vector<std::int64_t>{-1, 91, 5});
+  Batch other(copies(3), settings);
+  const BatchResults begun = play(other, 0);
+  CHECK(results.frames[1] == begun.frames[1]);
+  CHECK(results.frames[2] > begun.frames[2]);
+}
+
+TEST_CASE("Rewards are told clipped and unclipped, and ends of lives beside ends of games") {
+  auto settings = short_episodes();
+  settings.slot.machine.sticky = 0;
+  settings.slot.life_loss = LifeLoss::kTold;
+  Batch batch(copies(2), settings);
+  BatchResults results = batch.make_results();
+  for (const std::size_t machine : {0, 1}) batch.slot(machine).environment().set_ram(test::kLives, 3);
+  batch.step(std::vector{0, 0}, results.arrays());
+  batch.slot(0).environment().set_ram(test::kScore, 7);
+  batch.slot(0).environment().set_ram(test::kLives, 2);
+  batch.slot(1).environment().set_ram(test::kOver, 1);
+  batch.step(std::vector{0, 0}, results.arrays());
+  CHECK(results.rewards == std::vector{1, 0});
+  CHECK(results.raw_rewards == std::vector{7, 0});
+  CHECK(results.terminated == Bytes{1, 1});
+  CHECK(results.finished == Bytes{0, 1});
+  CHECK(results.game_over == Bytes{0, 1});
+}
+
+// The machine's part of an array.
+template <typename T>
+std::vector<T> part(const std::vector<T>& array, std::size_t machine, std::size_t machines) {
+  const std::size_t size = array.size() / machines;
+  return {array.begin() + std::ptrdiff_t(machine * size), array.begin() + std::ptrdiff_t((machine + 1) * size)};
+}
+
+TEST_CASE("Machines that are sent and received in any order play as they do together") {
+  for (const Autoreset autoreset : {Autoreset::kNextStep, Autoreset::kSameStep}) {
+    auto settings = short_episodes();
+    settings.autoreset = autoreset;
+    Batch together(copies(5), settings);
+    std::vector<BatchResults> expected;  // after each step
+    for (int step = 0; step < 12; ++step) {
+      expected.push_back(together.make_results());
+      together.step(std::vector{1, 2, 3, 4, 5}, expected.back().arrays());
+    }
+    settings.batch_size = 2;
+    settings.threads = 3;
+    Batch apart(copies(5), settings);
+    CHECK(apart.batch_size() == 2);
+    const std::vector<std::int32_t> all{0, 1, 2, 3, 4};
+    apart.send(std::vector{1, 2, 3, 4, 5}, all);
+    std::vector<std::size_t> steps(5);
+    BatchResults results = apart.make_results();
+    while (std::ranges::any_of(steps, [](std::size_t count) { return count < 12; })) {
+      apart.receive(results.arrays());
+      std::vector<int> actions;
+      for (std::size_t position = 0; position < 2; ++position) {
+        const auto machine = static_cast<std::size_t>(results.numbers[position]);
+        actions.push_back(static_cast<int>(machine) + 1);
+        if (steps[machine] >= expected.size()) continue;
+        const BatchResults& should = expected[steps[machine]++];
+        CHECK(part(results.observations, position, 2) == part(should.observations, machine, 5));
+        CHECK(results.episode_frames[position] == should.episode_frames[machine]);
+        CHECK(results.finished[position] == should.finished[machine]);
+        if (autoreset == Autoreset::kSameStep && should.finished[machine] != 0)
+          CHECK(part(results.final_observations, position, 2) == part(should.final_observations, machine, 5));
+      }
+      apart.send(actions, results.numbers);
+    }
+  }
+}
+
+TEST_CASE("A batch that sends says what can't be sent or received") {
+  auto settings = short_episodes();
+  settings.batch_size = 2;
+  Batch batch(copies(3), settings);
+  BatchResults results = batch.make_results();
+  CHECK_THROWS_WITH(batch.receive(results.arrays()), "0 machines play, and a receive takes 2; send some first");
+  CHECK_THROWS_WITH(batch.send(std::vector{0}, std::vector{3}), "there is no machine 3; there are 0 to 2");
+  CHECK_THROWS_WITH(batch.send(std::vector{0, 0}, std::vector{1, 1}),
+                    "machine 1 plays already; receive it first");
+  CHECK_THROWS_WITH(batch.send(std::vector{0}, std::vector{1, 2}), "there are 1 actions for 2 machines");
+  batch.send_resets();
+  CHECK_THROWS_WITH(batch.step(std::vector{0, 0, 0}, results.arrays()), "3 machines play; receive them first");
+  batch.receive(results.arrays());
+  CHECK_THROWS_WITH(batch.receive(results.arrays()), "1 machines play, and a receive takes 2; send some first");
+  batch.send(std::vector{0}, std::span(results.numbers).first(1));
+  batch.receive(results.arrays());
+}
+
+TEST_CASE("A machine of a batch goes back to a state, and plays on as it did") {
+  for (const int frames : {30, 29}) {  // an episode ends with a step, or within one
+    auto settings = short_episodes();
+    settings.slot.machine.max_episode_frames = frames;
+    Batch batch(copies(2), settings);
+    play(batch, 5);
+    const Slot::Saved saved = batch.slot(1).save(true);
+    std::vector<BatchResults> first, second;
+    for (auto* results : {&first, &second}) {
+      for (int step = 0; step < 3; ++step) {
+        results->push_back(batch.make_results());
+        batch.step(std::vector{2, 3}, results->back().arrays());
+      }
+      batch.slot(1).restore(saved);
+    }
+    for (std::size_t step = 0; step < 3; ++step) {
+      CHECK(part(first[step].observations, 1, 2) == part(second[step].observations, 1, 2));
+      CHECK(part(first[step].ram, 1, 2) == part(second[step].ram, 1, 2));
+      CHECK(first[step].finished[1] == second[step].finished[1]);
+    }
+    CHECK(first[2].finished[1] == 1);
+  }
+}
+
+TEST_CASE("Lower screens of a batch are followed by zeros") {
+  constexpr auto kLow = R"(
+title = "Low"
+[[image]]
+height = 190
+[rule]
+step = "score = 0; terminal = 0"
+)";
+  std::vector<Cartridge> two = copies(1);
+  two.push_back({test::counter_image(), test::game(kLow, "low")});
+  BatchSettings settings;
+  settings.screens = true;
+  settings.stack = {.depth = 2, .width = 0, .height = 0, .rgb = true};
+  Batch batch(two, settings);
+  const int low = batch.slot(1).environment().height();
+  REQUIRE(low < batch.height());
+  CHECK(batch.observation_size() == std::size_t(2 * batch.height() * 160 * 3));
+  BatchResults results = batch.make_results();
+  std::ranges::fill(results.observations, std::uint8_t{77});
+  std::ranges::fill(results.screens, std::uint8_t{77});
+  batch.step(std::vector{0, 0}, results.arrays());
+  const Bytes observation = part(results.observations, 1, 2), screen = part(results.screens, 1, 2);
+  const std::size_t rows = std::size_t(batch.height() - low);
+  const auto zeros = [](std::span<const std::uint8_t> bytes) { return std::ranges::count(bytes, 0) == std::ssize(bytes); };
+  CHECK(zeros(std::span(observation).last(rows * 160 * 3)));
+  CHECK(zeros(std::span(screen).last(rows * 160)));
+  CHECK(std::ranges::count(observation, 77) < 1000);
 }
 
 TEST_CASE("A batch says what it can't do, and goes on") {
   Batch batch(copies(2), short_episodes());
-  const auto before = batch.results().frames;
-  CHECK_THROWS_WITH(batch.step(std::vector{0}), "there are 1 actions for 2 machines");
-  CHECK_THROWS_WITH(batch.step(std::vector{0, 18}), "machine 1 has no action 18; it takes 0 to 17");
-  CHECK_THROWS_WITH(batch.step(std::vector{-1, 0}), "machine 0 has no action -1; it takes 0 to 17");
-  CHECK_THROWS_WITH(batch.reset(Bytes(3)), "there are 3 choices for 2 machines");
-  CHECK(batch.results().frames == before);
-  auto settings = short_episodes();
-  settings.frame_skip = 0;
-  CHECK_THROWS_WITH(Batch(copies(1), settings), "a step has 0 frames; it must have 1 or more");
-  settings = short_episodes();
-  settings.mode = 2;
-  CHECK_THROWS_WITH(Batch(copies(3), settings), Catch::Contains("no mode 2; it offers 0, 1, 3"));
+  BatchResults results = batch.make_results();
+  batch.show(results.arrays());
+  const auto before = results.frames;
+  const auto step = [&](const std::vector<int>& actions) { batch.step(actions, results.arrays()); };
+  CHECK_THROWS_WITH(step({0}), "there are 1 actions for 2 machines");
+  CHECK_THROWS_WITH(step({0, 18}), "machine 1 has no action 18; it takes 0 to 17");
+  CHECK_THROWS_WITH(step({-1, 0}), "machine 0 has no action -1; it takes 0 to 17");
+  CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.a = 40}}, results.arrays()),
+                    "player A has no action 40; there are 0 to 17");
+  CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.b = 3}}, results.arrays()),
+                    "player B has no action 3; there are 18 to 35");
+  CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.strength_a = NAN}}, results.arrays()),
+                    "the strength of a paddle is not a number");
+  CHECK_THROWS_WITH(batch.reset(results.arrays(), Bytes(3)), "there are 3 choices for 2 machines");
+  CHECK_THROWS_WITH(batch.reset(results.arrays(), {}, std::vector<std::int64_t>(1)),
+                    "there are 1 seeds for 2 machines");
+  batch.show(results.arrays());
+  CHECK(results.frames == before);
+  const auto refuses = [](auto change, const std::string& sentence) {
+    auto settings = short_episodes();
+    change(settings);
+    CHECK_THROWS_WITH(Batch(copies(3), settings), Catch::Contains(sentence));
+  };
+  refuses([](auto& s) { s.slot.machine.frame_skip = 0; }, "a step has 0 frames; it must have 1 or more");
+  refuses([](auto& s) { s.slot.mode = 2; }, "no mode 2; it offers 0, 1, 3");
+  refuses([](auto& s) { s.batch_size = 4; }, "batch_size is 4; it takes 1 to 3, or 0 for all machines");
+  refuses([](auto& s) { s.stack.depth = -1; }, "the stack has -1 screens");
+  refuses([](auto& s) { s.stack.width = 200; }, "the width of an observation is 200; it takes 1 to 160");
+  CHECK_THROWS_WITH(Batch({}, short_episodes()), "there are 0 machines; there must be 1 or more");
+  CHECK_THROWS_WITH(Batch(copies(100'000'000), short_episodes()), Catch::Contains("100000000 machines take about"));
 }
 
 // Rows that repeat, and noise.

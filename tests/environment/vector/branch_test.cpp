@@ -11,7 +11,7 @@ namespace {
 using test::observe;
 using test::plain;
 using test::steered;
-using Sequence = std::vector<BranchAct>;
+using Sequence = std::vector<Act>;
 
 Settings sticky() {
   Settings settings = plain();
@@ -27,7 +27,7 @@ BranchEnd by_hand(const Environment::Saved& start, const Environment::Saved& roo
   environment.restore(start);
   environment.restore(root);
   BranchEnd end;
-  for (const BranchAct& act : sequence) {
+  for (const Act& act : sequence) {
     if (environment.game_over()) break;
     const int before = environment.frame_number();
     end.reward += environment.act(act.a);

@@ -22,17 +22,23 @@ from gymnasium.vector import AutoresetMode  # noqa: E402
 NAMES = {"frameskip": "frame_skip", "repeat_action_probability": "sticky", "noop_max": "noop_max",
          "use_fire_reset": "fire", "reward_clipping": "clip", "episodic_life": "life_loss_ends",
          "life_loss_info": "life_loss_is_told", "stack_num": "stack", "maxpool": "max_pool",
-         "max_num_frames_per_episode": "max_episode_frames", "full_action_space": "all_legal_actions"}
+         "max_num_frames_per_episode": "max_episode_frames", "full_action_space": "all_legal_actions",
+         "img_width": "width", "img_height": "height", "continuous": "continuous"}
 MACHINES = 3
 
 
 class Probe:
-    def __init__(self, game, seed, same_step, options):
-        settings = [f"{NAMES[key]}={float(value)}" for key, value in options.items()]
+    def __init__(self, game, seed, same_step, options, start="seed"):
+        settings = [f"{NAMES[key]}={float(value)}" for key, value in options.items() if key in NAMES]
+        grayscale = options.get("grayscale", True)
+        settings.append(f"rgb={int(not grayscale)}")
+        if options.get("continuous"):
+            settings.append("all_legal_actions=1")
         images = ",".join([str(roms.get_rom_path(game))] * MACHINES)
-        self.process = subprocess.Popen([PROBE, images, f"seed={seed}", f"same_step={int(same_step)}", "threads=2", *settings],
+        self.process = subprocess.Popen([PROBE, images, f"{start}={seed}", f"same_step={int(same_step)}", "threads=2", *settings],
                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        self.shape = (MACHINES, options.get("stack_num", 4), 84, 84)
+        self.shape = (MACHINES, options.get("stack_num", 4), options.get("img_height", 84), options.get("img_width", 84))
+        self.shape += () if grayscale else (3,)
         self.same_step = same_step
 
     def take(self, dtype, *shape):
@@ -50,7 +56,7 @@ class Probe:
         return shown
 
     def step(self, actions):
-        self.process.stdin.write(np.asarray(actions, np.int32).tobytes())
+        self.process.stdin.write(np.asarray(actions, np.float32 if actions.ndim == 2 else np.int32).tobytes())
         self.process.stdin.flush()
         return self.results()
 
@@ -68,11 +74,17 @@ class Batch(unittest.TestCase):
         for name in ("lives", "frame_number", "episode_frame_number"):
             self.same(name, ours[name], info[name], step)
 
-    def compare(self, game, seed, steps, same_step=False, **options):
+    def actions(self, random, before, reference):
+        if before.ndim == 2:
+            return random.uniform([0, -np.pi, 0], [1, np.pi, 1], (MACHINES, 3)).astype(np.float32)
+        fresh = random.integers(0, reference.single_action_space.n, MACHINES)
+        return np.where(random.random(MACHINES) < 0.4, fresh, before)
+
+    def compare(self, game, seed, steps, same_step=False, start="seed", **options):
         """The number of episodes that ended."""
         mode = AutoresetMode.SAME_STEP if same_step else AutoresetMode.NEXT_STEP
         reference = AtariVectorEnv(game, num_envs=MACHINES, autoreset_mode=mode, **options)
-        probe = Probe(game, seed, same_step, options)
+        probe = Probe(game, seed, same_step, options, start)
         random = np.random.default_rng(seed)
         ended = 0
         try:
@@ -80,10 +92,9 @@ class Batch(unittest.TestCase):
             ours = probe.results()
             self.same("observation", ours["observation"], shown, "reset")
             self.check_counters(ours, info, "reset")
-            actions = np.zeros(MACHINES, np.int64)
+            actions = np.zeros((MACHINES, 3), np.float32) if options.get("continuous") else np.zeros(MACHINES, np.int64)
             for step in range(steps):
-                fresh = random.integers(0, reference.single_action_space.n, MACHINES)
-                actions = np.where(random.random(MACHINES) < 0.4, fresh, actions)
+                actions = self.actions(random, actions, reference)
                 shown, rewards, terminated, truncated, info = reference.step(actions)
                 ours = probe.step(actions)
                 self.same("observation", ours["observation"], shown, step)
@@ -128,6 +139,21 @@ class Batch(unittest.TestCase):
     def test_resets_in_the_same_step(self):
         self.check([("breakout", 350, {"same_step": True}), ("breakout", 350, {"same_step": True, "episodic_life": True}),
                     ("pong", 200, {"same_step": True, "max_num_frames_per_episode": 101})], 10)
+
+    def test_sizes_and_colours(self):
+        sizes = [{"img_width": 100, "img_height": 50}, {"img_width": 160, "img_height": 210, "stack_num": 1},
+                 {"img_width": 64, "img_height": 64, "maxpool": False}, {"img_width": 160, "img_height": 105}]
+        self.check([("breakout", 60, {"grayscale": grayscale, **size}) for size in sizes for grayscale in (True, False)]
+                   + [("air_raid", 60, {"grayscale": False}), ("pong", 120, {"grayscale": False, "same_step": True,
+                                                                             "max_num_frames_per_episode": 50})], 10)
+
+    def test_a_reset_with_a_seed(self):
+        self.check([(game, 150, {"start": "reset", "repeat_action_probability": 0.25, "max_num_frames_per_episode": 200})
+                    for game in ("breakout", "seaquest", "pong")], 3)
+
+    def test_continuous_actions(self):
+        self.check([(game, 300, {"continuous": True, "max_num_frames_per_episode": 500, "repeat_action_probability": 0.25})
+                    for game in ("breakout", "pong", "ms_pacman")], 3)
 
 
 if __name__ == "__main__":

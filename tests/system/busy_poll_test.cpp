@@ -1,4 +1,4 @@
-#include "server/scheduling/busy_poll.hpp"
+#include "system/busy_poll.hpp"
 
 #include <catch2/catch.hpp>
 #include <thread>

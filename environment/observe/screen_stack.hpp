@@ -1,0 +1,69 @@
+// Screens as learning agents take them: small, grey or in colour, the brighter of two frames, several in a stack
+// (docs/spec/environment.md, 15; the figures of OpenCV's INTER_AREA).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "environment/environment.hpp"
+#include "environment/observe/preprocess.hpp"
+
+namespace racebeam {
+
+constexpr int kSmallSide = 84;
+
+struct StackSettings {
+  int depth = 4;  // screens; 0: none are made
+  int width = kSmallSide, height = kSmallSide;  // of each, at most the machine's; 0: the machine's
+  bool rgb = false;  // red, green and blue of each pixel, in this order, instead of one grey
+
+  int channels() const { return rgb ? 3 : 1; }
+};
+
+// The last `depth` screens of an environment; those that are not there yet are zero.
+class ScreenStack {
+ public:
+  // For the screens of `environment`. Throws InvalidInput for a size that can't be made of them.
+  ScreenStack(const StackSettings& settings, const Environment& environment);
+
+  int depth() const { return depth_; }
+  std::size_t screen_size() const { return screen_size_; }  // bytes: height x width x channels
+  std::size_t size() const { return screens_.size(); }      // of all screens
+
+  void clear();  // all are zero
+
+  // Sees what `environment` shows. pooled: of each pixel, the brighter of its last two frames.
+  void look(const Environment& environment, bool pooled);
+  // Each pixel becomes the brighter of what was seen and the environment's frame before the last.
+  void look_at_previous(const Environment& environment);
+
+  void push();    // what was seen becomes the newest screen
+  void repeat();  // all screens are the newest
+
+  // Oldest first. `to` has room for depth() screens, of which each takes `stride` bytes and fills the first.
+  void copy_to(std::span<std::uint8_t> to, std::size_t stride) const;
+  void copy_to(std::span<std::uint8_t> to) const { copy_to(to, screen_size_); }
+
+  std::vector<std::uint8_t> bytes() const;              // as copy_to() gives them
+  void set_bytes(std::span<const std::uint8_t> bytes);  // as bytes() gave them
+
+ private:
+  std::span<std::uint8_t> newest() { return std::span(screens_).subspan(newest_ * screen_size_, screen_size_); }
+  std::span<std::uint8_t> plane(std::size_t channel) {
+    return std::span(seen_).subspan(channel * plane_size_, plane_size_);
+  }
+  void reduce(std::size_t channel, std::span<std::uint8_t> to);
+
+  int depth_;
+  const AreaResize* resize_;  // null: screens stay as they are
+  std::span<const BrightnessTable> tables_;  // one a channel
+  std::size_t plane_size_, screen_size_;
+  std::vector<std::uint8_t> seen_;     // planes, one after the other
+  std::vector<std::uint8_t> reduced_;  // one plane, where there are several
+  std::vector<std::uint8_t> screens_;  // a ring
+  std::size_t newest_ = 0;
+};
+
+}  // namespace racebeam

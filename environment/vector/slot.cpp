@@ -1,0 +1,190 @@
+#include "environment/vector/slot.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "environment/saved_state.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+void refuse_unless(bool good, const std::string& sentence) {
+  if (!good) throw InvalidInput(sentence);
+}
+
+const SlotSettings& checked(const SlotSettings& settings) {
+  if (settings.steps == Steps::kActs) return settings;
+  const Settings& machine = settings.machine;
+  refuse_unless(machine.frame_skip >= 1, "a step has " + std::to_string(machine.frame_skip) +
+                                             " frames; it must have 1 or more");
+  refuse_unless(machine.frame_skip_max <= machine.frame_skip, "a step of frames has a fixed number of them");
+  refuse_unless(!machine.truncate_on_life_loss, "a step of frames knows lost lives by life_loss alone");
+  refuse_unless(!machine.color_averaging, "a step of frames has no colour averaging; it takes max_pool");
+  return settings;
+}
+
+// The frames of a step are acts of their own, without the limits of a step.
+Settings machine_settings(const SlotSettings& settings) {
+  Settings machine = settings.machine;
+  if (settings.steps == Steps::kActs) return machine;
+  const Settings defaults;
+  machine.frame_skip = 1;
+  machine.frame_skip_max = 0;
+  machine.reward_min = defaults.reward_min;
+  machine.reward_max = defaults.reward_max;
+  machine.max_episode_frames = 0;
+  return machine;
+}
+
+// Of a step's last frames, how many are drawn.
+int frames_drawn(Drawing drawing, int all) {
+  switch (drawing) {
+    case Drawing::kNone: return 0;
+    case Drawing::kLast: return 1;
+    case Drawing::kLastTwo: return 2;
+    default: return all;
+  }
+}
+
+std::int64_t clamped(std::int64_t reward, const Settings& settings) {
+  return std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max);
+}
+
+}  // namespace
+
+Slot::Slot(const Cartridge& cartridge, const SlotSettings& settings, Pace* pace)
+    : settings_(checked(settings)),
+      pace_(pace),
+      environment_(cartridge.image, cartridge.game, machine_settings(settings), pace),
+      actions_(actions_of(settings.action_set, environment_.game())),
+      noops_(settings.machine.random_seed, settings.noop_max) {
+  set_up();
+  begin_request();
+}
+
+void Slot::begin_request() {
+  outcome_ = {};
+  look_at_ends();
+}
+
+void Slot::look_at_ends() {
+  const bool acts = settings_.steps == Steps::kActs;
+  outcome_.terminated = acts ? environment_.terminal() : progress_.terminated;
+  outcome_.truncated = acts ? environment_.truncated() : progress_.truncated;
+  outcome_.finished = finished();
+  outcome_.game_over = environment_.terminal();
+}
+
+bool Slot::finished() const {
+  return settings_.steps == Steps::kActs ? environment_.game_over() : progress_.finished;
+}
+
+void Slot::act(const Act& act) { settings_.steps == Steps::kActs ? run_act(act) : run_frames(act); }
+
+void Slot::run_act(const Act& act) {
+  const int before = environment_.frame_number();
+  environment_.act(act);
+  const int frames = frames_between(before, environment_.frame_number());
+  if (frames == 0) {  // no reward, even where each is raised to a least one
+    outcome_.over = outcome_.acts == 0;
+    return;
+  }
+  add_outcome(environment_.raw_rewards(), frames);
+  progress_.blends = frames > 1;
+  if (stack_) show(progress_.blends);
+}
+
+void Slot::add_outcome(Environment::RawRewards rewards, int frames) {
+  outcome_.reward += clamped(rewards.a, settings_.machine);
+  outcome_.reward_b += clamped(rewards.b, settings_.machine);
+  outcome_.raw_reward += rewards.a;
+  outcome_.raw_reward_b += rewards.b;
+  outcome_.frames += frames;
+  ++outcome_.acts;
+  look_at_ends();
+}
+
+void Slot::run_frames(const Act& act) {
+  if (progress_.finished) {
+    outcome_.over = outcome_.acts == 0;
+    return;
+  }
+  const int frames = settings_.machine.frame_skip, limit = settings_.machine.max_episode_frames;
+  const int drawn = frames_drawn(drawing_, frames);
+  const bool life_ends = settings_.life_loss >= LifeLoss::kEnds;
+  Environment::RawRewards rewards;
+  bool over = false, lost = false, too_long = false;
+  int left = frames;
+  for (;; --left) {
+    environment_.set_drawing(left <= drawn ? Drawing::kLast : Drawing::kNone);
+    environment_.act(act);
+    rewards.a += environment_.raw_rewards().a;
+    rewards.b += environment_.raw_rewards().b;
+    ++progress_.elapsed;
+    over = environment_.game_over();
+    lost = 0 < environment_.lives() && environment_.lives() < progress_.lives;
+    too_long = limit > 0 && progress_.elapsed >= limit;
+    progress_.finished = over || too_long || (life_ends && lost);
+    if (progress_.finished || left == 1) break;
+  }
+  progress_.lives = environment_.lives();
+  progress_.goes_on = settings_.life_loss == LifeLoss::kEnds && lost && !over && !too_long;
+  progress_.terminated = over || (settings_.life_loss != LifeLoss::kIgnored && lost);
+  progress_.truncated = too_long && !progress_.terminated;
+  progress_.blends = pools();
+  add_outcome(rewards, frames - left + 1);
+  if (stack_) look_at_end_of_step(left);
+}
+
+// The reference looks at the last frame but one and at the last, and not any more once the episode is over, so
+// that what it saw before takes their place. left: of the step's frames, with the one that was just run.
+void Slot::look_at_end_of_step(int left) {
+  if (!progress_.finished) return show(pools());
+  if (left == 1 && pools()) stack_->look_at_previous(environment_);
+  stack_->push();
+}
+
+void Slot::show(bool pooled) {
+  stack_->look(environment_, pooled);
+  stack_->push();
+}
+
+void Slot::set_drawing(Drawing drawing) {
+  if (stack_) drawing = std::min(drawing, pools() ? Drawing::kLastTwo : Drawing::kLast);
+  drawing_ = drawing;
+  environment_.set_drawing(drawing);
+}
+
+void Slot::set_stack(const std::optional<StackSettings>& settings) {
+  std::optional<ScreenStack> stack;
+  if (settings && settings->depth > 0) stack.emplace(*settings, environment_);
+  stack_ = std::move(stack);
+  set_drawing(drawing_);
+  if (stack_) show(progress_.blends);
+}
+
+// A stack that another one was saved with begins anew.
+Slot::Saved Slot::save(bool with_random) const {
+  return {environment_.save(with_random), stack_ ? stack_->bytes() : std::vector<std::uint8_t>(), with_random,
+          progress_};
+}
+
+void Slot::restore(const Saved& saved) {
+  environment_.restore(*saved.machine);
+  progress_ = saved.progress;
+  look_at_ends();
+  if (!stack_) return;
+  stack_->look(environment_, progress_.blends);
+  if (stack_->size() == saved.stack.size()) return stack_->set_bytes(saved.stack);
+  stack_->clear();
+  stack_->push();
+}
+
+std::size_t Slot::Saved::footprint() const {
+  constexpr std::size_t kName = 256;
+  const std::size_t picture = static_cast<std::size_t>(machine->height) * kScreenWidth;
+  return kName + sizeof *machine + machine->cartridge_ram.size() + 2 * picture + stack.size();
+}
+
+}  // namespace racebeam

@@ -1,0 +1,136 @@
+// How a slot's episodes begin.
+#include <algorithm>
+
+#include "environment/vector/slot.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr int kNoop = 0, kFire = 1;
+
+}  // namespace
+
+// An act's environment has begun an episode by itself; a mode takes effect at the next.
+void Slot::set_up() {
+  if (settings_.mode) environment_.set_mode(*settings_.mode);
+  if (settings_.difficulty) environment_.set_difficulty(*settings_.difficulty);
+  if (settings_.steps == Steps::kActs && !settings_.mode && !settings_.difficulty && settings_.noop_max == 0)
+    return;
+  begin_episode();
+}
+
+void Slot::reset(std::optional<std::uint32_t> seed) {
+  const bool may_fail = pace_ != nullptr || settings_.mode.has_value();
+  std::optional<std::pair<Saved, Noops>> before;
+  if (may_fail) before.emplace(save(true), noops_);
+  const Outcome outcome = outcome_;
+  try {
+    if (seed) reload(*seed);
+    progress_.goes_on && !seed ? begin_life() : begin_episode();
+  } catch (...) {
+    if (before) {
+      restore(before->first);
+      noops_ = before->second;
+    }
+    outcome_ = outcome;
+    throw;
+  }
+}
+
+void Slot::reload(std::uint32_t seed) {
+  const int mode = environment_.mode(), difficulty = environment_.difficulty();
+  environment_.reload(seed);
+  noops_ = Noops(seed, settings_.noop_max);
+  if (mode != environment_.mode()) environment_.set_mode(mode);
+  environment_.set_difficulty(difficulty);
+}
+
+void Slot::begin_episode() {
+  const std::int64_t frames_before = pace_ != nullptr ? pace_->frames() : 0;
+  draw_nothing();
+  environment_.reset_game();
+  const bool fire = has_fire();
+  switch (settings_.reset_order) {
+    case ResetOrder::kFireNoops:
+      if (fire) press_fire();
+      run_noops(noops_.draw() - fire);
+      break;
+    case ResetOrder::kNoopsFire:
+      run_noops(noops_.draw() + 1 - fire);
+      if (fire) press_fire();
+      break;
+    case ResetOrder::kBaselines:
+      run_noops(settings_.noop_max > 0 ? noops_.draw() + 1 : 0);
+      if (fire) press_as_baselines();
+      break;
+  }
+  progress_ = {};
+  progress_.lives = environment_.lives();
+  look_at_ends();
+  begin_stack(false);
+  if (pace_ != nullptr) reset_frames_ = std::max(reset_frames_, pace_->frames() - frames_before);
+}
+
+// The game goes on. No-ops stay where the model has them: EnvPool draws them anew, Stable-Baselines3 waits for a step.
+void Slot::begin_life() {
+  const int elapsed = progress_.elapsed, frames = environment_.episode_frame_number();
+  const bool fire = has_fire();
+  draw_nothing();
+  switch (settings_.reset_order) {
+    case ResetOrder::kFireNoops:
+      if (fire) press_fire();
+      break;
+    case ResetOrder::kNoopsFire:
+      run_noops(noops_.draw() + 1 - fire);
+      if (fire) press_fire();
+      break;
+    case ResetOrder::kBaselines:
+      run_noops(settings_.machine.frame_skip);
+      if (fire) press_as_baselines();
+      break;
+  }
+  if (environment_.game_over()) return begin_episode();
+  const bool goes_on = environment_.episode_frame_number() > frames;
+  progress_ = {};
+  if (goes_on) progress_.elapsed = elapsed;
+  progress_.lives = environment_.lives();
+  look_at_ends();
+  begin_stack(goes_on);
+}
+
+void Slot::begin_stack(bool goes_on) {
+  if (!stack_) return;
+  const bool keeps = settings_.stack_start == StackStart::kRepeats && goes_on;
+  if (!keeps) stack_->clear();
+  show(progress_.blends);
+  if (settings_.stack_start == StackStart::kRepeats && !keeps) stack_->repeat();
+}
+
+// Of the frames before an episode, the last is drawn if it is looked at. Acts are drawn as their client has chosen.
+void Slot::draw_nothing() {
+  if (settings_.steps == Steps::kFrames) environment_.set_drawing(Drawing::kNone);
+}
+
+bool Slot::has_fire() const {
+  return settings_.fire_at_reset && std::ranges::find(actions_, kFire) != actions_.end();
+}
+
+void Slot::run_noops(int frames) {
+  for (; frames > 0; --frames) {
+    environment_.act_for(1, kNoop);
+    if (environment_.game_over()) environment_.reset_game();
+  }
+}
+
+void Slot::press_fire() { environment_.act_for(1, kFire); }
+
+// A step of each of the first two actions behind NOOP, the first of which must be FIRE.
+void Slot::press_as_baselines() {
+  if (actions_.size() < 3 || actions_[1] != kFire) return;
+  for (const int action : {actions_[1], actions_[2]}) {
+    environment_.act_for(settings_.machine.frame_skip, action);
+    if (environment_.game_over()) environment_.reset_game();
+  }
+}
+
+}  // namespace racebeam

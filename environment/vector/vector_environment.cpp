@@ -1,0 +1,84 @@
+#include "environment/vector/vector_environment.hpp"
+
+#include <optional>
+
+namespace racebeam {
+namespace {
+
+SlotSettings settings_of(const SlotSettings& settings, std::size_t number) {
+  SlotSettings own = settings;
+  own.machine.random_seed += static_cast<std::uint32_t>(number);
+  return own;
+}
+
+std::optional<std::uint32_t> seed_of(std::int64_t seed) {
+  return seed < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(seed));
+}
+
+}  // namespace
+
+VectorEnvironment::VectorEnvironment(std::span<const Cartridge> cartridges, const SlotSettings& settings,
+                                     Autoreset autoreset, VectorHost& host)
+    : autoreset_(autoreset), host_(host), slots_(cartridges.size()), failures_(cartridges.size()) {
+  run([&](std::size_t number) {
+    slots_[number] =
+        std::make_unique<Slot>(cartridges[number], settings_of(settings, number), host_.pace(number));
+    host_.opened(number, *slots_[number]);
+    host_.shown(number, *slots_[number]);
+  });
+}
+
+// A failure is kept and not thrown, since tasks run on any thread. What unwinds a suspended task is no std::exception.
+template <typename Task>
+void VectorEnvironment::run(Task task) {
+  const auto guarded = [&](std::size_t number) {
+    try {
+      task(number);
+    } catch (const std::exception&) {
+      failures_[number] = std::current_exception();
+    }
+  };
+  for (auto& failure : failures_) failure = nullptr;
+  host_.run_all(slots_.size(), std::ref(guarded));
+  for (const auto& failure : failures_) {
+    if (failure) std::rethrow_exception(failure);
+  }
+}
+
+void VectorEnvironment::step(std::span<const Act> acts) {
+  run([&](std::size_t number) { step_one(number, acts[number]); });
+}
+
+void VectorEnvironment::reset(std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds) {
+  run([&](std::size_t number) {
+    if (chosen.empty() || chosen[number] != 0) return reset_one(number, seeds.empty() ? -1 : seeds[number]);
+    slots_[number]->begin_request();
+    host_.shown(number, *slots_[number]);
+  });
+}
+
+void VectorEnvironment::step_one(std::size_t number, const Act& act) {
+  Slot& slot = *slots_[number];
+  slot.begin_request();
+  if (slot.finished() && autoreset_ == Autoreset::kNextStep) {
+    slot.reset();
+  } else {
+    slot.act(act);
+    if (slot.finished() && autoreset_ == Autoreset::kSameStep) {
+      host_.ended(number, slot);
+      const Outcome outcome = slot.outcome();
+      slot.reset();
+      slot.set_outcome(outcome);
+    }
+  }
+  host_.shown(number, slot);
+}
+
+void VectorEnvironment::reset_one(std::size_t number, std::int64_t seed) {
+  Slot& slot = *slots_[number];
+  slot.begin_request();
+  slot.reset(seed_of(seed));
+  host_.shown(number, slot);
+}
+
+}  // namespace racebeam

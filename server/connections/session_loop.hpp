@@ -1,0 +1,53 @@
+// What comes next in a session of the line protocol, whatever its bytes come through: one loop for sockets
+// (connection.cpp), which wait in coroutines, and for streams (streams.cpp), which block.
+#pragma once
+
+#include <string_view>
+
+#include "protocol/line_session.hpp"
+
+namespace racebeam {
+
+class SessionLoop {
+ public:
+  // What the transport does next. After all but kDone it calls work().
+  enum class Next {
+    kSend,   // sends output(), then asks sent() what is next
+    kRead,   // waits for input
+    kYield,  // lets other sessions work: there is more to do
+    kPause,  // waits for the recording, for about a millisecond
+    kDone    // closes: nothing will come any more
+  };
+
+  explicit SessionLoop(LineSession& session) : session_(session) {}
+
+  // Carries out requests for a slice of time. `run` calls LineSession::run() and returns what it returned;
+  // `find_more` hands in what has come by now, without waiting, and returns whether there was any.
+  template <typename Run, typename FindMore>
+  Next work(Run run, FindMore find_more) {
+    do {
+      more_ = run();
+    } while (session_.wants_more() && find_more());
+    return output().empty() ? next() : Next::kSend;
+  }
+
+  std::string_view output() const { return session_.output(); }
+
+  // All of output() is on its way.
+  Next sent() {
+    session_.sent(output().size());
+    return next();
+  }
+
+ private:
+  Next next() const {
+    if (session_.finished()) return Next::kDone;
+    if (!more_) return Next::kRead;
+    return session_.waits() ? Next::kPause : Next::kYield;
+  }
+
+  LineSession& session_;
+  bool more_ = false;  // to do, before something comes in
+};
+
+}  // namespace racebeam

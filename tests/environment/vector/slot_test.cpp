@@ -1,0 +1,206 @@
+// How the steps and episodes of a slot go.
+#include "environment/vector/slot.hpp"
+
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "tests/environment/steered.hpp"
+
+namespace racebeam {
+namespace {
+
+Cartridge cartridge() { return {test::counter_image(), test::game()}; }
+
+SlotSettings no_noops() {
+  SlotSettings settings;
+  settings.machine.random_seed = 4;
+  settings.machine.frame_skip = 3;
+  settings.noop_max = 0;
+  return settings;
+}
+
+// What is pressed in each frame until the episode has begun: '-' nothing, 'F' FIRE, 'U' up.
+std::string pressed_at_reset(Slot& slot) {
+  std::string pressed;
+  slot.environment().watch([&] {
+    const bool fire = test::at(slot.environment(), 0x83) < 0x80, up = (test::at(slot.environment(), 0x81) & 0x10) == 0;
+    pressed += fire ? 'F' : up ? 'U' : '-';
+  });
+  slot.reset();
+  slot.environment().watch({});
+  return pressed;
+}
+
+void lose_life(Slot& slot, int left) {
+  slot.environment().set_ram(test::kLives, 3);
+  slot.act({});
+  slot.environment().set_ram(test::kLives, static_cast<std::uint8_t>(left));
+  slot.begin_request();
+  slot.act({});
+}
+
+TEST_CASE("An episode begins with FIRE and no-ops, in the order that was chosen") {
+  // RAM shows what was pressed one frame before: the first frame after a reset does not count.
+  const auto pressed = [](ResetOrder order, int noop_max, bool fire = true) {
+    SlotSettings settings = no_noops();
+    settings.reset_order = order;
+    settings.noop_max = noop_max;
+    settings.fire_at_reset = fire;
+    Slot slot(cartridge(), settings);
+    return pressed_at_reset(slot);
+  };
+  CHECK(pressed(ResetOrder::kFireNoops, 0) == "F");
+  CHECK(pressed(ResetOrder::kFireNoops, 0, false).empty());
+  CHECK(pressed(ResetOrder::kNoopsFire, 0) == "F");
+  CHECK(pressed(ResetOrder::kNoopsFire, 0, false) == "-");
+  CHECK(pressed(ResetOrder::kBaselines, 0) == "FFFUUU");
+  CHECK(pressed(ResetOrder::kBaselines, 1) == "-FFFUUU");
+  const std::string fire_first = pressed(ResetOrder::kFireNoops, 30), noops_first = pressed(ResetOrder::kNoopsFire, 30);
+  REQUIRE(fire_first.size() > 2);
+  CHECK(fire_first == "F" + std::string(fire_first.size() - 1, '-'));
+  CHECK(noops_first == std::string(fire_first.size(), '-') + "F");  // the same draw
+  CHECK(pressed(ResetOrder::kBaselines, 30) == std::string(fire_first.size() + 1, '-') + "FFFUUU");
+}
+
+TEST_CASE("A lost life does to the episode what was chosen") {
+  const auto after = [](LifeLoss life_loss) {
+    SlotSettings settings = no_noops();
+    settings.life_loss = life_loss;
+    auto slot = std::make_unique<Slot>(cartridge(), settings);
+    lose_life(*slot, 2);
+    return slot;
+  };
+  for (const LifeLoss life_loss : {LifeLoss::kIgnored, LifeLoss::kTold, LifeLoss::kEnds, LifeLoss::kResets}) {
+    const auto slot = after(life_loss);
+    INFO(static_cast<int>(life_loss));
+    CHECK(slot->outcome().terminated == (life_loss != LifeLoss::kIgnored));
+    CHECK(slot->finished() == (life_loss >= LifeLoss::kEnds));
+    CHECK(slot->outcome().frames == (slot->finished() ? 1 : 3));
+    CHECK_FALSE(slot->outcome().game_over);
+    const int frames = slot->environment().episode_frame_number();
+    slot->reset();
+    CHECK_FALSE(slot->finished());
+    CHECK((slot->environment().episode_frame_number() == frames + 1) == (life_loss == LifeLoss::kEnds));
+    CHECK((slot->environment().lives() == 2) == (life_loss == LifeLoss::kEnds));
+  }
+}
+
+TEST_CASE("An episode that goes on with the next life ends with the game's limit of frames, and a seed begins a new game") {
+  SlotSettings settings = no_noops();
+  settings.life_loss = LifeLoss::kEnds;
+  settings.machine.max_episode_frames = 6;
+  Slot slot(cartridge(), settings);
+  lose_life(slot, 2);  // 4 frames
+  slot.reset();
+  slot.act({});
+  CHECK(slot.outcome().truncated);
+  CHECK(slot.finished());
+  slot.reset();
+  CHECK(slot.environment().episode_frame_number() == 1);
+  lose_life(slot, 1);
+  slot.reset(9U);
+  CHECK(slot.environment().frame_number() == 1);
+}
+
+TEST_CASE("The last life is the game's own matter") {
+  SlotSettings settings = no_noops();
+  settings.life_loss = LifeLoss::kEnds;
+  Slot slot(cartridge(), settings);
+  lose_life(slot, 0);
+  CHECK_FALSE(slot.finished());
+}
+
+TEST_CASE("The next life begins as the model has it") {
+  const auto pressed = [](ResetOrder order) {
+    SlotSettings settings = no_noops();
+    settings.reset_order = order;
+    settings.life_loss = LifeLoss::kEnds;
+    Slot slot(cartridge(), settings);
+    lose_life(slot, 2);
+    return pressed_at_reset(slot);
+  };
+  CHECK(pressed(ResetOrder::kFireNoops) == "F");
+  CHECK(pressed(ResetOrder::kNoopsFire) == "F");
+  CHECK(pressed(ResetOrder::kBaselines) == "---FFFUUU");
+}
+
+TEST_CASE("A stack begins with zeros or with the first screen, and may live on with the game") {
+  constexpr std::size_t kScreen = 84 * 84;
+  const auto oldest = [](const Slot& slot) {
+    const auto bytes = slot.stack()->bytes();
+    return std::vector<std::uint8_t>(bytes.begin(), bytes.begin() + kScreen);
+  };
+  const auto newest = [](const Slot& slot) {
+    const auto bytes = slot.stack()->bytes();
+    return std::vector<std::uint8_t>(bytes.end() - kScreen, bytes.end());
+  };
+  const std::vector<std::uint8_t> zeros(kScreen);
+  for (const StackStart start : {StackStart::kZeros, StackStart::kRepeats}) {
+    SlotSettings settings = no_noops();
+    settings.stack_start = start;
+    settings.life_loss = LifeLoss::kEnds;
+    Slot slot(cartridge(), settings);
+    slot.set_stack(StackSettings{.depth = 2});
+    slot.act({});
+    slot.reset();
+    CHECK(oldest(slot) == (start == StackStart::kZeros ? zeros : newest(slot)));
+    lose_life(slot, 2);
+    const auto last = newest(slot);
+    slot.reset();
+    CHECK(oldest(slot) == (start == StackStart::kZeros ? zeros : last));
+    CHECK(last != zeros);
+  }
+}
+
+TEST_CASE("A reset that fails leaves a slot as it was") {
+  struct Impatient final : Pace {
+    void frame() override {
+      if (++count > most) throw std::runtime_error("too long");
+    }
+    std::int64_t frames() const override { return count; }
+    std::int64_t count = 0, most = 1'000'000;
+  } pace;
+  SlotSettings settings = no_noops();
+  settings.noop_max = 30;
+  settings.machine.copy_resets = false;
+  Slot slot(cartridge(), settings, &pace);
+  CHECK(slot.reset_frames() > 60);
+  slot.act({});
+  const auto before = slot.environment().save(true);
+  for (const auto seed : {std::optional<std::uint32_t>(), std::optional(3U)}) {
+    pace.most = pace.count + 50;
+    CHECK_THROWS_WITH(slot.reset(seed), "too long");
+    CHECK(slot.environment().same_state(slot.environment()));
+    CHECK(slot.environment().save(true)->same_state(*before));
+    CHECK(slot.environment().save(true)->random == before->random);
+    CHECK(slot.environment().episode_frame_number() > 3);
+  }
+}
+
+TEST_CASE("A step of frames refuses what it does not know") {
+  const auto refuses = [](auto change, const std::string& sentence) {
+    SlotSettings settings = no_noops();
+    change(settings);
+    CHECK_THROWS_WITH(Slot(cartridge(), settings), sentence);
+  };
+  refuses([](auto& s) { s.machine.frame_skip_max = 5; }, "a step of frames has a fixed number of them");
+  refuses([](auto& s) { s.machine.truncate_on_life_loss = true; }, "a step of frames knows lost lives by life_loss alone");
+  refuses([](auto& s) { s.machine.color_averaging = true; }, "a step of frames has no colour averaging; it takes max_pool");
+}
+
+TEST_CASE("A joystick that is turned and tilted gives one of the 18 actions") {
+  using std::numbers::pi_v;
+  const auto action = [](float radius, float angle, float fire) { return act_of(radius, angle, fire, 0.5F).a; };
+  const std::vector<int> around = {3, 6, 2, 7, 4, 9, 5, 8}, with_fire = {11, 14, 10, 15, 12, 17, 13, 16};
+  for (std::size_t eighth = 0; eighth < 8; ++eighth) {
+    const float angle = static_cast<float>(eighth) * pi_v<float> / 4;
+    CHECK(action(1, angle, 0) == around[eighth]);
+    CHECK(action(1, angle, 1) == with_fire[eighth]);
+    CHECK(action(0.4F, angle, 1) == 1);
+  }
+  CHECK(action(0, 0, 0.5F) == 0);
+  CHECK(act_of(0.25F, 0, 0, 0.1F).strength_a == 0.25F);
+}
+
+}  // namespace
+}  // namespace racebeam

@@ -1,0 +1,202 @@
+// `open` with steps=frames and a Batch are the same vector environment: what they show is compared, byte for byte.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "environment/vector/batch.hpp"
+#include "protocol/encoding/base64.hpp"
+#include "tests/protocol/line_client.hpp"
+
+using namespace racebeam;
+using test::code;
+using test::LineClient;
+using test::value;
+
+namespace {
+
+constexpr std::size_t kMachines = 3;
+
+// One game over both ways. The settings of `load` and of `open`, and the same as a Batch takes them.
+struct Case {
+  std::string load, open;
+  void (*set)(BatchSettings& settings);
+};
+
+class Pair {
+ public:
+  explicit Pair(const Case& one) : batch_(machines(), settings(one)), results_(batch_.make_results()) {
+    REQUIRE(client_.ask("load beamfall seed=5 action_set=minimal " + one.load).starts_with("ok"));
+    REQUIRE(client_.ask("observe reward raw_reward ends game_over lives frame episode_frame ram " + stack() + ":base64")
+                .starts_with("ok"));
+    batch_.show(results_.arrays());
+    compare(client_.ask("open " + std::to_string(kMachines) + " steps=frames " + one.open));
+  }
+
+  void step(const std::vector<int>& actions) {
+    std::string request = "step";
+    for (const int action : actions) request += ' ' + std::to_string(batch_.actions(0)[std::size_t(action)]);
+    batch_.step(actions, results_.arrays());
+    compare(client_.ask(request));
+  }
+
+  void restart(const std::vector<std::uint8_t>& chosen, std::optional<std::int64_t> seed) {
+    std::string request = "restart ";
+    for (const std::uint8_t one : chosen) request += one != 0 ? '1' : '0';
+    std::vector<std::int64_t> seeds;
+    for (std::size_t i = 0; seed && i < kMachines; ++i) seeds.push_back(*seed + std::int64_t(i));
+    if (seed) request += " seed=" + std::to_string(*seed);
+    batch_.reset(results_.arrays(), chosen, seeds);
+    compare(client_.ask(request));
+  }
+
+  std::ptrdiff_t ended() const { return std::ranges::count(results_.finished, 1); }
+  std::size_t actions() const { return batch_.actions(0).size(); }
+
+ private:
+  static std::vector<Cartridge> machines() { return {kMachines, {load_image("builtin:beamfall"), find_game("beamfall")}}; }
+  BatchSettings settings(const Case& one) {
+    BatchSettings settings;
+    settings.slot.machine.random_seed = 5;
+    settings.slot.machine.sticky = 0;
+    one.set(settings);
+    stack_ = settings.stack;
+    return settings;
+  }
+  std::string stack() const {
+    return (stack_.rgb ? "rgb" : "grey") + std::to_string(stack_.width) + 'x' + std::to_string(stack_.height) + 'x' +
+           std::to_string(stack_.depth);
+  }
+
+  void compare(const std::string& reply) {
+    REQUIRE(code(reply).empty());
+    for (std::size_t machine = 0; machine < kMachines; ++machine) {
+      const auto check = [&](const std::string& key, std::int64_t expected) {
+        INFO(key << " of machine " << machine);
+        CHECK(value(reply, key, int(machine) + 1) == std::to_string(expected));
+      };
+      check("reward", results_.rewards[machine]);
+      check("raw_reward", results_.raw_rewards[machine]);
+      check("terminated", results_.terminated[machine]);
+      check("truncated", results_.truncated[machine]);
+      check("game_over", results_.game_over[machine]);
+      check("lives", results_.lives[machine]);
+      check("frame", results_.frames[machine]);
+      check("episode_frame", results_.episode_frames[machine]);
+      check_bytes(value(reply, stack(), int(machine) + 1), results_.observations, machine);
+      const std::string final_stack = value(reply, "final_" + stack(), int(machine) + 1);
+      if (final_stack != "(none)") check_bytes(final_stack, results_.final_observations, machine);
+    }
+  }
+
+  void check_bytes(const std::string& text, const std::vector<std::uint8_t>& all, std::size_t machine) {
+    const std::size_t size = all.size() / kMachines;
+    const auto bytes = bytes_of_base64(text);
+    REQUIRE(bytes);
+    CHECK(std::ranges::equal(*bytes, std::span(all).subspan(machine * size, size)));
+  }
+
+  StackSettings stack_;
+  Batch batch_;
+  BatchResults results_;
+  LineClient client_;
+};
+
+}  // namespace
+
+TEST_CASE("Machines of open whose steps are frames show what a batch shows") {
+  const std::vector<Case> cases = {
+      {"sticky=0.25 frame_skip=4 noop_max=30 reward_min=-1 reward_max=1", "",
+       [](BatchSettings& s) { s.slot.machine.sticky = 0.25F; }},
+      {"sticky=0 frame_skip=7 noop_max=5 max_episode_frames=100", "autoreset=same-step lives=end start=noops-fire pool=0",
+       [](BatchSettings& s) {
+         s.slot.machine.frame_skip = 7;
+         s.slot.machine.max_episode_frames = 100;
+         s.slot.machine.reward_max = 1 << 30;
+         s.slot.machine.reward_min = -(1 << 30);
+         s.slot.noop_max = 5;
+         s.slot.reset_order = ResetOrder::kNoopsFire;
+         s.slot.life_loss = LifeLoss::kEnds;
+         s.slot.max_pool = false;
+         s.autoreset = Autoreset::kSameStep;
+         s.stack = {.depth = 2, .width = 40, .height = 50, .rgb = true};
+       }},
+      {"sticky=0 frame_skip=30 noop_max=3", "autoreset=disabled lives=restart start=baselines stack=repeats",
+       [](BatchSettings& s) {
+         s.slot.machine.frame_skip = 30;
+         s.slot.machine.reward_max = 1 << 30;
+         s.slot.machine.reward_min = -(1 << 30);
+         s.slot.noop_max = 3;
+         s.slot.reset_order = ResetOrder::kBaselines;
+         s.slot.life_loss = LifeLoss::kResets;
+         s.slot.stack_start = StackStart::kRepeats;
+         s.autoreset = Autoreset::kDisabled;
+       }},
+  };
+  std::mt19937 random(1);
+  std::ptrdiff_t ended = 0;
+  for (const Case& one : cases) {
+    INFO(one.load << " " << one.open);
+    Pair pair(one);
+    for (int step = 0; step < 60; ++step) {
+      std::vector<int> actions(kMachines);
+      for (int& action : actions) action = int(random() % pair.actions());
+      pair.step(actions);
+      ended += pair.ended();
+      if (step % 20 == 19) pair.restart({1, 0, 1}, step == 39 ? std::optional<std::int64_t>(70) : std::nullopt);
+    }
+  }
+  CHECK(ended > 20);
+}
+
+TEST_CASE("open refuses keys that it does not have, and those of frames with acts") {
+  LineClient client;
+  client.ask("load beamfall life_loss_ends=1");
+  CHECK(client.ask("open 1 lives=told") == "error bad-arguments lives= goes with steps=frames");
+  CHECK(client.ask("open 1 steps=frames") ==
+        "error bad-value a step of frames knows lost lives by life_loss alone");
+  CHECK(code(client.ask("open 1 steps=halves")) == "bad-value");
+  CHECK(code(client.ask("open 1 step=frames")) == "bad-arguments");
+  CHECK(code(client.ask("open 1 steps=acts steps=acts")) == "bad-arguments");
+  client.ask("load beamfall");
+  CHECK(code(client.ask("open 2 steps=frames")) == "");
+  CHECK(code(client.ask("restart 10 seed=-1")) == "bad-value");
+  CHECK(code(client.ask("restart seeds=1")) == "bad-arguments");
+  CHECK(code(client.ask("reset seed=x")) == "bad-value");
+}
+
+TEST_CASE("A reset with a seed is what load with that seed gives, and keeps the mode") {
+  LineClient played, loaded;
+  const auto state = [](LineClient& client) {
+    client.ask("save a random=1");
+    return value(client.ask("export a"), "data");
+  };
+  played.ask("load updraft seed=1 sticky=0.5 noop_max=20 difficulty=0");
+  played.ask("act FIRE*50 UP*3");
+  played.ask("reset seed=77");
+  loaded.ask("load updraft seed=77 sticky=0.5 noop_max=20 difficulty=0");
+  CHECK(state(played) == state(loaded));
+  CHECK(played.ask("act FIRE*30 UP*9") == loaded.ask("act FIRE*30 UP*9"));
+  CHECK(state(played) == state(loaded));
+}
+
+TEST_CASE("Stacks of any size are observed, one at a time") {
+  LineClient client;
+  client.ask("load beamfall");
+  const auto size = [&](const std::string& field) {
+    const auto bytes = bytes_of_base64(value(client.ask("look " + field + ":base64"), field));
+    return bytes ? bytes->size() : 0;
+  };
+  CHECK(size("grey100x50x1") == 100 * 50);
+  CHECK(size("rgb100x50x1") == 100 * 50 * 3);
+  CHECK(value(client.ask("look grey160x210x1:hex"), "grey160x210x1") == value(client.ask("look grey:hex"), "grey"));
+  CHECK(value(client.ask("look rgb160x210x1:hex"), "rgb160x210x1") == value(client.ask("look rgb:hex"), "rgb"));
+  CHECK(value(client.ask("look grey84x84x1:hex"), "grey84x84x1") == value(client.ask("look grey84:hex"), "grey84"));
+  for (const std::string field : {"grey84x", "grey84x4x", "grey10", "rgb84", "rgb84x4", "grey1x2x3x4", "greyWxHxN"})
+    CHECK(code(client.ask("observe " + field)) != "");
+  CHECK(client.ask("observe grey84x4 rgb20x20x1") ==
+        "error bad-arguments grey84x4 and rgb20x20x1 are two stacks; there can be one");
+  CHECK(client.ask("observe grey161x84x1") ==
+        "error bad-value the width of a stack is '161'; it takes a whole number from 1 to 160");
+  CHECK(client.ask("observe grey84x211x1") ==
+        "error bad-value the height of an observation is 211; it takes 9 to 210, or 0 for the screen's own");
+  CHECK(client.ask("observe") == "ok fields=reward,terminated,truncated,lives");
+}
