@@ -50,7 +50,7 @@ struct Both {
     ours.A = static_cast<std::uint8_t>(cpu.A = below(engine, 256));
     ours.X = static_cast<std::uint8_t>(cpu.X = below(engine, 256));
     ours.Y = static_cast<std::uint8_t>(cpu.Y = below(engine, 256));
-    ours.SP = static_cast<std::uint8_t>(cpu.SP = percent(engine, 30) ? below(engine, 4) - 2 & 0xFF
+    ours.SP = static_cast<std::uint8_t>(cpu.SP = percent(engine, 30) ? (below(engine, 4) - 2) & 0xFF
                                                                      : below(engine, 256));
     cpu.set_status(below(engine, 256));
     ours.P = static_cast<std::uint8_t>(cpu.status() & 0xCF);
