@@ -67,7 +67,7 @@ class Batch {
 
   // One action each. Throws std::invalid_argument, and does nothing, when there are not as many actions as
   // machines or one is not an index. Nothing is allocated, but at first: a reset from each value of the
-  // timer, a buffer that was not used before; and records of lines where objects begin to flicker (emulator/tia/line_cache/flicker_detector.hpp).
+  // timer, a buffer that was not used before; and records of lines where objects begin to flicker (emulator/tia/line_cache/flicker.hpp).
   void step(std::span<const int> actions);
 
   // New episodes, for those machines whose byte is not 0; without an argument, for all. Generators go on.

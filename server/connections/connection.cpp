@@ -169,8 +169,8 @@ net::awaitable<void> await_recording(Client& client) {
   client.working = false;
 }
 
-// Between two slices of a long request, or of many that were sent ahead, other sessions of the loop have
-// their turn. Requests that were sent ahead are split further: each part ends by sending its replies.
+// Between two slices of a long request, or of many that were sent ahead, the loop's other sessions have their
+// turn. Of the latter a slice has some parts, each of which ends with replies that are sent.
 template <typename Stream>
 net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSession& session,
                                       Metrics& metrics) {
@@ -178,7 +178,7 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
   RequestPeeker ahead = look_ahead(stream);
   Departure departure;
   Turns& turns = client.loop.turns;
-  bool piece = false;  // all that was received last is part of a line
+  bool piece = false;  // all that came last is a piece of a line
   for (int parts = 0;;) {
     if (!turns.may_work(client.usage)) co_await take_turn(client);
     const bool more = session.run();
