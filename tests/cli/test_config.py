@@ -101,10 +101,10 @@ class Config(unittest.TestCase):
             self.assertIn(hint, done.stderr)
 
     def test_what_makes_no_sense_is_refused_and_named(self):
-        self.refuse("max_state = 5\n", b"no setting 'max_state'", b"max_states, ")
+        self.refuse("max_state = 5\n", b"unknown setting 'max_state'", b"max_states, ")
         self.refuse("max_states = 0\n", b"settings.toml: max_states", b"'0' is not a whole number from 1")
         self.refuse("max_states = [1, 2]\n", b"max_states", b"must be one value")
-        self.refuse("[limits]\nmax_states = 1\n", b"no setting 'limits'")
+        self.refuse("[limits]\nmax_states = 1\n", b"unknown setting 'limits'")
         self.refuse("max_states = \n", b"settings.toml", b"line 1")
         self.refuse("classic = 'perhaps'\n", b"must be true or false, not 'perhaps'")
         self.refuse("listen = ['nowhere']\n", b"listen", b"'nowhere' is not an address")

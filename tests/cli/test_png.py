@@ -109,7 +109,7 @@ class Png(unittest.TestCase):
     def test_lines_without_a_screen_are_refused(self):
         for line in ("", "\n", "DIE\n", "0,0:\n", "00" * 128 + ":0,0:\n"):
             with self.subTest(line=line):
-                self.refused(1, "cut?" if line == "DIE\n" else "no screen", line)
+                self.refused(1, "truncated" if line == "DIE\n" else "no screen", line)
 
     def test_screens_that_make_no_sense_are_refused(self):
         screen = run_lengths(self.pixels)

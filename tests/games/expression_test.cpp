@@ -171,7 +171,7 @@ TEST_CASE("what cannot be an expression is refused with the word that is wrong")
   CHECK_THAT(error_of("scor"), Contains("nothing assigns 'scor'"));
   CHECK_THAT(error_of("prev(scor)"), Contains("nothing assigns 'scor'"));
   CHECK_THAT(error_of("mode"), Contains("nothing assigns 'mode'"));
-  CHECK_THAT(error_of("foo(1)"), Contains("no function 'foo'"));
+  CHECK_THAT(error_of("foo(1)"), Contains("unknown function 'foo'"));
   CHECK_THAT(error_of("rng()"), Contains("rng()"));
   CHECK_THAT(error_of("min(1)"), Contains("expected ','") && Contains("min()"));
   CHECK_THAT(error_of("bcd(0x80, 0x81, 0x82, 0x83)"), Contains("expected ')'") && Contains("bcd()"));

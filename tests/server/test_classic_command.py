@@ -158,8 +158,8 @@ class Classic(unittest.TestCase):
         self.refuse("-game_controller", "rlglue", GAME, hint="rlglue")
 
     def test_an_image_is_required(self):
-        self.refuse(hint="no image")
-        self.refuse(*FIFO, hint="no image")
+        self.refuse(hint="the image is missing")
+        self.refuse(*FIFO, hint="the image is missing")
         self.refuse(*FIFO, "-config", hint="-config has no value")
         self.refuse(*FIFO, "nothing.bin", hint="nothing.bin")
 

@@ -20,14 +20,15 @@
 
 namespace racebeam {
 
-// What a line depended on. seen: bits 0-5: Object n was shown;
+// Bits of LineDependencies::seen. Bits 0-5: Object n was shown.
 constexpr std::uint16_t kScoreSeen = 1U << 6;  // the playfield in the players' colours
 constexpr std::uint16_t kLit = 1U << 7;        // something else than VBLANK's black was shown
 constexpr std::uint16_t kMoves = 1U << 8;      // there is an HMOVE
 constexpr std::uint16_t kClears = 1U << 9;     // there is a CXCLR, which clears earlier collisions
-// control: bits 0-5: a write affects the control of Object n;
+// Bits of LineDependencies::control. Bits 0-5: a write affects the control of Object n.
 constexpr std::uint8_t kPlaceOfP0 = 1U << 6, kPlaceOfP1 = 1U << 7;  // their old positions count
 
+// What a line depended on.
 struct LineDependencies {
   std::uint16_t seen;
   std::uint8_t control;
