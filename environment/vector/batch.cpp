@@ -61,8 +61,10 @@ void put(std::span<T> array, std::size_t position, std::int64_t value) {
 }  // namespace
 
 BatchArrays BatchResults::arrays() {
-  return {observations, final_observations, screens,    ram,      rewards,   rewards_b, raw_rewards,    raw_rewards_b,
-          terminated,   truncated,          finished,   game_over, lives,    frames,    episode_frames, numbers};
+  return {observations, final_observations, final_lives, final_frames, final_episode_frames,
+          screens,      ram,                rewards,     rewards_b,    raw_rewards,
+          raw_rewards_b, terminated,        truncated,   finished,     game_over,
+          lives,        frames,             episode_frames, numbers};
 }
 
 struct Batch::Impl final : VectorHost {
@@ -88,10 +90,10 @@ struct Batch::Impl final : VectorHost {
     slot.set_stack(settings.stack);
   }
   void ended(std::size_t number, const Slot& slot) override {
-    if (slot.stack() == nullptr) return;
-    if (out != nullptr) return put_stack(slot, out->final_observations, number);
-    finals[number].resize(observation_size());
-    put_stack(slot, finals[number], 0);
+    if (out != nullptr) return write_final(slot, number, *out);
+    Final& final = finals[number];
+    final.observation.resize(observation_size());
+    write_final(slot, 0, final.arrays());
   }
   void shown(std::size_t number, const Slot&) override {
     if (out != nullptr) write(number, number, *out);
@@ -101,6 +103,8 @@ struct Batch::Impl final : VectorHost {
   std::size_t observation_size() const { return static_cast<std::size_t>(settings.stack.depth) * screen_size(); }
   void put_stack(const Slot& slot, std::span<std::uint8_t> observations, std::size_t position) const;
   void write(std::size_t number, std::size_t position, const BatchArrays& arrays) const;
+  void write_final(const Slot& slot, std::size_t position, const BatchArrays& arrays) const;
+  void pass_final(std::size_t number, std::size_t position, const BatchArrays& arrays);
 
   std::span<const Act> acts_of(std::span<const int> actions, auto machine_of);
   void check_free() const;
@@ -108,6 +112,20 @@ struct Batch::Impl final : VectorHost {
   void begin(std::span<const std::size_t> numbers);
   void play(std::size_t number);
   std::span<const std::size_t> await_batch();
+
+  // How an episode ended, from then to receive().
+  struct Final {
+    BatchArrays arrays() {
+      BatchArrays to;
+      to.final_observations = observation;
+      to.final_lives = {&lives, 1};
+      to.final_frames = {&frames, 1};
+      to.final_episode_frames = {&episode_frames, 1};
+      return to;
+    }
+    std::vector<std::uint8_t> observation;
+    std::int32_t lives = 0, frames = 0, episode_frames = 0;
+  };
 
   struct Job {
     Act act;
@@ -128,7 +146,7 @@ struct Batch::Impl final : VectorHost {
   ThreadPool pool;
   const BatchArrays* out = nullptr;  // null: nowhere
   int height = 0;
-  std::vector<std::vector<std::uint8_t>> finals;  // by machine, from the end of an episode to receive()
+  std::vector<Final> finals;         // by machine
   VectorEnvironment vector;
 
   std::vector<Act> acts;              // of a request; kept for their memory
@@ -157,6 +175,23 @@ void Batch::Impl::put_stack(const Slot& slot, std::span<std::uint8_t> observatio
   if (stack.screen_size() == stride) return;
   for (std::size_t at = 0; at < own.size(); at += stride)
     std::ranges::fill(own.subspan(at + stack.screen_size(), stride - stack.screen_size()), std::uint8_t{0});
+}
+
+void Batch::Impl::write_final(const Slot& slot, std::size_t position, const BatchArrays& arrays) const {
+  if (slot.stack() != nullptr) put_stack(slot, arrays.final_observations, position);
+  put(arrays.final_lives, position, slot.environment().lives());
+  put(arrays.final_frames, position, slot.environment().frame_number());
+  put(arrays.final_episode_frames, position, slot.environment().episode_frame_number());
+}
+
+void Batch::Impl::pass_final(std::size_t number, std::size_t position, const BatchArrays& arrays) {
+  const Final& final = finals[number];
+  put(arrays.final_lives, position, final.lives);
+  put(arrays.final_frames, position, final.frames);
+  put(arrays.final_episode_frames, position, final.episode_frames);
+  if (arrays.final_observations.empty()) return;
+  std::ranges::copy(final.observation, arrays.final_observations.begin() +
+                                           static_cast<std::ptrdiff_t>(position * observation_size()));
 }
 
 void Batch::Impl::write(std::size_t number, std::size_t position, const BatchArrays& arrays) const {
@@ -222,7 +257,6 @@ void Batch::Impl::begin(std::span<const std::size_t> numbers) {
 void Batch::Impl::play(std::size_t number) {
   Job& job = jobs[number];
   try {
-    finals[number].clear();
     job.resets ? vector.reset_one(number, job.seed) : vector.step_one(number, job.act);
   } catch (const std::exception&) {
     job.failure = std::current_exception();
@@ -278,7 +312,11 @@ BatchResults Batch::make_results() const {
   const std::size_t count = batch_size();
   BatchResults results;
   results.observations.resize(count * observation_size());
-  if (impl_->settings.autoreset == Autoreset::kSameStep) results.final_observations.resize(count * observation_size());
+  if (impl_->settings.autoreset == Autoreset::kSameStep) {
+    results.final_observations.resize(count * observation_size());
+    for (auto* numbers : {&results.final_lives, &results.final_frames, &results.final_episode_frames})
+      numbers->resize(count);
+  }
   if (impl_->settings.screens) results.screens.resize(count * static_cast<std::size_t>(height()) * kScreenWidth);
   results.ram.resize(count * kRamSize);
   for (auto* numbers : {&results.rewards, &results.rewards_b, &results.raw_rewards, &results.raw_rewards_b, &results.lives,
@@ -346,8 +384,8 @@ void Batch::receive(const BatchArrays& out) {
     const std::size_t number = numbers[position];
     if (impl_->jobs[number].failure) std::rethrow_exception(std::exchange(impl_->jobs[number].failure, nullptr));
     impl_->write(number, position, out);
-    if (impl_->finals[number].empty() || out.final_observations.empty()) continue;
-    std::ranges::copy(impl_->finals[number], &out.final_observations[position * observation_size()]);
+    const bool ended = impl_->vector.slot(number).outcome().finished;
+    if (ended && impl_->settings.autoreset == Autoreset::kSameStep) impl_->pass_final(number, position, out);
   }
 }
 

@@ -30,6 +30,7 @@ struct BatchArrays {
   std::span<std::uint8_t> observations;  // machines x stack x height x width [x 3], oldest first
   // The same of the episodes that ended, with Autoreset::kSameStep; the other machines' parts are not written.
   std::span<std::uint8_t> final_observations;
+  std::span<std::int32_t> final_lives, final_frames, final_episode_frames;  // the same
   std::span<std::uint8_t> screens;  // machines x tallest height x 160 palette indices
   std::span<std::uint8_t> ram;      // machines x 128
   std::span<std::int32_t> rewards, rewards_b, raw_rewards, raw_rewards_b;  // of players A and B
@@ -42,7 +43,9 @@ struct BatchArrays {
 
 // Memory for all of them.
 struct BatchResults {
-  std::vector<std::uint8_t> observations, final_observations, screens, ram;
+  std::vector<std::uint8_t> observations, final_observations;
+  std::vector<std::int32_t> final_lives, final_frames, final_episode_frames;
+  std::vector<std::uint8_t> screens, ram;
   std::vector<std::int32_t> rewards, rewards_b, raw_rewards, raw_rewards_b;
   std::vector<std::uint8_t> terminated, truncated, finished, game_over;
   std::vector<std::int32_t> lives, frames, episode_frames, numbers;

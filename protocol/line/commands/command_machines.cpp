@@ -43,7 +43,7 @@ const std::vector<OpenRow>& open_rows() {
 
 [[noreturn]] void refuse_word(std::string_view word) {
   std::string keys;
-  for (const OpenRow& row : open_rows()) keys.append(keys.empty() ? "" : " ").append(row.name) += '=';
+  for (const OpenRow& row : open_rows()) ((keys += keys.empty() ? "" : " ") += row.name) += '=';
   throw Refusal(Code::kBadArguments, quote(word) + " is no setting; open takes " + keys);
 }
 

@@ -179,8 +179,12 @@ TEST_CASE("Machines that are sent and received in any order play as they do toge
         CHECK(part(results.observations, position, 2) == part(should.observations, machine, 5));
         CHECK(results.episode_frames[position] == should.episode_frames[machine]);
         CHECK(results.finished[position] == should.finished[machine]);
-        if (autoreset == Autoreset::kSameStep && should.finished[machine] != 0)
+        if (autoreset == Autoreset::kSameStep && should.finished[machine] != 0) {
           CHECK(part(results.final_observations, position, 2) == part(should.final_observations, machine, 5));
+          CHECK(results.final_episode_frames[position] == should.final_episode_frames[machine]);
+          CHECK(results.final_frames[position] == should.final_frames[machine]);
+          CHECK(should.final_episode_frames[machine] >= 30);
+        }
       }
       apart.send(actions, results.numbers);
     }

@@ -57,9 +57,10 @@ TEST_CASE("An episode begins with FIRE and no-ops, in the order that was chosen"
   CHECK(pressed(ResetOrder::kBaselines, 1) == "-FFFUUU");
   const std::string fire_first = pressed(ResetOrder::kFireNoops, 30), noops_first = pressed(ResetOrder::kNoopsFire, 30);
   REQUIRE(fire_first.size() > 2);
-  CHECK(fire_first == "F" + std::string(fire_first.size() - 1, '-'));
-  CHECK(noops_first == std::string(fire_first.size(), '-') + "F");  // the same draw
-  CHECK(pressed(ResetOrder::kBaselines, 30) == std::string(fire_first.size() + 1, '-') + "FFFUUU");
+  const std::string noops(fire_first.size() - 1, '-');
+  CHECK(fire_first == std::string("F").append(noops));
+  CHECK(noops_first == std::string("-").append(noops).append("F"));  // the same draw
+  CHECK(pressed(ResetOrder::kBaselines, 30) == std::string("--").append(noops).append("FFFUUU"));
 }
 
 TEST_CASE("A lost life does to the episode what was chosen") {
