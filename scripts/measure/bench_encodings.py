@@ -1,6 +1,6 @@
 """Measures what each encoding of the line protocol costs a client: bytes of a field, and the time to decode it.
 
-Random play with four frames an act. The same texts are decoded by the client in Python (clients/python/racebeam.py) and by one in
+Random play with four frames an act. The same texts are decoded by the client in Python (clients/python/racebeam/wire/client.py) and by one in
 C++ (tests/protocol/decode_bench.cpp); both must have the same bytes in the end. Times are processor time, the least of seven
 rounds. Prints the table of docs/performance.md.
 """
@@ -13,8 +13,8 @@ import time
 import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "clients/python"))
-import racebeam  # noqa: E402
+sys.path.insert(0, str(ROOT / "clients/python/racebeam/wire"))
+import client as racebeam  # noqa: E402
 from bench_report import machine  # noqa: E402
 from bench_wire import image, name_of  # noqa: E402
 
