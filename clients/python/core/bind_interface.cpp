@@ -5,7 +5,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include <limits>
+#include <algorithm>
 
 #include "clients/python/core/ale_interface.hpp"
 #include "clients/python/core/arrays.hpp"
@@ -172,7 +172,10 @@ std::vector<PythonAction> as_actions(const std::vector<int>& numbers) {
 }
 
 void bind_play(nb::class_<AleInterface>& interface) {
-  interface.def("act", act, "action"_a, "paddle_strength"_a = 1.0F)
+  interface
+      .def("act", [](AleInterface& self, unsigned action, float strength) {
+            return act(self, static_cast<int>(std::min(action, 1U << 30)), strength);
+          }, "action"_a, "paddle_strength"_a = 1.0F)
       .def("act", [](AleInterface& self, PythonAction action, float strength) {
             return act(self, number_of(action), strength);
           }, "action"_a, "paddle_strength"_a = 1.0F)
