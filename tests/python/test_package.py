@@ -74,7 +74,7 @@ class Files(unittest.TestCase):
         self.assertTrue((FOLDER / "py.typed").exists() and (FOLDER / "_core.pyi").exists())
         if not has("mypy"):
             self.skipTest("there is no mypy")
-        for command in (["mypy", "--strict", "-p", "racebeam"],
+        for command in (["mypy", "--strict", "--cache-dir", str(package.VENV.parent / "mypy"), "-p", "racebeam"],
                         ["mypy.stubtest", "racebeam._core", "--ignore-disjoint-bases", "--allowlist",
                          str(package.SOURCE / "tests/python/stubtest_allowed")]):
             done = subprocess.run([sys.executable, "-m", *command], capture_output=True, text=True, cwd=FOLDER.parent.parent)

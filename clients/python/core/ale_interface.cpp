@@ -38,7 +38,8 @@ const std::shared_ptr<Machine>& AleInterface::machine() {
 
 Environment& AleInterface::environment() { return machine()->environment; }
 
-// Without limits of a reward, samples of each act, or frames of its own, several acts are the same as a long one.
+// Without limits of a reward, samples of each act, or frames of its own, several acts are the same as a long
+// one.
 bool AleInterface::acts_can_be_joined() const {
   const Settings& settings = machine_->environment.settings();
   return settings.frame_skip <= 1 && !settings.sound &&

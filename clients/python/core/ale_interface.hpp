@@ -1,5 +1,5 @@
-// A game in this process, with the interface that Python knows from ALE. All methods may be called from several threads:
-// they take turns. Those that need a game throw InvalidInput before one is loaded.
+// A game in this process, with the interface that Python knows from ALE. All methods may be called from
+// several threads: they take turns. Those that need a game throw InvalidInput before one is loaded.
 #pragma once
 
 #include <cstdint>
@@ -36,16 +36,16 @@ class AleInterface {
   const Keys& keys() const { return keys_; }
   Lock& lock() const { return *lock_; }
 
-  // The caller holds lock(), for these and all below. Powers a machine on with the present keys. Throws InvalidInput
-  // when no game is known for the image, and `game` names none.
+  // The caller holds lock(), for these and all below. Powers a machine on with the present keys. Throws
+  // InvalidInput when no game is known for the image, and `game` names none.
   void load(std::shared_ptr<const Image> image, const std::optional<std::string>& game);
   bool is_loaded() const { return machine_ != nullptr; }
 
   Environment& environment();
   const std::shared_ptr<Machine>& machine();
 
-  // `times` acts with one reward, which is their sum. A long step looks for signals, such as Ctrl-C, and throws
-  // nanobind::python_error: the acts until then have happened. What `view` shows is then fast to get.
+  // `times` acts with one reward, which is their sum. A long step looks for signals, such as Ctrl-C, and
+  // throws nanobind::python_error: the acts until then have happened. What `view` shows is then fast to get.
   StepResult step(const Action& action, int times, View view);
 
   // The bytes that are seen in `view`, and their number.

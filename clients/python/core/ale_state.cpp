@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::string_view kMagic = "RBALE001";
 
-// Behind the magic come the facts, as four integers of 32 bits, and the state as any client of racebeam has it.
+// Behind the magic come the facts, as four integers of 32 bits, and the state as any client of racebeam has
+// it.
 static_assert(sizeof(AleState::Facts) == 16);
 constexpr std::size_t kHead = kMagic.size() + sizeof(AleState::Facts);
 

@@ -11,8 +11,8 @@ namespace racebeam::python {
 
 // An environment that states refer to, with the lock of the interface that it belongs to.
 struct Machine {
-  Machine(std::shared_ptr<Lock> its_lock, std::shared_ptr<const Image> image, std::shared_ptr<const Game> game,
-          const Settings& settings)
+  Machine(std::shared_ptr<Lock> its_lock, std::shared_ptr<const Image> image,
+          std::shared_ptr<const Game> game, const Settings& settings)
       : lock(std::move(its_lock)), environment(std::move(image), std::move(game), settings) {}
 
   const std::shared_ptr<Lock> lock;
@@ -31,12 +31,12 @@ class AleState {
   // Of the machine's present moment; the caller holds the lock.
   AleState(std::shared_ptr<Machine> machine, bool with_random);
 
-  // What serialize() returned. Throws InvalidInput unless it begins as such bytes do; the rest is checked when the
-  // state is restored.
+  // What serialize() returned. Throws InvalidInput unless it begins as such bytes do; the rest is checked
+  // when the state is restored.
   explicit AleState(std::string bytes);
 
-  // Throws InvalidInput when the state is not one of the environment's image and game; the environment is then as it
-  // was. The caller holds the lock.
+  // Throws InvalidInput when the state is not one of the environment's image and game; the environment is
+  // then as it was. The caller holds the lock.
   void restore_in(Environment& environment) const;
 
   // Takes the machine's lock. "" for a state of no game.

@@ -19,7 +19,8 @@ using Row = std::tuple<std::string_view, std::string_view, bool, bool>;
 
 std::vector<Row> rows() {
   std::vector<Row> rows;
-  for (const CatalogueEntry& game : catalogue()) rows.emplace_back(game.name, game.title, game.has_rule, game.built_in);
+  for (const CatalogueEntry& game : catalogue())
+    rows.emplace_back(game.name, game.title, game.has_rule, game.built_in);
   return rows;
 }
 
@@ -39,11 +40,13 @@ std::tuple<std::string, std::optional<std::string>> identify(const ImageArgument
 }  // namespace
 
 void bind_catalogue(nb::module_& module) {
-  module.def("games", rows, "Each game: its name, its title, whether it has a score, whether its image is built in.");
+  module.def("games", rows,
+             "Each game: its name, its title, whether it has a score, whether its image is built in.");
   module.def("md5s", md5s_of, "game"_a, "The MD5s of the images that are recognised as a game.");
   module.def("identify", identify, "image"_a, nb::call_guard<nb::gil_scoped_release>(),
              nb::sig("def identify(image: str | os.PathLike[str] | bytes) -> tuple[str, str | None]"),
-             "The MD5 of an image, a path or its bytes, and the game that it is; None for a game that is not known.");
+             "The MD5 of an image, a path or its bytes, and the game that it is; None for a game that is not "
+             "known.");
   module.def("image_files", image_files, "folder"_a, nb::call_guard<nb::gil_scoped_release>(),
              "The files of a folder that look like images.");
 }

@@ -99,18 +99,27 @@ void bind_bytes(nb::class_<AleInterface>& interface) {
   bind.operator()<View::kRgb>("getScreenRGB", "height x 160 x 3.");
   bind.operator()<View::kGrey>("getScreenGrayscale", "height x 160.");
   interface.def("getRAM", [](AleInterface& self) { return FreshFixed<kRamSize>(fresh<View::kRam>(self)); })
-      .def("getRAM", [](AleInterface& self, const Fixed<kRamSize>& buffer) {
+      .def(
+          "getRAM",
+          [](AleInterface& self, const Fixed<kRamSize>& buffer) {
             const Turn turn(self.lock());
             self.copy(View::kRam, {buffer.data(), buffer.size()});
-          }, "buffer"_a.noconvert())
-      .def("getAudio", [](AleInterface& self) {
+          },
+          "buffer"_a.noconvert())
+      .def(
+          "getAudio",
+          [](AleInterface& self) {
             FreshBytes bytes(kAudioSize);
             copy_audio(self, bytes.span());
             return FreshFixed<kAudioSize>(std::move(bytes).array({kAudioSize}));
-          }, "The samples of the last act; zeros unless sound_obs was set when the image was loaded.")
-      .def("getAudio", [](AleInterface& self, const Fixed<kAudioSize>& buffer) {
+          },
+          "The samples of the last act; zeros unless sound_obs was set when the image was loaded.")
+      .def(
+          "getAudio",
+          [](AleInterface& self, const Fixed<kAudioSize>& buffer) {
             copy_audio(self, {buffer.data(), buffer.size()});
-          }, "buffer"_a.noconvert());
+          },
+          "buffer"_a.noconvert());
 }
 
 // Acting
@@ -120,8 +129,8 @@ int number_of(PythonAction action) { return static_cast<int>(action); }
 // The environment would take some of the others for NOOP, as the reference does.
 void check_action(int action, int first) {
   if (action >= first && action < first + kActions) return;
-  throw InvalidInput("there is no action " + std::to_string(action) + "; there are " + std::to_string(first) + " to " +
-                     std::to_string(first + kActions - 1));
+  throw InvalidInput("there is no action " + std::to_string(action) + "; there are " + std::to_string(first) +
+                     " to " + std::to_string(first + kActions - 1));
 }
 
 int act(AleInterface& self, int action, float strength) {
@@ -132,8 +141,10 @@ int act(AleInterface& self, int action, float strength) {
   return environment.act(action, kActions, strength);
 }
 
-// The observation, both rewards, both ends, lives, frames of the episode and since loading. One call, since each costs.
-nb::tuple step(AleInterface& self, int action, float strength, int times, View view, int action_b, float strength_b) {
+// The observation, both rewards, both ends, lives, frames of the episode and since loading. One call, since
+// each costs.
+nb::tuple step(AleInterface& self, int action, float strength, int times, View view, int action_b,
+               float strength_b) {
   if (times < 1) throw InvalidInput("times is " + std::to_string(times) + "; it must be 1 or more");
   check_action(action, 0);
   check_action(action_b, kActions);
@@ -147,7 +158,8 @@ nb::tuple step(AleInterface& self, int action, float strength, int times, View v
     height = static_cast<std::size_t>(self.environment().height());
     self.copy(view, bytes.span());
   }
-  nb::object observation = view == View::kNone ? nb::none() : nb::cast(array_of(std::move(bytes), view, height));
+  nb::object observation =
+      view == View::kNone ? nb::none() : nb::cast(array_of(std::move(bytes), view, height));
   return nb::make_tuple(std::move(observation), static_cast<double>(result.reward),
                         static_cast<double>(result.reward_b), result.terminal, result.truncated, result.lives,
                         result.episode_frame, result.frame);
@@ -291,7 +303,8 @@ void set(AleInterface& self, Keys::Table<Value> Keys::*table, std::string_view k
 }
 
 template <class Value, Keys::Table<Value> Keys::*table>
-void bind_type(nb::class_<AleInterface>& interface, const char* getter, const char* setter, const Value& otherwise) {
+void bind_type(nb::class_<AleInterface>& interface, const char* getter, const char* setter,
+               const Value& otherwise) {
   interface
       .def(getter, [otherwise](AleInterface& self, std::string_view key) { return get(self, table, key, otherwise); },
            "key"_a)
@@ -306,9 +319,11 @@ void bind_keys(nb::class_<AleInterface>& interface) {
   bind_type<std::string, &Keys::strings>(interface, "getString", "setString", "");
 }
 
-// Pickling: the settings now and as the image was loaded, and the image with its game and state, if one is loaded.
+// Pickling: the settings now and as the image was loaded, and the image with its game and state, if one is
+// loaded.
 
-using KeysAsTables = std::tuple<Keys::Table<int>, Keys::Table<bool>, Keys::Table<float>, Keys::Table<std::string>>;
+using KeysAsTables =
+    std::tuple<Keys::Table<int>, Keys::Table<bool>, Keys::Table<float>, Keys::Table<std::string>>;
 using Loaded = std::tuple<KeysAsTables, std::string, nb::bytes, std::string, nb::bytes>;
 
 KeysAsTables as_tables(const Keys& keys) { return {keys.ints, keys.bools, keys.floats, keys.strings}; }
@@ -333,16 +348,17 @@ Moment moment_of(AleInterface& self) {
   const Turn turn(self.lock());
   if (!self.is_loaded()) return {self.keys(), self.keys(), nullptr, "", {}};
   const Environment& environment = self.environment();
-  return {self.keys(), self.keys_of_machine(), std::make_shared<const Image>(environment.image()), environment.game().name,
-          AleState(self.machine(), true)};
+  return {self.keys(), self.keys_of_machine(), std::make_shared<const Image>(environment.image()),
+          environment.game().name, AleState(self.machine(), true)};
 }
 
 std::tuple<KeysAsTables, std::optional<Loaded>> pickled(AleInterface& self) {
   const Moment now = moment_of(self);
   if (!now.image) return {as_tables(now.keys), std::nullopt};
   const std::vector<std::uint8_t>& image = *now.image->bytes;
-  return {as_tables(now.keys), Loaded{as_tables(now.keys_of_machine), now.image->stem, nb::bytes(image.data(), image.size()),
-                                      now.game, as_bytes(now.state.serialize())}};
+  return {as_tables(now.keys),
+          Loaded{as_tables(now.keys_of_machine), now.image->stem, nb::bytes(image.data(), image.size()),
+                 now.game, as_bytes(now.state.serialize())}};
 }
 
 void unpickle(AleInterface& self, const std::tuple<KeysAsTables, std::optional<Loaded>>& pickle) {

@@ -1,4 +1,5 @@
-// What the module consists of; a function for each file bind_*.cpp, in the order in which they need each other.
+// What the module consists of; a function for each file bind_*.cpp, in the order in which they need each
+// other.
 #pragma once
 
 #include <nanobind/nanobind.h>

@@ -24,7 +24,8 @@ Rules rules_of(const std::string& name) {
 
 void refuse_recording(const std::string& key, const std::string& value) {
   if (!value.empty())
-    throw InvalidInput(key + " is '" + value + "'; racebeam does not record by this key, so it takes only ''");
+    throw InvalidInput(key + " is '" + value +
+                       "'; racebeam does not record by this key, so it takes only ''");
 }
 
 }  // namespace
@@ -53,12 +54,9 @@ Keys::Keys()
             {"truncate_on_loss_of_life", false},
             {"clipvol", true}},
       floats{{"repeat_action_probability", 0.25F}},
-      strings{{"cpu", "low"},
-              {"palette", "standard"},
-              {"record_screen_dir", ""},
-              {"record_sound_filename", ""},
-              {"rom_file", ""},
-              {"rules", "ale-0.12"}} {}
+      strings{
+          {"cpu", "low"},   {"palette", "standard"}, {"record_screen_dir", ""}, {"record_sound_filename", ""},
+          {"rom_file", ""}, {"rules", "ale-0.12"}} {}
 
 Settings Keys::settings() const {
   for (const char* const key : {"record_screen_dir", "record_sound_filename"})

@@ -16,7 +16,8 @@ std::atomic<unsigned> generation{1};  // of this process; a child has another th
 void Lock::lock() {
   if (!mutex_.try_lock()) {
     if (owned_in_ != generation)
-      throw std::runtime_error("this object was in use by another thread when the process forked; make a new one");
+      throw std::runtime_error(
+          "this object was in use by another thread when the process forked; make a new one");
     mutex_.lock();
   }
   owned_in_ = generation.load();

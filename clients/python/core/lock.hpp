@@ -1,5 +1,6 @@
 // A lock for each object that Python can reach, so that two threads that use one object at once take turns. A
-// lock that another thread held when the process forked is refused in the child: nothing would ever release it.
+// lock that another thread held when the process forked is refused in the child: nothing would ever release
+// it.
 #pragma once
 
 #include <nanobind/nanobind.h>

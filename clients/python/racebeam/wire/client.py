@@ -97,7 +97,8 @@ def launch(*options: str, program: str | None = None, arrays: bool = False) -> S
     options: those of `racebeam serve`, such as "--roms", DIR. program: the program racebeam; None: the one that was installed
     with this package, or the one on the PATH. Raises FileNotFoundError where there is none.
     """
-    return Session.start(program or _program(), *options, arrays=arrays)
+    quiet = () if "--log-level" in options else ("--log-level", "warning")
+    return Session.start(program or _program(), *quiet, *options, arrays=arrays)
 
 
 def connect(address: str, *, token: str | None = None, tls: ssl.SSLContext | None = None, timeout: float | None = None,
