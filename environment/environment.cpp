@@ -1,7 +1,9 @@
 #include "environment/environment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 
 #include "emulator/base/mersenne_twister.hpp"
@@ -111,9 +113,8 @@ int Environment::act(int a, int b, float strength_a, float strength_b) {
   return impl_->act(asked);
 }
 
-int Environment::act_for(int frames, int a) {
-  Presses asked;
-  asked.a.action = a;
+int Environment::act_for(int frames, int a, int b, float strength_a, float strength_b) {
+  const Presses asked{{a, strength_a}, {b, strength_b}};
   impl_->legal.check(asked);
   return impl_->act(asked, frames);
 }
@@ -182,23 +183,33 @@ void Environment::set_ram(int index, std::uint8_t value) {
 }
 
 void Environment::screen_rgb(std::vector<std::uint8_t>& rgb) const {
-  const Palette& colours = palette(impl_->console.format());
-  const auto pixels = screen();
-  rgb.resize(3 * pixels.size());
-  std::uint8_t* out = rgb.data();
-  for (const std::uint8_t pixel : pixels) {
-    const auto [r, g, b] = colours[pixel];
-    *out++ = r;
-    *out++ = g;
-    *out++ = b;
-  }
+  rgb.resize(3 * screen().size());
+  screen_rgb(std::span(rgb));
 }
 
 void Environment::screen_grey(std::vector<std::uint8_t>& grey) const {
-  const GreyTable& table = grey_table(impl_->console.format());
+  grey.resize(screen().size());
+  screen_grey(std::span(grey));
+}
+
+// Four bytes are written for a pixel, which is faster than three; the next pixel overwrites the fourth.
+void Environment::screen_rgb(std::span<std::uint8_t> rgb) const {
+  static_assert(sizeof(Rgb) == 3);
+  const Palette& colours = palette(impl_->console.format());
+  std::array<std::uint32_t, 256> wide{};
+  for (std::size_t i = 0; i < wide.size(); ++i) std::memcpy(&wide[i], &colours[i], sizeof(Rgb));
   const auto pixels = screen();
-  grey.resize(pixels.size());
-  std::ranges::transform(pixels, grey.begin(), [&](std::uint8_t pixel) { return table[pixel]; });
+  std::uint8_t* out = rgb.data();
+  for (const std::uint8_t pixel : pixels.first(pixels.size() - 1)) {
+    std::memcpy(out, &wide[pixel], sizeof wide[pixel]);
+    out += sizeof(Rgb);
+  }
+  std::memcpy(out, &colours[pixels.back()], sizeof(Rgb));
+}
+
+void Environment::screen_grey(std::span<std::uint8_t> grey) const {
+  const GreyTable& table = grey_table(impl_->console.format());
+  std::ranges::transform(screen(), grey.begin(), [&](std::uint8_t pixel) { return table[pixel]; });
 }
 
 const Game& Environment::game() const { return *impl_->game; }

@@ -65,8 +65,9 @@ class Environment {
   // As constructed anew with this random_seed: powered on, in the game's default mode. Drawing and watch() stay.
   void reload(std::uint32_t random_seed);
 
-  // The same for a number of frames that is not the settings': no-ops at the start of an episode.
-  int act_for(int frames, int a);
+  // As act(), for a number of frames that is not the settings': no-ops at the start of an episode, or a step of
+  // an agent that chooses its number of frames each time.
+  int act_for(int frames, int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
 
   // Says which screens will be looked at. It changes nothing but the speed: one that was not drawn is drawn when it is
   // asked for, which costs more. kLast unless told; kLastTwo with colour averaging, kEvery while somebody watches.
@@ -105,6 +106,10 @@ class Environment {
   void set_ram(int index, std::uint8_t value);              // index 0-127, else std::out_of_range
   void screen_rgb(std::vector<std::uint8_t>& rgb) const;    // height x 160 x 3
   void screen_grey(std::vector<std::uint8_t>& grey) const;  // height x 160
+
+  // The same into memory of the caller's, of exactly that size.
+  void screen_rgb(std::span<std::uint8_t> rgb) const;
+  void screen_grey(std::span<std::uint8_t> grey) const;
 
   const Game& game() const;
   const Image& image() const;

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """A planner in a page: tries each action for a while from where the game is, plays what paid best."""
 import argparse
+import pathlib
 import sys
 
-from racebeam import Session
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "racebeam/wire"))
+from client import Session  # noqa: E402
 
 DEPTH = 20    # acts that a branch looks ahead
 STEPS = 60    # acts that are played

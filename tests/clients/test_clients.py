@@ -6,9 +6,9 @@ import sys
 import unittest
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(SOURCE, "tests", "server"), os.path.join(SOURCE, "clients", "python")]
+sys.path[:0] = [os.path.join(SOURCE, "tests", "server"), os.path.join(SOURCE, "clients", "python", "racebeam", "wire")]
 
-import racebeam  # noqa: E402
+import client as racebeam  # noqa: E402
 from harness import BINARY, GAME, PATIENCE, Server, main  # noqa: E402
 
 ENCODINGS = ("hex", "rle", "delta", "base64", "zlib")

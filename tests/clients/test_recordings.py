@@ -6,7 +6,7 @@ import sys
 import tempfile
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(SOURCE, folder) for folder in ("tests/server", "tests/support", "clients/python")]
+sys.path[:0] = [os.path.join(SOURCE, folder) for folder in ("tests/server", "tests/support", "clients/python/racebeam/wire")]
 
 import reference_python  # noqa: E402
 
@@ -18,7 +18,7 @@ from PIL import Image, ImageSequence  # noqa: E402
 import unittest  # noqa: E402
 import wave  # noqa: E402
 
-import racebeam  # noqa: E402
+import client as racebeam  # noqa: E402
 from harness import BINARY, main  # noqa: E402
 
 FRAMES = 60

@@ -5,7 +5,7 @@ import os
 import sys
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(SOURCE, folder) for folder in ("tests/server", "tests/support", "clients/python")]
+sys.path[:0] = [os.path.join(SOURCE, folder) for folder in ("tests/server", "tests/support", "clients/python/racebeam/wire")]
 
 import reference_python  # noqa: E402
 
@@ -18,7 +18,7 @@ from ale_py.vector_env import AtariVectorEnv  # noqa: E402
 
 import unittest  # noqa: E402
 
-import racebeam  # noqa: E402
+import client as racebeam  # noqa: E402
 from harness import BINARY, main  # noqa: E402
 
 ROMS = str(roms.get_rom_path("pong").parent)

@@ -1,6 +1,9 @@
 // games, load, settings, set, modes, difficulties, actions
+#include <unistd.h>
+
 #include <algorithm>
-#include <random>
+#include <cerrno>
+#include <system_error>
 #include <utility>
 
 #include "games/similar.hpp"
@@ -14,6 +17,14 @@ namespace racebeam {
 namespace {
 
 constexpr std::string_view kInline = "inline";
+
+// Never 0. Not of std::random_device, which needs a C library of 2022 when it is linked statically, as in a wheel.
+std::uint32_t fresh_seed() {
+  std::uint32_t seed = 0;
+  if (getentropy(&seed, sizeof seed) != 0)
+    throw std::system_error(errno, std::generic_category(), "no random seed can be had");
+  return seed | 1U;
+}
 
 template <typename Names>
 void append_names(std::string& out, const Names& names) {
@@ -147,7 +158,7 @@ void run_load(Session& session, Words arguments) {
   PlaySettings settings;
   settings.machine.cpu = session.service.cpu;
   read_settings(words.settings, settings, kKeysOfImages);
-  if (settings.machine.random_seed == 0) settings.machine.random_seed = std::random_device{}() | 1U;
+  if (settings.machine.random_seed == 0) settings.machine.random_seed = fresh_seed();
   Cartridge cartridge = find_cartridge(session, arguments[0], words);
   std::unique_ptr<Player> player;
   try {

@@ -1,0 +1,68 @@
+// A game in this process, with the interface that Python knows from ALE. All methods may be called from
+// several threads: they take turns. Those that need a game throw InvalidInput before one is loaded.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "clients/python/core/ale_state.hpp"
+#include "clients/python/core/keys.hpp"
+#include "games/catalogue.hpp"
+
+namespace racebeam::python {
+
+// What an agent looks at after each step.
+enum class View { kRgb, kGrey, kRam, kPalette, kNone };
+
+struct StepResult {
+  std::int64_t reward = 0, reward_b = 0;
+  bool terminal = false, truncated = false;
+  int lives = 0, episode_frame = 0, frame = 0;
+};
+
+// What both players do, with the strengths of their paddles.
+struct Action {
+  int a = 0, b = 18;
+  float strength_a = 1.0F, strength_b = 0.0F;
+};
+
+class AleInterface {
+ public:
+  Keys& keys() { return keys_; }
+  const Keys& keys() const { return keys_; }
+  Lock& lock() const { return *lock_; }
+
+  // The caller holds lock(), for these and all below. Powers a machine on with the present keys. Throws
+  // InvalidInput when no game is known for the image, and `game` names none.
+  void load(std::shared_ptr<const Image> image, const std::optional<std::string>& game);
+  bool is_loaded() const { return machine_ != nullptr; }
+
+  Environment& environment();
+  const std::shared_ptr<Machine>& machine();
+
+  // `times` acts with one reward, which is their sum. A long step looks for signals, such as Ctrl-C, and
+  // throws nanobind::python_error: the acts until then have happened. What `view` shows is then fast to get.
+  StepResult step(const Action& action, int times, View view);
+
+  // The bytes that are seen in `view`, and their number.
+  std::size_t size_of(View view);
+  void copy(View view, std::span<std::uint8_t> out);
+
+  // The settings that the machine was loaded with.
+  const Keys& keys_of_machine() const { return keys_of_machine_; }
+  void set_keys_of_machine(const Keys& keys) { keys_of_machine_ = keys; }
+
+ private:
+  bool acts_can_be_joined() const;
+
+  const std::shared_ptr<Lock> lock_ = std::make_shared<Lock>();
+  Keys keys_;
+  Keys keys_of_machine_;
+  std::shared_ptr<Machine> machine_;
+};
+
+}  // namespace racebeam::python

@@ -1,0 +1,39 @@
+// Arrays of bytes as NumPy's.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+
+namespace racebeam::python {
+
+namespace nb = nanobind;
+
+using Bytes = nb::ndarray<nb::numpy, std::uint8_t>;
+
+// What a caller gives to be written into.
+using Buffer = nb::ndarray<std::uint8_t, nb::c_contig, nb::device::cpu>;
+
+// Memory that was filled without the GIL, for one array that then owns it.
+class FreshBytes {
+ public:
+  FreshBytes() = default;
+  explicit FreshBytes(std::size_t size) : memory_(new std::uint8_t[size]), size_(size) {}
+
+  std::span<std::uint8_t> span() { return {memory_.get(), size_}; }
+
+  Bytes array(std::initializer_list<std::size_t> shape) && {
+    std::uint8_t* const data = memory_.release();
+    const nb::capsule owner(data, [](void* bytes) noexcept { delete[] static_cast<std::uint8_t*>(bytes); });
+    return Bytes(data, shape, owner);
+  }
+
+ private:
+  std::unique_ptr<std::uint8_t[]> memory_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace racebeam::python

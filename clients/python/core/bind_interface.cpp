@@ -1,0 +1,390 @@
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+
+#include "clients/python/core/ale_interface.hpp"
+#include "clients/python/core/arrays.hpp"
+#include "clients/python/core/bindings.hpp"
+#include "clients/python/core/image_argument.hpp"
+#include "clients/python/core/python_action.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam::python {
+namespace {
+
+using namespace nb::literals;
+
+// A method that reads one number or list of the environment.
+template <auto method>
+auto ask(AleInterface& self) {
+  const Turn turn(self.lock());
+  return (self.environment().*method)();
+}
+
+// Pictures and other bytes
+
+// Height and width, and what a pixel has of `view`.
+std::vector<std::size_t> shape_of(const Environment& environment, View view) {
+  const auto height = static_cast<std::size_t>(environment.height());
+  switch (view) {
+    case View::kRgb: return {height, kScreenWidth, 3};
+    case View::kRam: return {kRamSize};
+    default: return {height, kScreenWidth};
+  }
+}
+
+Bytes array_of(FreshBytes&& bytes, View view, std::size_t height) {
+  switch (view) {
+    case View::kRgb: return std::move(bytes).array({height, kScreenWidth, 3});
+    case View::kRam: return std::move(bytes).array({kRamSize});
+    default: return std::move(bytes).array({height, kScreenWidth});
+  }
+}
+
+template <View view>
+Bytes fresh(AleInterface& self) {
+  FreshBytes bytes;
+  std::size_t height = 0;
+  {
+    const Turn turn(self.lock());
+    bytes = FreshBytes(self.size_of(view));
+    height = static_cast<std::size_t>(self.environment().height());
+    self.copy(view, bytes.span());
+  }
+  return array_of(std::move(bytes), view, height);
+}
+
+template <class Numbers>
+std::string in_brackets(const Numbers& numbers) {
+  std::string text;
+  for (const auto number : numbers) text += (text.empty() ? "" : ", ") + std::to_string(number);
+  return "(" + text + ")";
+}
+
+void check_shape(const Buffer& buffer, const std::vector<std::size_t>& expected) {
+  const std::vector<std::size_t> shape(buffer.shape_ptr(), buffer.shape_ptr() + buffer.ndim());
+  if (shape != expected)
+    throw InvalidInput("Invalid shape " + in_brackets(shape) + ", expecting shape " + in_brackets(expected));
+}
+
+template <View view>
+void into(AleInterface& self, const Buffer& buffer) {
+  const Turn turn(self.lock());
+  check_shape(buffer, shape_of(self.environment(), view));
+  self.copy(view, {buffer.data(), buffer.size()});
+}
+
+template <std::size_t size>
+using Fixed = nb::ndarray<std::uint8_t, nb::shape<size>, nb::c_contig, nb::device::cpu>;
+
+template <std::size_t size>
+using FreshFixed = nb::ndarray<nb::numpy, std::uint8_t, nb::shape<size>>;
+
+void copy_audio(AleInterface& self, std::span<std::uint8_t> out) {
+  const Turn turn(self.lock());
+  std::ranges::copy(self.environment().audio(), out.begin());
+}
+
+void bind_bytes(nb::class_<AleInterface>& interface) {
+  const auto bind = [&interface]<View view>(const char* name, const char* what) {
+    interface.def(name, fresh<view>, what)
+        .def(name, into<view>, "buffer"_a.noconvert(), "Writes into an array of the caller's.");
+  };
+  bind.operator()<View::kPalette>("getScreen", "height x 160 numbers of colours.");
+  bind.operator()<View::kRgb>("getScreenRGB", "height x 160 x 3.");
+  bind.operator()<View::kGrey>("getScreenGrayscale", "height x 160.");
+  interface.def("getRAM", [](AleInterface& self) { return FreshFixed<kRamSize>(fresh<View::kRam>(self)); })
+      .def(
+          "getRAM",
+          [](AleInterface& self, const Fixed<kRamSize>& buffer) {
+            const Turn turn(self.lock());
+            self.copy(View::kRam, {buffer.data(), buffer.size()});
+          },
+          "buffer"_a.noconvert())
+      .def(
+          "getAudio",
+          [](AleInterface& self) {
+            FreshBytes bytes(kAudioSize);
+            copy_audio(self, bytes.span());
+            return FreshFixed<kAudioSize>(std::move(bytes).array({kAudioSize}));
+          },
+          "The samples of the last act; zeros unless sound_obs was set when the image was loaded.")
+      .def(
+          "getAudio",
+          [](AleInterface& self, const Fixed<kAudioSize>& buffer) {
+            copy_audio(self, {buffer.data(), buffer.size()});
+          },
+          "buffer"_a.noconvert());
+}
+
+// Acting
+
+int number_of(PythonAction action) { return static_cast<int>(action); }
+
+// The environment would take some of the others for NOOP, as the reference does.
+void check_action(int action, int first) {
+  if (action >= first && action < first + kActions) return;
+  throw InvalidInput("there is no action " + std::to_string(action) + "; there are " + std::to_string(first) +
+                     " to " + std::to_string(first + kActions - 1));
+}
+
+int act(AleInterface& self, int action, float strength) {
+  check_action(action, 0);
+  const Turn turn(self.lock());
+  Environment& environment = self.environment();
+  environment.set_drawing(environment.settings().color_averaging ? Drawing::kLastTwo : Drawing::kLast);
+  return environment.act(action, kActions, strength);
+}
+
+// The observation, both rewards, both ends, lives, frames of the episode and since loading. One call, since
+// each costs.
+nb::tuple step(AleInterface& self, int action, float strength, int times, View view, int action_b,
+               float strength_b) {
+  if (times < 1) throw InvalidInput("times is " + std::to_string(times) + "; it must be 1 or more");
+  check_action(action, 0);
+  check_action(action_b, kActions);
+  FreshBytes bytes;
+  StepResult result;
+  std::size_t height = 0;
+  {
+    const Turn turn(self.lock());
+    result = self.step({action, action_b, strength, strength_b}, times, view);
+    bytes = FreshBytes(self.size_of(view));
+    height = static_cast<std::size_t>(self.environment().height());
+    self.copy(view, bytes.span());
+  }
+  nb::object observation =
+      view == View::kNone ? nb::none() : nb::cast(array_of(std::move(bytes), view, height));
+  return nb::make_tuple(std::move(observation), static_cast<double>(result.reward),
+                        static_cast<double>(result.reward_b), result.terminal, result.truncated, result.lives,
+                        result.episode_frame, result.frame);
+}
+
+bool game_over(AleInterface& self, bool with_truncation) {
+  const Turn turn(self.lock());
+  return with_truncation ? self.environment().game_over() : self.environment().terminal();
+}
+
+void set_ram(AleInterface& self, unsigned index, std::uint8_t value) {
+  if (index >= kRamSize)
+    throw InvalidInput("setRAM index out of bounds: " + std::to_string(index) + "; it takes 0 to 127");
+  const Turn turn(self.lock());
+  self.environment().set_ram(static_cast<int>(index), value);
+}
+
+std::vector<PythonAction> as_actions(const std::vector<int>& numbers) {
+  std::vector<PythonAction> actions;
+  for (const int number : numbers) actions.push_back(static_cast<PythonAction>(number));
+  return actions;
+}
+
+void bind_play(nb::class_<AleInterface>& interface) {
+  interface
+      .def("act", [](AleInterface& self, unsigned action, float strength) {
+            return act(self, static_cast<int>(std::min(action, 1U << 30)), strength);
+          }, "action"_a, "paddle_strength"_a = 1.0F)
+      .def("act", [](AleInterface& self, PythonAction action, float strength) {
+            return act(self, number_of(action), strength);
+          }, "action"_a, "paddle_strength"_a = 1.0F)
+      .def("step", step, "action"_a, "paddle_strength"_a, "times"_a, "view"_a, "action_b"_a = kActions,
+           "paddle_strength_b"_a = 0.0F,
+           nb::sig("def step(self, action: int, paddle_strength: float, times: int, view: View, action_b: int = 18, "
+                   "paddle_strength_b: float = 0.0) -> tuple[typing.Any, float, float, bool, bool, int, int, int]"),
+           "Acts so many times. Returns what view shows, the rewards of both players, terminated, truncated, lives, frames "
+           "of the episode and since loading.")
+      .def("reset_game", ask<&Environment::reset_game>)
+      .def("game_over", game_over, "with_truncation"_a = true)
+      .def("game_truncated", ask<&Environment::truncated>)
+      .def("lives", ask<&Environment::lives>)
+      .def("getFrameNumber", ask<&Environment::frame_number>)
+      .def("getEpisodeFrameNumber", ask<&Environment::episode_frame_number>)
+      .def("getScreenDims", [](AleInterface& self) { return std::tuple(ask<&Environment::height>(self), kScreenWidth); })
+      .def("getRAMSize", [](AleInterface&) { return kRamSize; })
+      .def("getAudioSize", [](AleInterface&) { return kAudioSize; })
+      .def("setRAM", set_ram, "index"_a, "value"_a)
+      .def("state_hash", ask<&Environment::state_hash>, "Equal where two games will go on in the same way.");
+}
+
+// The game
+
+using ListOfGame = std::vector<int> Game::*;
+
+template <ListOfGame list>
+std::vector<int> list_of(AleInterface& self) {
+  const Turn turn(self.lock());
+  return self.environment().game().*list;
+}
+
+template <auto method>
+void change(AleInterface& self, int value) {
+  const Turn turn(self.lock());
+  (self.environment().*method)(value);
+}
+
+std::optional<std::string> supported(const ImageArgument& where) {
+  const auto game = find_game_by_md5(image_of(where, "bytes")->md5);
+  return game && game->has_rule() ? std::optional(game->name) : std::nullopt;
+}
+
+void load(AleInterface& self, const ImageArgument& where, const std::optional<std::string>& game) {
+  const Turn turn(self.lock());
+  const auto image = image_of(where, game.value_or("bytes"));
+  self.load(image, game);
+  const auto* const path = std::get_if<std::filesystem::path>(&where);
+  self.keys().strings["rom_file"] = path != nullptr ? path->string() : "";
+}
+
+void bind_game(nb::class_<AleInterface>& interface) {
+  interface.def("loadROM", load, "rom"_a, "game"_a = nb::none(),
+                nb::sig("def loadROM(self, rom: str | os.PathLike[str] | bytes, game: str | None = None) -> None"),
+                "Powers the machine on. rom: a path, builtin:NAME, or the bytes of an image. game: whose rule it has; "
+                "None: the image decides.")
+      .def_static("isSupportedROM", supported, "rom"_a, nb::call_guard<nb::gil_scoped_release>(),
+                  nb::sig("def isSupportedROM(rom: str | os.PathLike[str] | bytes) -> str | None"),
+                  "The name of the image's game, or None.")
+      .def_static("setLoggerMode", [](LoggerMode) {}, "mode"_a)
+      .def_static("setLoggerMode", [](int) {}, "mode"_a)
+      .def("getLegalActionSet", [](AleInterface& self) { return as_actions(list_of<&Game::legal_actions>(self)); })
+      .def("getMinimalActionSet", [](AleInterface& self) { return as_actions(list_of<&Game::minimal_actions>(self)); })
+      .def("getAvailableModes", list_of<&Game::modes>)
+      .def("getAvailableDifficulties", list_of<&Game::difficulties>)
+      .def("getTwoPlayerModes", list_of<&Game::two_player_modes>, "Modes in which player B plays, too.")
+      .def("getMode", ask<&Environment::mode>)
+      .def("getDifficulty", ask<&Environment::difficulty>)
+      .def("setMode", change<&Environment::set_mode>)
+      .def("setDifficulty", change<&Environment::set_difficulty>)
+      .def("getGame", [](AleInterface& self) {
+            const Turn turn(self.lock());
+            return self.environment().game().name;
+          }, "The name of the game.");
+}
+
+// States
+
+AleState clone(AleInterface& self, bool with_random) {
+  const Turn turn(self.lock());
+  return AleState(self.machine(), with_random);
+}
+
+void restore(AleInterface& self, const AleState& state) {
+  const Turn turn(self.lock());
+  state.restore_in(self.environment());
+}
+
+void bind_states(nb::class_<AleInterface>& interface) {
+  interface.def("cloneState", clone, "include_rng"_a = false)
+      .def("restoreState", restore, "state"_a)
+      .def("cloneSystemState", [](AleInterface& self) { return clone(self, true); })
+      .def("restoreSystemState", restore, "state"_a);
+}
+
+// Settings
+
+template <class Value>
+Value get(AleInterface& self, Keys::Table<Value> Keys::*table, std::string_view key, Value otherwise) {
+  const Turn turn(self.lock());
+  const auto found = (self.keys().*table).find(key);
+  return found == (self.keys().*table).end() ? otherwise : found->second;
+}
+
+template <class Value>
+void set(AleInterface& self, Keys::Table<Value> Keys::*table, std::string_view key, const Value& value) {
+  const Turn turn(self.lock());
+  const auto found = (self.keys().*table).find(key);
+  if (found == (self.keys().*table).end())
+    throw InvalidInput("The key " + std::string(key) +
+                       " you are trying to set does not exist or has incorrect value type.");
+  found->second = value;
+}
+
+template <class Value, Keys::Table<Value> Keys::*table>
+void bind_type(nb::class_<AleInterface>& interface, const char* getter, const char* setter,
+               const Value& otherwise) {
+  interface
+      .def(getter, [otherwise](AleInterface& self, std::string_view key) { return get(self, table, key, otherwise); },
+           "key"_a)
+      .def(setter, [](AleInterface& self, std::string_view key, const Value& value) { set(self, table, key, value); },
+           "key"_a, "value"_a);
+}
+
+void bind_keys(nb::class_<AleInterface>& interface) {
+  bind_type<int, &Keys::ints>(interface, "getInt", "setInt", -1);
+  bind_type<bool, &Keys::bools>(interface, "getBool", "setBool", false);
+  bind_type<float, &Keys::floats>(interface, "getFloat", "setFloat", -1.0F);
+  bind_type<std::string, &Keys::strings>(interface, "getString", "setString", "");
+}
+
+// Pickling: the settings now and as the image was loaded, and the image with its game and state, if one is
+// loaded.
+
+using KeysAsTables =
+    std::tuple<Keys::Table<int>, Keys::Table<bool>, Keys::Table<float>, Keys::Table<std::string>>;
+using Loaded = std::tuple<KeysAsTables, std::string, nb::bytes, std::string, nb::bytes>;
+
+KeysAsTables as_tables(const Keys& keys) { return {keys.ints, keys.bools, keys.floats, keys.strings}; }
+
+Keys as_keys(const KeysAsTables& tables) {
+  Keys keys;
+  std::tie(keys.ints, keys.bools, keys.floats, keys.strings) = tables;
+  return keys;
+}
+
+nb::bytes as_bytes(const std::string& text) { return nb::bytes(text.data(), text.size()); }
+
+// Of one moment.
+struct Moment {
+  Keys keys, keys_of_machine;
+  std::shared_ptr<const Image> image;  // null: none is loaded
+  std::string game;
+  AleState state;
+};
+
+Moment moment_of(AleInterface& self) {
+  const Turn turn(self.lock());
+  if (!self.is_loaded()) return {self.keys(), self.keys(), nullptr, "", {}};
+  const Environment& environment = self.environment();
+  return {self.keys(), self.keys_of_machine(), std::make_shared<const Image>(environment.image()),
+          environment.game().name, AleState(self.machine(), true)};
+}
+
+std::tuple<KeysAsTables, std::optional<Loaded>> pickled(AleInterface& self) {
+  const Moment now = moment_of(self);
+  if (!now.image) return {as_tables(now.keys), std::nullopt};
+  const std::vector<std::uint8_t>& image = *now.image->bytes;
+  return {as_tables(now.keys),
+          Loaded{as_tables(now.keys_of_machine), now.image->stem, nb::bytes(image.data(), image.size()),
+                 now.game, as_bytes(now.state.serialize())}};
+}
+
+void unpickle(AleInterface& self, const std::tuple<KeysAsTables, std::optional<Loaded>>& pickle) {
+  new (&self) AleInterface;
+  const auto& [keys, loaded] = pickle;
+  if (loaded) {
+    const auto& [keys_of_machine, stem, image, game, state] = *loaded;
+    self.keys() = as_keys(keys_of_machine);
+    const auto* const begin = static_cast<const std::uint8_t*>(image.data());
+    self.load(make_image({begin, begin + image.size()}, stem), game);
+    restore(self, AleState(std::string(state.c_str(), state.size())));
+  }
+  self.keys() = as_keys(keys);
+}
+
+}  // namespace
+
+void bind_interface(nb::module_& module) {
+  nb::class_<AleInterface> interface(module, "ALEInterface",
+                                     "A game in this process. Settings take effect when an image is loaded.");
+  interface.def(nb::init<>()).def("__getstate__", pickled).def("__setstate__", unpickle);
+  bind_game(interface);
+  bind_play(interface);
+  bind_bytes(interface);
+  bind_states(interface);
+  bind_keys(interface);
+}
+
+}  // namespace racebeam::python

@@ -1,0 +1,14 @@
+// What the module consists of; a function for each file bind_*.cpp, in the order in which they need each
+// other.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace racebeam::python {
+
+void bind_enumerations(nanobind::module_& module);  // Action, LoggerMode, View
+void bind_catalogue(nanobind::module_& module);     // games and images
+void bind_state(nanobind::module_& module);         // ALEState
+void bind_interface(nanobind::module_& module);     // ALEInterface
+
+}  // namespace racebeam::python

@@ -1,0 +1,27 @@
+// The settings of ALE by their keys (docs/spec/environment.md, 14). All take effect when an image is loaded.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "environment/settings.hpp"
+
+namespace racebeam::python {
+
+struct Keys {
+  template <class Value>
+  using Table = std::map<std::string, Value, std::less<>>;
+
+  Keys();  // the reference's defaults
+
+  Table<int> ints;
+  Table<bool> bools;
+  Table<float> floats;
+  Table<std::string> strings;
+
+  // Throws InvalidInput for a value that no environment takes. A seed of -1 becomes one from the clock.
+  Settings settings() const;
+};
+
+}  // namespace racebeam::python

@@ -1,0 +1,34 @@
+// A lock for each object that Python can reach, so that two threads that use one object at once take turns. A
+// lock that another thread held when the process forked is refused in the child: nothing would ever release
+// it.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <atomic>
+#include <mutex>
+
+namespace racebeam::python {
+
+class Lock {
+ public:
+  // Throws std::runtime_error in a child process whose parent forked while another thread held the lock.
+  void lock();
+  void unlock() { mutex_.unlock(); }
+
+ private:
+  std::mutex mutex_;
+  std::atomic<unsigned> owned_in_{0};  // the generation of the process that locked it last
+};
+
+// For the time of one call: other threads of Python run, and the object is this thread's.
+class Turn {
+ public:
+  explicit Turn(Lock& lock) : held_(lock) {}
+
+ private:
+  nanobind::gil_scoped_release other_threads_run_;
+  std::scoped_lock<Lock> held_;
+};
+
+}  // namespace racebeam::python

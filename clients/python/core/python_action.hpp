@@ -1,0 +1,14 @@
+// Types that exist for Python alone.
+#pragma once
+
+#include <cstdint>
+
+#include "games/game/actions.hpp"
+
+namespace racebeam::python {
+
+enum class PythonAction : std::int32_t {};  // player A's numbers, as all_actions() lists them
+
+enum class LoggerMode { kInfo, kWarning, kError };
+
+}  // namespace racebeam::python

@@ -1,0 +1,60 @@
+"""Atari 2600 games for agents: exact to ALE 0.12, in this process or on a server.
+
+With Gymnasium installed, `import racebeam` registers the ids racebeam/Pong-v5 and so on:
+
+    import gymnasium, racebeam
+    env = gymnasium.make("racebeam/Beamfall-v5")
+
+docs/python.md describes the package.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.metadata
+import importlib.util
+from typing import TYPE_CHECKING, Any
+
+from ._core import Action, ALEState, LoggerMode
+from .wire.client import Refused, Session, connect, launch
+from .errors import InvalidInput, MissingImage, UnknownGame
+from .images import find as find_image
+from .images import find_all as find_images
+from .images import titles as games
+from .interface import ALEInterface
+
+if TYPE_CHECKING:
+    from .env import AtariEnv
+
+__version__ = importlib.metadata.version("racebeam")
+
+__all__ = ["ALEInterface", "ALEState", "Action", "AtariEnv", "InvalidInput", "LoggerMode", "MissingImage", "Refused", "Session",
+           "UnknownGame", "connect", "find_image", "find_images", "games", "launch", "register_ale_ids"]
+
+_HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
+
+
+def register_ale_ids() -> None:
+    """Makes racebeam play the ids of ale_py: ALE/Pong-v5, Pong-v4 and so on."""
+    _need_gymnasium("register_ale_ids")
+    from .registration import register_ale_ids as register
+
+    register()
+
+
+def _need_gymnasium(what: str) -> None:
+    if not _HAS_GYMNASIUM:
+        raise ImportError(f'racebeam.{what} needs Gymnasium; install it with: pip install "racebeam[gymnasium]"')
+
+
+def __getattr__(name: str) -> Any:
+    if name != "AtariEnv":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    _need_gymnasium(name)
+    return importlib.import_module(".env", __name__).AtariEnv
+
+
+if _HAS_GYMNASIUM:
+    from .registration import register_own_ids
+
+    register_own_ids()

@@ -1,0 +1,65 @@
+"""The interface of ale_py 0.12.1. Code that was written for ALE runs on racebeam after
+
+    import sys, racebeam.ale_py
+    sys.modules["ale_py"] = racebeam.ale_py
+
+and `import racebeam.ale_py` registers ale_py's ids with Gymnasium, as `import ale_py` does. Observations, rewards, ends and
+infos are the same to the byte, for the same seeds and actions. What differs:
+
+1.  An image that is missing, cut or unknown is an exception of loadROM(); ale_py ends the process.
+2.  A method that needs a game raises InvalidInput, a RuntimeError, before loadROM(); in ale_py most end the process.
+3.  act() raises ValueError for a number that is no action; ale_py plays NOOP. AtariEnv.step() takes no negative index.
+4.  An invalid mode or difficulty is a RuntimeError, too, and its sentence names the choices.
+5.  States are exact: the picture, the sound and the sticky action are those of the moment of cloning. In ale_py the first
+    picture after restoring has old pixels. serialize() gives other bytes, and only racebeam reads them.
+6.  Equal ALEStates have equal hashes, and comparing one with something else gives False.
+7.  AtariEnv and ALEInterface are pickled and copied with the game as it is; ale_py's copy begins anew.
+8.  loadROM() also takes bytes, and builtin:beamfall or builtin:updraft, the games of our own. roms.get_rom_path() also searches
+    RACEBEAM_ROMS, and prints nothing.
+9.  Nothing is logged: setLoggerMode() has no effect.
+10. SDL_SUPPORT is False: the settings display_screen and sound have no effect. AtariEnv(render_mode="human") opens a window by
+    pygame. record_screen_dir and record_sound_filename take only "".
+11. getInt(), getBool(), getFloat() and getString() each know the settings of their type alone.
+12. A closed AtariEnv raises ClosedEnvironmentError.
+13. AtariVectorEnv and ALEVectorInterface are not there yet.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+from typing import TYPE_CHECKING, Any
+
+from .._core import Action, ALEState, LoggerMode
+from ..interface import ALEInterface
+
+if TYPE_CHECKING:
+    from ..env import AtariEnv as AtariEnv
+    from ..env import AtariEnvStepMetadata as AtariEnvStepMetadata
+    from ..registration import register_v0_v4_envs as register_v0_v4_envs
+    from ..registration import register_v5_envs as register_v5_envs
+
+__version__ = "0.12.1"
+SDL_SUPPORT = False
+
+__all__ = ["ALEInterface", "ALEState", "Action", "LoggerMode", "SDL_SUPPORT"]
+
+_NEED_GYMNASIUM = {
+    "AtariEnv": "racebeam.env",
+    "AtariEnvStepMetadata": "racebeam.env",
+    "register_v0_v4_envs": "racebeam.registration",
+    "register_v5_envs": "racebeam.registration",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _NEED_GYMNASIUM:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(_NEED_GYMNASIUM[name]), name)
+
+
+if importlib.util.find_spec("gymnasium") is not None:
+    from ..registration import register_ale_ids
+
+    register_ale_ids()
+    __all__ += ["AtariEnv", "AtariEnvStepMetadata"]

@@ -1,0 +1,10 @@
+"""The names of ale_py's compiled module."""
+
+from racebeam._core import Action, ALEState, LoggerMode
+from racebeam.interface import ALEInterface
+
+SDL_SUPPORT = False
+__all__ = ["ALEInterface", "ALEState", "Action", "LoggerMode", "SDL_SUPPORT"]
+
+globals().update({action.name: action for action in Action})
+globals().update({mode.name: mode for mode in LoggerMode})

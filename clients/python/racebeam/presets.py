@@ -1,0 +1,36 @@
+"""Settings of the literature, as the line protocol has them (protocol/PROTOCOL.md, "games and load")."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from .errors import InvalidInput
+
+
+class Preset(NamedTuple):
+    """Arguments of AtariEnv; the defaults are those of ale_py.AtariEnv."""
+
+    frameskip: int | tuple[int, int] = 4
+    repeat_action_probability: float = 0.25
+    full_action_space: bool = False
+    max_num_frames_per_episode: int | None = None
+    life_loss_ends: bool = False
+    noop_max: int = 0
+    reward_range: tuple[int, int] | None = None
+
+
+PRESETS = {
+    "ale": Preset(),
+    "gym-v5": Preset(max_num_frames_per_episode=108000),
+    "paper2013": Preset(5, 0.0, True, 18000),
+    "dqn2015": Preset(4, 0.0, False, 18000, life_loss_ends=True, noop_max=30, reward_range=(-1, 1)),
+    "machado2018": Preset(5, 0.25, True, 18000),
+}
+
+
+def preset(name: str) -> Preset:
+    """Raises InvalidInput for an unknown name."""
+    try:
+        return PRESETS[name]
+    except KeyError:
+        raise InvalidInput(f"there is no preset {name!r}; there are {', '.join(PRESETS)}") from None

@@ -1,0 +1,34 @@
+"""The program `racebeam`, which pip installs beside python."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+import pathlib
+import shutil
+
+
+def path() -> str:
+    """Where it is: RACEBEAM_PROGRAM, else what the package installed, else what the PATH has. Raises FileNotFoundError."""
+    told = os.environ.get("RACEBEAM_PROGRAM")
+    if told:
+        return told
+    installed = _installed()
+    found = str(installed) if installed is not None else shutil.which("racebeam")
+    if found is None:
+        raise FileNotFoundError("the program racebeam is neither beside this package nor on the PATH; install the package with "
+                                "pip, or set RACEBEAM_PROGRAM to the program")
+    return found
+
+
+def _installed() -> pathlib.Path | None:
+    try:
+        files = importlib.metadata.files("racebeam") or []
+    except importlib.metadata.PackageNotFoundError:
+        return None
+    for file in files:
+        if file.name == "racebeam" and file.parent.name in ("bin", "Scripts"):
+            place = pathlib.Path(str(file.locate())).resolve()
+            if os.access(place, os.X_OK):
+                return place
+    return None

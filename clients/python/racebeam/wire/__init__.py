@@ -1,0 +1,1 @@
+"""Games on a server. client.py can be copied alone."""

@@ -1,0 +1,471 @@
+"""A client of the racebeam line protocol (protocol/PROTOCOL.md). This file needs the standard library only, and can be
+copied alone.
+
+    with launch() as game:                                       # or connect("tcp://HOST:PORT"), connect("unix:PATH")
+        game.load("beamfall", seed=7, frame_skip=4)
+        game.observe("reward", "ends", "ram", "screen:delta")
+        while True:
+            shown = game.act("FIRE")                             # {"reward": 0, "terminated": 0, ..., "screen": bytes}
+            if shown["terminated"] or shown["truncated"]:
+                break
+
+A method for each command, in the order of the document. Numbers come as int or float, and bytes as bytes, or as arrays of
+NumPy when the session was made with arrays=True. What the server refuses is raised as Refused, and the session goes on. A
+server that has gone is a ConnectionError, and one that does not answer in time a TimeoutError; both end the session.
+"""
+
+from __future__ import annotations
+
+import base64
+import shutil
+import socket
+import ssl
+import subprocess
+import zlib
+from collections.abc import Callable, Iterable
+from typing import IO, Any
+
+PROTOCOL = 1  # the version that this client speaks
+
+# What bytes are written in when `observe` does not say.
+USUAL_ENCODING = {"ram": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
+
+Texts = dict[str, str]
+Values = dict[str, Any]
+
+
+class Refused(Exception):
+    """`error CODE sentence`."""
+
+    def __init__(self, code: str, sentence: str) -> None:
+        super().__init__(code, sentence)
+        self.code, self.sentence = code, sentence
+
+    def __str__(self) -> str:
+        return f"{self.code}: {self.sentence}"
+
+
+def decode_runs(data: bytes) -> bytes:
+    """The bytes of runs: value and length."""
+    return b"".join(data[at:at + 1] * data[at + 1] for at in range(0, len(data), 2))
+
+
+def apply_delta(array: bytearray, text: str) -> None:
+    """Changes `array` by the text of a delta; it grows to what the text reaches."""
+    data, at, place = bytes.fromhex(text), 0, 0
+    while at < len(data):
+        place += data[at] << 8 | data[at + 1]
+        runs, at = data[at + 2], at + 3
+        for _ in range(runs):
+            value, length, at = data[at], data[at + 1], at + 2
+            if place + length > len(array):
+                array.extend(bytes(place + length - len(array)))
+            array[place:place + length] = bytes([value]) * length
+            place += length
+
+
+def decode_rewards(text: str) -> list[int]:
+    """A list from R,R*TIMES,..."""
+    rewards: list[int] = []
+    for run in filter(None, text.split(",")):
+        reward, _, times = run.partition("*")
+        rewards += [int(reward)] * int(times or 1)
+    return rewards
+
+
+DECODERS: dict[str, Callable[[str], bytes]] = {
+    "hex": bytes.fromhex,
+    "rle": lambda text: decode_runs(bytes.fromhex(text)),
+    "base64": base64.b64decode,
+    "zlib": lambda text: zlib.decompress(base64.b64decode(text)),
+}
+
+
+def number(text: str) -> int | float | str:
+    """The number that a text is, or the text."""
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text
+
+
+def launch(*options: str, program: str | None = None, arrays: bool = False) -> Session:
+    """A server of one's own, on standard streams, that ends with the session.
+
+    options: those of `racebeam serve`, such as "--roms", DIR. program: the program racebeam; None: the one that was installed
+    with this package, or the one on the PATH. Raises FileNotFoundError where there is none.
+    """
+    quiet = () if "--log-level" in options else ("--log-level", "warning")
+    return Session.start(program or _program(), *quiet, *options, arrays=arrays)
+
+
+def connect(address: str, *, token: str | None = None, tls: ssl.SSLContext | None = None, timeout: float | None = None,
+            arrays: bool = False) -> Session:
+    """A session of the server at `address`: "tcp://HOST:PORT", "tls://HOST:PORT" or "unix:PATH".
+
+    token: for servers that ask for one. tls: trusts the server's certificate; None: the system's authorities do. timeout:
+    seconds to wait for a connection, and for each reply; None: for ever. Raises ValueError for another address, OSError when
+    nothing answers there, and Refused for a wrong token.
+    """
+    connection = _open(address, tls, timeout)
+    try:
+        session = Session.connected(connection, arrays=arrays)
+    except BaseException:
+        connection.close()
+        raise
+    try:
+        session.address, session._again = address, lambda: connect(address, token=token, tls=tls, timeout=timeout, arrays=arrays)
+        said = session.hello(token)
+        if said["protocol"] != PROTOCOL:
+            raise ConnectionError(f"{address} speaks version {said['protocol']} of the protocol; this client speaks {PROTOCOL}")
+        return session
+    except BaseException:
+        session.close_connection()
+        raise
+
+
+def _program() -> str:
+    try:
+        from .. import program
+    except ImportError:  # this file was copied alone
+        found = shutil.which("racebeam")
+        if found is None:
+            raise FileNotFoundError("the program racebeam is not on the PATH; give program=") from None
+        return found
+    return program.path()
+
+
+def _open(address: str, tls: ssl.SSLContext | None, timeout: float | None) -> socket.socket:
+    kind, _, rest = address.partition(":")
+    host, _, port = rest.removeprefix("//").rpartition(":")
+    if kind == "unix" and rest:
+        connection = socket.socket(socket.AF_UNIX)
+        connection.settimeout(timeout)
+        try:
+            connection.connect(rest)
+        except BaseException:
+            connection.close()
+            raise
+        return connection
+    if kind not in ("tcp", "tls") or not rest.startswith("//") or not host or not port.isdecimal():
+        raise ValueError(f"the address is {address!r}; it takes tcp://HOST:PORT, tls://HOST:PORT or unix:PATH")
+    host = host.removeprefix("[").removesuffix("]")
+    connection = socket.create_connection((host, int(port)), timeout)
+    connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    if kind == "tcp":
+        return connection
+    try:
+        return (tls or ssl.create_default_context()).wrap_socket(connection, server_hostname=host)
+    except BaseException:
+        connection.close()
+        raise
+
+
+class Session:
+    """One session. connect() and launch() make them."""
+
+    def __init__(self, reader: IO[bytes], writer: IO[bytes], close: Callable[[], object], arrays: bool = False) -> None:
+        self.reader, self.writer, self._close = reader, writer, close
+        self.arrays_wanted = arrays
+        self.encodings: dict[str, str] = {}  # of the fields that observe chose
+        self.height = 0
+        self.arrays: dict[tuple[int, str], bytearray] = {}  # (machine, field): what deltas have made so far
+        self.address = ""
+        self._again: Callable[[], Session] | None = None
+        self._is_closed = False
+
+    @classmethod
+    def start(cls, racebeam: str = "racebeam", *options: str, arrays: bool = False) -> Session:
+        """As launch(), of a program that is named."""
+        process = subprocess.Popen([racebeam, "serve", "--stdio", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        assert process.stdin is not None and process.stdout is not None
+        ends = (process.stdin, process.stdout)
+
+        def close() -> None:
+            for end in ends:
+                try:
+                    end.close()
+                except BrokenPipeError:  # it has gone, and takes nothing more
+                    continue
+            process.wait()
+        return cls(process.stdout, process.stdin, close, arrays)
+
+    @classmethod
+    def tcp(cls, host: str, port: int, tls: ssl.SSLContext | None = None) -> Session:
+        """A TCP connection without a greeting. `tls`: trusts the server's certificate."""
+        return cls.connected(_open(f"{'tls' if tls else 'tcp'}://{host}:{port}", tls, None))
+
+    @classmethod
+    def unix(cls, path: str) -> Session:
+        """A Unix socket, without a greeting."""
+        return cls.connected(_open(f"unix:{path}", None, None))
+
+    @classmethod
+    def connected(cls, connection: socket.socket, arrays: bool = False) -> Session:
+        """A session on a socket, which it closes."""
+        reader, writer = connection.makefile("rb"), connection.makefile("wb")
+
+        def close() -> None:
+            for end in (reader, writer, connection):
+                try:
+                    end.close()
+                except OSError:  # what was not sent cannot be
+                    continue
+        return cls(reader, writer, close, arrays)
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close_connection()
+
+    def close_connection(self) -> None:
+        """Ends the session. More than once does nothing."""
+        if not self._is_closed:
+            self._is_closed = True
+            self._close()
+
+    def reconnect(self) -> Session:
+        """A new session of the same server, after the old one ended. It has no game yet. Only for sessions of connect()."""
+        if self._again is None:
+            raise ValueError("this session cannot be opened again: connect() did not make it")
+        self.close_connection()
+        return self._again()
+
+    # Requests and replies
+
+    def send(self, *words: object, **settings: object) -> None:
+        """A request without waiting for its reply; receive() gives the replies in their order."""
+        line = " ".join([*map(str, words), *(f"{key}={value}" for key, value in settings.items())])
+        if "\n" in line:
+            raise ValueError(f"a request is one line; this has more: {line!r}")
+        if self._is_closed:
+            raise ConnectionError("the session was closed")
+        try:
+            self.writer.write(f"{line}\n".encode())
+        except OSError as error:
+            raise self._lost(error) from error
+
+    def receive(self) -> list[Texts]:
+        """The groups of the next reply, each a dictionary of texts."""
+        status, _, rest = self._line().partition(" ")
+        if status == "error":
+            code, _, sentence = rest.partition(" ")
+            raise Refused(code, sentence)
+        groups = f" {rest}".split(" |")
+        return [dict(word.split("=", 1) for word in group.split(" ") if "=" in word) for group in groups]
+
+    def _line(self) -> str:
+        if self._is_closed:
+            raise ConnectionError("the session was closed")
+        try:
+            self.writer.flush()
+            line = self.reader.readline()
+        except OSError as error:  # a TimeoutError is one, too: half a reply may have been read
+            raise self._lost(error) from error
+        except BaseException:
+            self.close_connection()  # a reply that is read later would be taken for another's
+            raise
+        if not line.endswith(b"\n"):
+            raise self._lost(None)
+        return line.decode().rstrip("\n")
+
+    def _lost(self, error: OSError | None) -> OSError:
+        self.close_connection()
+        at = f" at {self.address}" if self.address else ""
+        if isinstance(error, TimeoutError):
+            return TimeoutError(f"the server{at} did not answer in time; the session has ended")
+        return ConnectionError(f"the server{at} has closed the session" + (f": {error}" if error else ""))
+
+    def ask(self, *words: object, **settings: object) -> list[Texts]:
+        """A request and its reply."""
+        self.send(*words, **settings)
+        return self.receive()
+
+    def values(self, *words: object, **settings: object) -> Values:
+        """The first group of a reply, with numbers."""
+        return {key: number(text) for key, text in self.ask(*words, **settings)[0].items()}
+
+    def list_of(self, key: str, *words: object) -> list[str]:
+        """A list in the first group of a reply."""
+        text = self.ask(*words)[0][key]
+        return text.split(",") if text else []
+
+    # Observations
+
+    def decoded(self, texts: Texts, machine: int = 0, encodings: dict[str, str] | None = None) -> Values:
+        """The fields of one group, as numbers and bytes."""
+        encodings = self.encodings if encodings is None else encodings
+        return {key: self._value(machine, key.removeprefix("final_"), text, encodings) for key, text in texts.items()}
+
+    def _value(self, machine: int, field: str, text: str, encodings: dict[str, str]) -> Any:
+        encoding = encodings.get(field)
+        if encoding is None:
+            return number(text)
+        if encoding != "delta":
+            return self._shaped(field, DECODERS[encoding](text))
+        array = self.arrays.setdefault((machine, field), bytearray(self._size(field)))
+        apply_delta(array, text)
+        return self._shaped(field, bytes(array))
+
+    def _shape(self, field: str) -> tuple[int, ...]:
+        if field.startswith("grey84"):
+            depth = field.partition("x")[2]
+            return (int(depth), 84, 84) if depth else (84, 84)
+        return {"ram": (128,), "palette": (256, 3), "audio": (512,), "screen": (self.height, 160), "grey": (self.height, 160),
+                "rgb": (self.height, 160, 3)}[field]
+
+    def _size(self, field: str) -> int:
+        size = 1
+        for length in self._shape(field):
+            size *= length
+        return size
+
+    def _shaped(self, field: str, data: bytes) -> Any:
+        if not self.arrays_wanted:
+            return data
+        import numpy
+
+        return numpy.frombuffer(data, numpy.uint8).reshape(self._shape(field))
+
+    def _shown(self, *words: object) -> Values:
+        return self.decoded(self.ask(*words)[0])
+
+    def _machines(self, *words: object, **settings: object) -> list[Values]:
+        return [self.decoded(texts, machine) for machine, texts in enumerate(self.ask(*words, **settings)[1:], 1)]
+
+    @staticmethod
+    def _encodings(fields: Iterable[str]) -> dict[str, str]:
+        pairs = [field.partition(":") for field in fields]
+        usual = {name: USUAL_ENCODING.get(name, "zlib" if name.startswith("grey84") else "") for name, _, _ in pairs}
+        return {name: encoding or usual[name] for name, _, encoding in pairs if encoding or usual[name]}
+
+    # Commands
+
+    def hello(self, token: str | None = None) -> Values:
+        return self.values("hello", token=token) if token else self.values("hello")
+
+    def help(self, *words: str) -> str:
+        self.send("help", *words)
+        return self._line().partition(" ")[2]
+
+    def games(self, *words: str) -> list[str]:
+        return self.list_of("games", "games", *words)
+
+    def game(self, name: str) -> Values:
+        """What is known of one game."""
+        return self.values("games", name)
+
+    def load(self, game: str, image: bytes | None = None, **settings: object) -> Values:
+        """`image`: the bytes of a cartridge, when `game` is "inline". as_=GAME: the rules of another game."""
+        if "as_" in settings:
+            settings["as"] = settings.pop("as_")
+        if image is not None:
+            settings["image"] = base64.b64encode(image).decode()
+        loaded = self.values("load", game, **settings)
+        self.height = loaded["height"]
+        self.arrays.clear()
+        return loaded
+
+    def settings(self) -> Values:
+        return self.values("settings")
+
+    def set(self, **settings: int) -> Values:
+        return self.values("set", **settings)
+
+    def modes(self) -> list[int]:
+        return [int(mode) for mode in self.list_of("modes", "modes")]
+
+    def two_player_modes(self) -> list[int]:
+        return [int(mode) for mode in self.list_of("two_player_modes", "modes")]
+
+    def difficulties(self) -> list[int]:
+        return [int(difficulty) for difficulty in self.list_of("difficulties", "difficulties")]
+
+    def actions(self) -> dict[int, str]:
+        """Names by number."""
+        pairs = (pair.split(":") for pair in self.list_of("actions", "actions"))
+        return {int(action): name for action, name in pairs}
+
+    def observe(self, *fields: str) -> list[str]:
+        chosen = self.list_of("fields", "observe", *fields)
+        if fields:
+            self.encodings = self._encodings(fields)
+            self.arrays.clear()
+        return chosen
+
+    def look(self, *fields: str) -> Values:
+        texts = self.ask("look", *fields)[0]
+        return self.decoded(texts, 0, self._encodings(fields) if fields else None)
+
+    def palette(self) -> list[tuple[int, int, int]]:
+        """Red, green and blue of each value that a pixel of `screen` can have."""
+        data = bytes.fromhex(self.ask("look", "palette:hex")[0]["palette"])
+        return [(data[at], data[at + 1], data[at + 2]) for at in range(0, len(data), 3)]
+
+    def act(self, *actions: object) -> Values:
+        return self._shown("act", *actions)
+
+    def reset(self) -> Values:
+        return self._shown("reset")
+
+    def peek(self, index: int, count: int = 1) -> bytes:
+        return bytes.fromhex(self.ask("peek", index, count)[0]["bytes"])
+
+    def poke(self, index: int, data: bytes) -> None:
+        self.ask("poke", index, data.hex().upper())
+
+    def save(self, name: str, random: int = 0) -> None:
+        self.ask("save", name, random=random)
+
+    def restore(self, name: str) -> Values:
+        return self._shown("restore", name)
+
+    def drop(self, *names: str) -> None:
+        self.ask("drop", *names)
+
+    def states(self) -> list[str]:
+        return self.list_of("states", "states")
+
+    def export_state(self, name: str) -> bytes:
+        return base64.b64decode(self.ask("export", name)[0]["data"])
+
+    def import_state(self, name: str, data: bytes) -> None:
+        self.ask("import", name, base64.b64encode(data).decode())
+
+    def branch(self, name: str, *sequences: Iterable[object], keep: str | None = None) -> list[Values]:
+        """Each sequence is a list of actions. Returns a dictionary for each, with `rewards`, and `rewards_b` if there are, as
+        lists."""
+        words = [f"keep={keep}"] if keep else []
+        words += [",".join(map(str, actions)) for actions in sequences]
+        return [{key: decode_rewards(text) if key.startswith("rewards") else number(text) for key, text in texts.items()}
+                for texts in self.ask("branch", name, *words)[1:]]
+
+    def open(self, count: int, autoreset: str = "next-step") -> list[Values]:
+        self.arrays.clear()
+        return self._machines("open", count, autoreset=autoreset)
+
+    def step(self, *actions: object) -> list[Values]:
+        return self._machines("step", *actions)
+
+    def restart(self, *mask: str) -> list[Values]:
+        return self._machines("restart", *mask)
+
+    def close(self) -> None:
+        """Gives the machines of open() back."""
+        self.ask("close")
+
+    def record(self, kinds: str, name: str, machine: int | None = None) -> Values:
+        """`kinds`: one, or several as in "y4m,wav"; `machine`: one of those of open(), 0 the first."""
+        return self.values("record", kinds, name, **({} if machine is None else {"machine": machine}))
+
+    def stop_recording(self) -> Values:
+        return self.values("record", "stop")
+
+    def stats(self) -> Values:
+        return self.values("stats")
+
+    def quit(self) -> None:
+        self.ask("quit")

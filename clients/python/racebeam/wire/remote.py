@@ -1,0 +1,299 @@
+"""ALEInterface of a game that runs on a server: the same answers, over the line protocol."""
+
+from __future__ import annotations
+
+import os
+import pathlib
+import struct
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .. import images
+from .._core import Action, ALEState, View
+from ..errors import InvalidInput, MissingImage, UnknownGame
+from ..interface import ALEInterface, png
+from .client import Refused, Session, connect
+
+Pixels = npt.NDArray[np.uint8]
+
+STATE = "racebeam-env"  # the name under which states pass through the session
+STATE_HEAD = struct.Struct("<8s4i")  # what ALEState.serialize() has before the server's bytes
+NO_LIMITS = {-2**31: "none", 2**31 - 1: "none"}
+ALWAYS = ("reward", "reward_b", "ends", "lives", "episode_frame", "frame", "acts")
+FIELDS = {View.RGB: ("screen:delta",), View.GRAYSCALE: ("screen:delta",), View.PALETTE: ("screen:delta",), View.RAM: ("ram:hex",),
+          View.NONE: ()}
+OWN_ERRORS = {"unknown-game": UnknownGame, "bad-value": InvalidInput, "bad-image": InvalidInput, "bad-state": InvalidInput,
+              "bad-action": InvalidInput, "no-game": InvalidInput}
+
+
+class RemoteInterface:
+    """Settings are kept here, and go to the server when an image is loaded. The server needs the image, or it is sent.
+
+    Raises what ALEInterface does; ConnectionError when the server has gone; and Refused for a limit of the server.
+    """
+
+    def __init__(self, server: str, token: str | None = None) -> None:
+        self._server, self._token = server, token
+        self._keys = ALEInterface()
+        self._session: Session = connect(server, token=token)
+        self._view: View | None = None
+        self._colours = np.zeros((256, 3), np.uint8)
+        self._greys = np.zeros(256, np.uint8)
+        self._loaded: tuple[Any, str | None, dict[str, object]] | None = None
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith(("getInt", "getBool", "getFloat", "getString", "setInt", "setBool", "setFloat", "setString")):
+            return getattr(self._keys, name)
+        raise AttributeError(f"RemoteInterface has no attribute {name!r}")
+
+    def _ask(self, method: Any, *words: Any, **settings: Any) -> Any:
+        try:
+            return method(*words, **settings)
+        except Refused as refused:
+            raise OWN_ERRORS.get(refused.code, InvalidInput)(f"{self._server}: {refused.sentence}") from refused
+
+    def _look(self, *fields: str) -> dict[str, Any]:
+        values: dict[str, Any] = self._ask(self._session.look, *fields)
+        return values
+
+    def close(self) -> None:
+        """Ends the session."""
+        self._session.close_connection()
+
+    def __del__(self) -> None:
+        session = self.__dict__.get("_session")  # there is none where connect() failed
+        if session is not None:
+            session.close_connection()
+
+    # The game
+
+    def _settings(self) -> dict[str, object]:
+        keys = self._keys
+        limits = {side: keys.getInt(side) for side in ("reward_min", "reward_max")}
+        return {
+            "seed": keys.getInt("random_seed") % 2**32,
+            "system_seed": keys.getInt("system_random_seed") % 2**32,
+            "frame_skip": max(keys.getInt("frame_skip"), 1),
+            "sticky": keys.getFloat("repeat_action_probability"),
+            "max_episode_frames": keys.getInt("max_num_frames_per_episode"),
+            "life_loss_ends": int(keys.getBool("truncate_on_loss_of_life")),
+            "rules": keys.getString("rules"),
+            "color_averaging": int(keys.getBool("color_averaging")),
+            "sound": int(keys.getBool("sound_obs")),
+            **{side: NO_LIMITS.get(limit, limit) for side, limit in limits.items()},
+        }
+
+    def loadROM(self, rom: Any = None, game: str | None = None) -> None:
+        """rom: as ALEInterface.loadROM() takes it, sent to the server; None: the server's own image of `game`."""
+        self._load(rom, game, self._settings())
+
+    def _load(self, rom: Any, game: str | None, settings: dict[str, object]) -> None:
+        if rom is None:
+            rom = self._image_to_send(game)
+        if rom is None:
+            self._ask(self._session.load, game, **settings)
+        else:
+            named = {"as": game} if game is not None else {}
+            self._ask(self._session.load, "inline", image=_bytes_of(rom), **named, **settings)
+        self._loaded = rom, game, settings
+        self._view = None
+        self._colours = np.array(self._session.palette(), np.uint8)
+        self._greys = np.append(self._colours[1:, 2], np.uint8(0))  # the blue of the entry after it
+
+    def _image_to_send(self, game: str | None) -> str | None:
+        """None where the server has one itself."""
+        images.check_name(str(game))
+        if int(self._session.game(str(game))["here"]) == 1:
+            return None
+        try:
+            return images.find(str(game))
+        except MissingImage as missing:
+            raise MissingImage(f"{self._server} has no image of {game}, and here {missing}") from missing
+
+    def getGame(self) -> str:
+        return str(self._ask(self._session.settings)["game"])
+
+    def _list(self, key: str, command: str) -> list[int]:
+        return [int(number) for number in self._ask(self._session.list_of, key, command)]
+
+    def _actions(self, key: str) -> list[Action]:
+        return [Action(number) for number in self._list(key, "actions")]
+
+    def getLegalActionSet(self) -> list[Action]:
+        return self._actions("legal")
+
+    def getMinimalActionSet(self) -> list[Action]:
+        return self._actions("minimal")
+
+    def getAvailableModes(self) -> list[int]:
+        return self._list("modes", "modes")
+
+    def getTwoPlayerModes(self) -> list[int]:
+        return self._list("two_player_modes", "modes")
+
+    def getAvailableDifficulties(self) -> list[int]:
+        return self._list("difficulties", "difficulties")
+
+    def getMode(self) -> int:
+        return int(self._ask(self._session.values, "modes")["mode"])
+
+    def getDifficulty(self) -> int:
+        return int(self._ask(self._session.values, "difficulties")["difficulty"])
+
+    def setMode(self, mode: int) -> None:
+        self._ask(self._session.set, mode=mode)
+
+    def setDifficulty(self, difficulty: int) -> None:
+        self._ask(self._session.set, difficulty=difficulty)
+
+    # Playing
+
+    def _observe(self, view: View) -> None:
+        if view is not self._view:
+            self._ask(self._session.observe, *ALWAYS, *FIELDS[view])
+            self._view = view
+
+    def step(self, action: int, paddle_strength: float, times: int, view: View, action_b: int = 18,
+             paddle_strength_b: float = 0.0) -> tuple[Any, float, float, bool, bool, int, int, int]:
+        """As ALEInterface's."""
+        self._observe(view)
+        word = f"{action}@{paddle_strength:.9g}/{action_b - 18}@{paddle_strength_b:.9g}"
+        shown = self._ask(self._session.act, f"{word}*{times}")
+        self._act_after_the_end(word, times - max(shown["acts"], 1))
+        return (self._seen(shown, view), float(shown["reward"]), float(shown["reward_b"]), bool(shown["terminated"]),
+                bool(shown["truncated"]), shown["lives"], shown["episode_frame"], shown["frame"])
+
+    def _act_after_the_end(self, word: str, acts: int) -> None:
+        """Such acts run no frame; but the generator of sticky actions goes on, as it does in this process."""
+        for _ in range(acts):
+            self._session.send("act", word)
+        for _ in range(acts):
+            self._session.decoded(self._session.receive()[0])
+
+    def act(self, action: int | Action, paddle_strength: float = 1.0) -> int:
+        number = action.value if isinstance(action, Action) else action
+        return int(self.step(number, paddle_strength, 1, View.NONE)[1])
+
+    def reset_game(self) -> None:
+        self._ask(self._session.reset)
+
+    def _seen(self, shown: dict[str, Any], view: View) -> Any:
+        if view is View.NONE:
+            return None
+        if view is View.RAM:
+            return np.frombuffer(shown["ram"], np.uint8).copy()
+        screen = np.frombuffer(shown["screen"], np.uint8).reshape(-1, 160)
+        if view is View.PALETTE:
+            return screen.copy()
+        return self._colours[screen] if view is View.RGB else self._greys[screen]
+
+    def game_over(self, with_truncation: bool = True) -> bool:
+        ends = self._look("ends")
+        return bool(ends["terminated"] or (with_truncation and ends["truncated"]))
+
+    def game_truncated(self) -> bool:
+        return bool(self._look("truncated")["truncated"])
+
+    def lives(self) -> int:
+        return int(self._look("lives")["lives"])
+
+    def getFrameNumber(self) -> int:
+        return int(self._look("frame")["frame"])
+
+    def getEpisodeFrameNumber(self) -> int:
+        return int(self._look("episode_frame")["episode_frame"])
+
+    # What is seen and heard
+
+    def _show(self, view: View, buffer: Pixels | None) -> Pixels | None:
+        seen: Pixels = self._seen(self._look("ram:hex" if view is View.RAM else "screen:zlib"), view)
+        return _given(seen, buffer)
+
+    def getScreen(self, buffer: Pixels | None = None) -> Pixels | None:
+        return self._show(View.PALETTE, buffer)
+
+    def getScreenRGB(self, buffer: Pixels | None = None) -> Pixels | None:
+        return self._show(View.RGB, buffer)
+
+    def getScreenGrayscale(self, buffer: Pixels | None = None) -> Pixels | None:
+        return self._show(View.GRAYSCALE, buffer)
+
+    def getRAM(self, buffer: Pixels | None = None) -> Pixels | None:
+        return self._show(View.RAM, buffer)
+
+    def getAudio(self, buffer: Pixels | None = None) -> Pixels | None:
+        if not self._keys.getBool("sound_obs"):
+            return _given(np.zeros(512, np.uint8), buffer)
+        return _given(np.frombuffer(self._look("audio")["audio"], np.uint8).copy(), buffer)
+
+    def getScreenDims(self) -> tuple[int, int]:
+        return self._session.height, 160
+
+    def getRAMSize(self) -> int:
+        return 128
+
+    def getAudioSize(self) -> int:
+        return 512
+
+    def setRAM(self, index: int, value: int) -> None:
+        self._ask(self._session.poke, index, bytes([value]))
+
+    def saveScreenPNG(self, path: str) -> None:
+        picture = self.getScreenRGB()
+        assert picture is not None
+        pathlib.Path(path).write_bytes(png(np.repeat(picture, 2, axis=1)))
+
+    # States
+
+    def cloneState(self, include_rng: bool = False) -> ALEState:
+        """The state comes here; it can be restored in this process, too."""
+        self._ask(self._session.save, STATE, random=int(include_rng))
+        data = self._ask(self._session.export_state, STATE)
+        self._ask(self._session.drop, STATE)
+        now = self._look("frame", "episode_frame")
+        head = STATE_HEAD.pack(b"RBALE001", now["frame"], now["episode_frame"], self.getDifficulty(), self.getMode())
+        return ALEState(head + data)
+
+    def restoreState(self, state: ALEState) -> None:
+        self._ask(self._session.import_state, STATE, state.serialize()[STATE_HEAD.size:])
+        self._ask(self._session.restore, STATE)
+        self._ask(self._session.drop, STATE)
+
+    def cloneSystemState(self) -> ALEState:
+        return self.cloneState(True)
+
+    restoreSystemState = restoreState
+
+    def __getstate__(self) -> dict[str, Any]:
+        """A copy has a session of its own."""
+        return {"server": self._server, "token": self._token, "keys": self._keys, "loaded": self._loaded,
+                "state": self.cloneState(True) if self._loaded else None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        RemoteInterface.__init__(self, state["server"], state["token"])
+        self._keys = state["keys"]
+        if state["loaded"]:
+            self._load(*state["loaded"])
+            self.restoreState(state["state"])
+
+
+def _bytes_of(rom: Any) -> bytes:
+    if isinstance(rom, (bytes, bytearray)):
+        return bytes(rom)
+    if str(rom).startswith(images.BUILT_IN):
+        raise InvalidInput(f"{rom} is an image of the server's: give the name of its game alone")
+    try:
+        return pathlib.Path(os.fspath(rom)).read_bytes()
+    except OSError as error:
+        raise InvalidInput(f"image {rom}: {error.strerror}") from error
+
+
+def _given(seen: Pixels, buffer: Pixels | None) -> Pixels | None:
+    if buffer is None:
+        return seen
+    if buffer.shape != seen.shape:
+        raise InvalidInput(f"Invalid shape {buffer.shape}, expecting shape {seen.shape}")
+    buffer[:] = seen
+    return None

@@ -1,0 +1,342 @@
+"""racebeam.ale_py has the names of ale_py, the same types and errors, and each difference that its docstring lists."""
+
+import copy
+import inspect
+import os
+import pathlib
+import pickle
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import package
+
+package.require("ale_py", "gymnasium", "numpy")
+
+import ale_py
+import ale_py.env
+import ale_py.registration
+import ale_py.roms
+import numpy as np
+from ale_py import _ale_py
+
+import racebeam
+import racebeam.ale_py as drop_in
+
+ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
+
+# The vector environment, and the handles of its compiled module (difference 13).
+NOT_YET = {"AtariVectorEnv", "ALEVectorInterface", "AutoresetMode", "VectorXLAReset", "VectorXLAResetGPU", "VectorXLAStep",
+           "VectorXLAStepGPU", "vector_env"}
+PONG = None if "pong" not in package.roms() else racebeam.find_image("pong")
+
+
+def pong():
+    """The interface of either package, with a game that was loaded with a seed."""
+    both = []
+    for module in (drop_in, ale_py):
+        ale = module.ALEInterface()
+        ale.setInt("random_seed", 7)
+        ale.setBool("sound_obs", True)
+        ale.loadROM(PONG)
+        both.append(ale)
+    return both
+
+
+def in_process(script, **environment):
+    return subprocess.run([sys.executable, "-c", script], env={**os.environ, **environment}, capture_output=True, text=True)
+
+
+class Names(unittest.TestCase):
+    def test_every_public_name_is_there(self):
+        for ours, theirs in ((drop_in, ale_py), (drop_in._ale_py if hasattr(drop_in, "_ale_py") else __import__(
+                "racebeam.ale_py._ale_py", fromlist=["x"]), _ale_py)):
+            names = {name for name in dir(theirs) if not name.startswith("_")} - NOT_YET
+            names -= {"importlib", "metadata", "os", "platform", "warnings", "packagedir", "env", "registration", "roms"}
+            self.assertEqual({name for name in names if not hasattr(ours, name)}, set())
+        for module in ("env", "registration", "roms"):
+            ours = __import__(f"racebeam.ale_py.{module}", fromlist=["x"])
+            theirs = sys.modules[f"ale_py.{module}"]
+            own = {name for name, value in vars(theirs).items() if getattr(value, "__module__", "").startswith("ale_py.")
+                   and not name.startswith("_")}
+            self.assertEqual({name for name in own if not hasattr(ours, name)}, set(), module)
+        self.assertEqual(set(ale_py.__all__) - NOT_YET, set(drop_in.__all__) - NOT_YET)
+
+    def test_every_method_is_there(self):
+        for name in ("ALEInterface", "ALEState", "AtariEnv"):
+            theirs, ours = getattr(ale_py, name), getattr(drop_in, name)
+            self.assertEqual({method for method in dir(theirs) if not hasattr(ours, method)} - {"__slotnames__"}, set(), name)
+
+    def test_the_arguments_of_AtariEnv_are_in_the_same_order(self):
+        theirs = list(inspect.signature(ale_py.AtariEnv).parameters)
+        self.assertEqual(list(inspect.signature(drop_in.AtariEnv).parameters)[:len(theirs)], theirs)
+
+    def test_actions_are_the_same_enumeration(self):
+        self.assertEqual({name: action.value for name, action in drop_in.Action.__members__.items()},
+                         {name: action.value for name, action in ale_py.Action.__members__.items()})
+        self.assertNotEqual(drop_in.Action.FIRE, 1)
+        self.assertRaises(TypeError, int, drop_in.Action.FIRE)
+        self.assertEqual([mode.name for mode in drop_in.LoggerMode], [mode.name for mode in ale_py.LoggerMode])
+
+    def test_code_for_ale_runs_on_it(self):
+        script = ("import sys, racebeam.ale_py\n"
+                  "sys.modules['ale_py'] = racebeam.ale_py\n"
+                  "import ale_py, gymnasium as gym\n"
+                  "from ale_py import ALEInterface, Action, roms\n"
+                  "from ale_py.env import AtariEnv\n"
+                  "from ale_py.registration import register_v5_envs\n"
+                  "import ale_py.roms\n"
+                  "gym.register_envs(ale_py)\n"
+                  "env = gym.make('ALE/Pong-v5'); env.reset(seed=1)\n"
+                  "assert type(env.unwrapped) is AtariEnv is racebeam.AtariEnv, type(env.unwrapped)\n"
+                  "old = gym.make('PongNoFrameskip-v4'); assert old.unwrapped._frameskip == 1\n"
+                  "ale = ALEInterface(); ale.loadROM(roms.get_rom_path('pong')); ale.act(Action.FIRE)\n"
+                  "print(len(roms.get_all_rom_ids()))")
+        if PONG is None:
+            self.skipTest("there is no image of pong")
+        done = in_process(script)
+        self.assertEqual((done.returncode, done.stdout), (0, "108\n"), done.stderr)
+
+    def test_the_ids_are_those_of_ale_py(self):
+        tell = ("import gymnasium as gym, {0}; print(sorted((i, sorted(s.kwargs.items(), key=str), s.max_episode_steps, s.nondeterministic)"
+                " for i, s in gym.registry.items() if '{1}' in str(s.entry_point) and not i.startswith('racebeam/')))")
+        ours, theirs = in_process(tell.format("racebeam.ale_py", "racebeam")), in_process(tell.format("ale_py", "ale_py"))
+        self.assertEqual(ours.stdout, theirs.stdout)
+        self.assertEqual(ours.stdout.count("'repeat_action_probability'"), 352)
+
+
+@unittest.skipIf(PONG is None, "there is no image of pong")
+class Interface(unittest.TestCase):
+    def outcome(self, call, ale):
+        """What a call returns, or the type of what it raises."""
+        try:
+            value = call(ale)
+        except Exception as error:
+            wide = next(kind for kind in (TypeError, RuntimeError) if isinstance(error, kind))
+            return wide.__name__
+        if isinstance(value, np.ndarray):
+            return value.dtype, value.shape, value.flags.writeable, value.flags.c_contiguous, value.tobytes()
+        if isinstance(value, list) and value and hasattr(value[0], "name"):
+            return [action.name for action in value]
+        return type(value), value
+
+    CALLS = [
+        lambda ale: [ale.act(action % 18) for action in range(300)],
+        lambda ale: ale.act(1, 0.5),
+        lambda ale: ale.act(action=3, paddle_strength=0.25),
+        lambda ale: ale.act("FIRE"), lambda ale: ale.act(-1), lambda ale: ale.act(1.0), lambda ale: ale.act(None),
+        lambda ale: ale.getScreen(), lambda ale: ale.getScreenRGB(), lambda ale: ale.getScreenGrayscale(),
+        lambda ale: ale.getRAM(), lambda ale: ale.getAudio(), lambda ale: ale.getScreenDims(), lambda ale: ale.getRAMSize(),
+        lambda ale: ale.getAudioSize(), lambda ale: ale.lives(), lambda ale: ale.game_over(), lambda ale: ale.game_over(False),
+        lambda ale: ale.game_over(with_truncation=True), lambda ale: ale.game_truncated(), lambda ale: ale.getFrameNumber(),
+        lambda ale: ale.getEpisodeFrameNumber(), lambda ale: ale.getLegalActionSet(), lambda ale: ale.getMinimalActionSet(),
+        lambda ale: ale.getAvailableModes(), lambda ale: ale.getAvailableDifficulties(),
+        lambda ale: ale.setMode(99), lambda ale: ale.setDifficulty(99), lambda ale: ale.setMode("x"),
+        lambda ale: ale.setRAM(5, 77), lambda ale: ale.getRAM(), lambda ale: ale.setRAM(128, 0), lambda ale: ale.setRAM(-1, 0),
+        lambda ale: ale.setRAM(0, 256), lambda ale: ale.setRAM(0, -1),
+        lambda ale: ale.getScreenRGB(np.zeros((5, 5, 3), np.uint8)), lambda ale: ale.getScreenRGB(np.zeros((210, 160, 3), np.int32)),
+        lambda ale: ale.getScreen(np.zeros((160, 210), np.uint8)), lambda ale: ale.getScreenGrayscale(np.zeros(3, np.uint8)),
+        lambda ale: ale.getScreen(np.zeros((210, 320), np.uint8)[:, ::2]),
+        lambda ale: ale.getRAM(np.zeros(5, np.uint8)), lambda ale: ale.getAudio(np.zeros(5, np.uint8)),
+        lambda ale: ale.getRAM([0] * 128), lambda ale: ale.getRAM(buffer=np.zeros(128, np.uint8)),
+        lambda ale: ale.getInt("random_seed"), lambda ale: ale.getInt("nonsense"), lambda ale: ale.getBool("nonsense"),
+        lambda ale: ale.getFloat("nonsense"), lambda ale: ale.getString("nonsense"), lambda ale: ale.getInt("frame_skip"),
+        lambda ale: ale.getInt("max_num_frames"), lambda ale: ale.getInt("max_num_frames_per_episode"),
+        lambda ale: ale.getInt("system_random_seed"), lambda ale: ale.getInt("reward_min"), lambda ale: ale.getInt("reward_max"),
+        lambda ale: ale.getFloat("repeat_action_probability"), lambda ale: ale.getBool("color_averaging"),
+        lambda ale: ale.getBool("display_screen"), lambda ale: ale.getBool("sound"), lambda ale: ale.getBool("sound_obs"),
+        lambda ale: ale.getBool("send_rgb"), lambda ale: ale.getBool("truncate_on_loss_of_life"), lambda ale: ale.getString("cpu"),
+        lambda ale: ale.getString("record_screen_dir"), lambda ale: ale.getString("rom_file"),
+        lambda ale: ale.setInt("nonsense", 1), lambda ale: ale.setBool("random_seed", True), lambda ale: ale.setInt("cpu", 1),
+        lambda ale: ale.setFloat("random_seed", 1.0), lambda ale: ale.setString("nonsense", "x"), lambda ale: ale.setInt("frame_skip", "4"),
+        lambda ale: ale.setFloat("repeat_action_probability", 0), lambda ale: ale.setInt("random_seed", np.int32(-5)),
+        lambda ale: ale.isSupportedROM("/nowhere"), lambda ale: ale.isSupportedROM("/etc/hostname"), lambda ale: ale.isSupportedROM(PONG),
+        lambda ale: ale.isSupportedROM(pathlib.Path(PONG)), lambda ale: ale.setLoggerMode(3.5),
+        lambda ale: ale.reset_game(), lambda ale: ale.getFrameNumber(), lambda ale: ale.getEpisodeFrameNumber(),
+        lambda ale: [ale.act(action % 6) for action in range(400)], lambda ale: ale.getScreenRGB(), lambda ale: ale.getAudio(),
+    ]
+
+    def test_all_calls_have_the_same_outcome(self):
+        ours, theirs = pong()
+        for number, call in enumerate(self.CALLS):
+            with self.subTest(call=number, line=inspect.getsource(call).strip()[:60]):
+                self.assertEqual(self.outcome(call, ours), self.outcome(call, theirs))
+
+    def test_buffers_are_filled(self):
+        for ale in pong():
+            for method, shape in ((ale.getScreen, (210, 160)), (ale.getScreenRGB, (210, 160, 3)), (ale.getScreenGrayscale, (210, 160)),
+                                  (ale.getRAM, (128,)), (ale.getAudio, (512,))):
+                buffer = np.full(shape, 99, np.uint8)
+                self.assertIsNone(method(buffer))
+                self.assertTrue(np.array_equal(buffer, method()))
+
+    def test_settings_have_the_effect_that_they_have_in_ale(self):
+        settings = ((), (("setInt", "frame_skip", 3),), (("setInt", "reward_max", 0),), (("setBool", "color_averaging", True),),
+                    (("setInt", "max_num_frames_per_episode", 50),), (("setFloat", "repeat_action_probability", 0.9),),
+                    (("setInt", "paddle_min", 100000), ("setInt", "paddle_max", 300000)), (("setInt", "system_random_seed", 5),))
+        for wanted in settings:
+            with self.subTest(settings=wanted):
+                seen = []
+                for ale in pong():
+                    for setter, key, value in wanted:
+                        getattr(ale, setter)(key, value)
+                    ale.loadROM(PONG)
+                    rewards = [ale.act(step * 7 % 6) for step in range(1200)]
+                    seen.append((rewards, ale.getScreenRGB().tobytes(), ale.getRAM().tobytes(), ale.getAudio().tobytes(),
+                                 ale.game_truncated(), ale.getFrameNumber()))
+                self.assertEqual(seen[0], seen[1])
+                
+    def test_states_agree_on_what_is_played_after_them(self):
+        seen = []
+        for ale in pong():
+            told = [[ale.act(step % 6) for step in range(100)]]
+            plain, system = ale.cloneState(), ale.cloneSystemState()
+            told.append((plain.getFrameNumber(), plain.getEpisodeFrameNumber(), plain.getDifficulty(), plain.getCurrentMode()))
+            told.append((plain == ale.cloneState(), plain.equals(ale.cloneState(include_rng=False)), plain == plain))
+            for state, restore in ((system, ale.restoreSystemState), (plain, ale.restoreState),
+                                   (pickle.loads(pickle.dumps(system)), ale.restoreState)):
+                restore(state)
+                told.append(([ale.act(step * 5 % 6) for step in range(100)], ale.getRAM().tobytes(), ale.getScreen().tobytes()))
+            seen.append(told)
+        self.assertEqual(seen[0], seen[1])
+
+    def test_a_picture_is_the_same_file_to_a_reader(self):
+        import struct
+        import zlib
+
+        def pixels(path):
+            data = pathlib.Path(path).read_bytes()
+            at, packed, head = 8, b"", b""
+            while at < len(data):
+                size, kind = struct.unpack(">I4s", data[at:at + 8])
+                head, packed = (data[at + 8:at + 8 + size], packed) if kind == b"IHDR" else (
+                    head, packed + data[at + 8:at + 8 + size] if kind == b"IDAT" else packed)
+                at += size + 12
+            rows = zlib.decompress(packed)
+            width, height = struct.unpack(">II", head[:8])
+            self.assertEqual({rows[row * (3 * width + 1)] for row in range(height)}, {0})
+            return head[:10], rows
+        with tempfile.TemporaryDirectory() as folder:
+            files = [f"{folder}/{number}.png" for number in range(2)]
+            for ale, file in zip(pong(), files):
+                ale.act(1)
+                ale.saveScreenPNG(file)
+            self.assertEqual(pixels(files[0]), pixels(files[1]))
+
+
+@unittest.skipIf(PONG is None, "there is no image of pong")
+class Differences(unittest.TestCase):
+    """A test for each number in the docstring."""
+
+    def test_each_number_has_a_test(self):
+        numbers = [int(number) for number in re.findall(r"(?m)^(\d+)\. ", drop_in.__doc__)]
+        tests = sorted(int(name.split("_")[1]) for name in dir(self) if re.match(r"test_\d", name))
+        self.assertEqual(numbers, tests)
+
+    def test_01_a_bad_image_is_an_exception(self):
+        with tempfile.TemporaryDirectory() as folder:
+            cut = pathlib.Path(folder, "cut.bin")
+            cut.write_bytes(pathlib.Path(PONG).read_bytes()[:1000])
+            for image in ("/nowhere.bin", str(cut), "/dev/null"):
+                with self.subTest(image=image):
+                    self.assertRaises(RuntimeError, drop_in.ALEInterface().loadROM, image)
+                    done = in_process(f"import ale_py; ale_py.ALEInterface().loadROM({image!r})")
+                    self.assertNotIn("Traceback", done.stderr)  # it has ended the process itself
+                    self.assertNotEqual(done.returncode, 0)
+
+    def test_02_without_an_image_every_method_raises_or_answers(self):
+        unloaded = drop_in.ALEInterface()
+        for name in ("act", "reset_game", "getRAM", "getScreen", "getScreenRGB", "getScreenGrayscale", "getAudio", "lives", "game_over",
+                     "game_truncated", "getFrameNumber", "getEpisodeFrameNumber", "getScreenDims", "cloneState", "cloneSystemState",
+                     "getLegalActionSet", "getMinimalActionSet", "getAvailableModes", "getAvailableDifficulties", "state_hash"):
+            with self.subTest(method=name), self.assertRaisesRegex(RuntimeError, "ROM not set"):
+                getattr(unloaded, name)(*([0] if name == "act" else []))
+        for method, words in ((unloaded.setMode, [0]), (unloaded.setDifficulty, [0]), (unloaded.setRAM, [0, 0])):
+            self.assertRaisesRegex(RuntimeError, "ROM not set", method, *words)
+        self.assertLess(in_process("import ale_py; ale_py.ALEInterface().getRAM()").returncode, 0)
+
+    def test_03_a_number_that_is_no_action(self):
+        ours, theirs = pong()
+        for number in (18, 99):
+            self.assertRaisesRegex(ValueError, f"there is no action {number}; there are 0 to 17", ours.act, number)
+            self.assertEqual(theirs.act(number), 0)
+        self.assertRaisesRegex(ValueError, "there is no action", ours.act, 2**31)
+        self.assertRaises(IndexError, drop_in.AtariEnv("pong").step, -1)
+        ale_py.AtariEnv("pong").step(-1)
+
+    def test_04_choices_are_named(self):
+        self.assertRaisesRegex(RuntimeError, "pong has no mode 77; it offers 0, 1", pong()[0].setMode, 77)
+        self.assertRaisesRegex(RuntimeError, "pong has no difficulty 77; it offers 0, 1, 2, 3", pong()[0].setDifficulty, 77)
+
+    def test_05_states_are_exact(self):
+        exact = []
+        for ale in pong():
+            [ale.act(step % 6) for step in range(100)]
+            state, screen, sound = ale.cloneState(True), ale.getScreenRGB(), ale.getAudio()
+            [ale.act(step % 6) for step in range(100)]
+            ale.restoreState(state)
+            exact.append(np.array_equal(ale.getScreenRGB(), screen) and np.array_equal(ale.getAudio(), sound))
+        self.assertEqual(exact, [True, False])
+
+    def test_06_states_hash_as_they_compare(self):
+        ours, theirs = pong()
+        self.assertEqual(hash(ours.cloneState()), hash(ours.cloneState()))
+        two = [theirs.cloneState() for _ in range(2)]
+        self.assertTrue(two[0] == two[1] and hash(two[0]) != hash(two[1]))
+        self.assertFalse(ours.cloneState() == 3)
+        with self.assertRaises(TypeError):
+            theirs.cloneState() == 3
+
+    def test_07_copies_have_the_game(self):
+        frames = []
+        for module in (drop_in, ale_py):
+            env = module.AtariEnv("pong")
+            env.reset(seed=1)
+            env.step(0)
+            frames.append(copy.deepcopy(env).ale.getFrameNumber())
+        self.assertEqual(frames, [4, 0])
+        self.assertEqual(pickle.loads(pickle.dumps(pong()[0])).getInt("random_seed"), 7)
+        self.assertRaises(TypeError, pickle.dumps, pong()[1])
+
+    def test_08_images_of_other_kinds(self):
+        ale = drop_in.ALEInterface()
+        ale.loadROM(pathlib.Path(PONG).read_bytes())
+        self.assertEqual(ale.getGame(), "pong")
+        ale.loadROM("builtin:updraft")
+        self.assertEqual(ale.getGame(), "updraft")
+        self.assertEqual(str(racebeam.ale_py.roms.get_rom_path("pong")) if hasattr(racebeam.ale_py, "roms") else PONG, PONG)
+
+    def test_09_nothing_is_logged(self):
+        script = "import {} as m; m.ALEInterface.setLoggerMode(m.LoggerMode.Info); m.ALEInterface().loadROM({!r})"
+        self.assertEqual(in_process(script.format("racebeam.ale_py", PONG)).stderr, "")
+        self.assertNotEqual(in_process(script.format("ale_py", PONG)).stderr, "")
+
+    def test_10_there_is_no_SDL(self):
+        self.assertEqual((drop_in.SDL_SUPPORT, ale_py.SDL_SUPPORT), (False, True))
+        ale = drop_in.ALEInterface()
+        ale.setBool("display_screen", True)
+        ale.loadROM(PONG)
+        ale.setString("record_screen_dir", "/tmp")
+        self.assertRaisesRegex(RuntimeError, "record_screen_dir is '/tmp'", ale.loadROM, PONG)
+
+    def test_11_getters_know_their_type(self):
+        ours, theirs = pong()
+        self.assertEqual((ours.getFloat("random_seed"), theirs.getFloat("random_seed")), (-1.0, 7.0))
+
+    def test_12_a_closed_environment(self):
+        env = drop_in.AtariEnv("pong")
+        env.close()
+        self.assertRaises(Exception, env.reset)
+        theirs = ale_py.AtariEnv("pong")
+        theirs.close()
+        theirs.reset()
+
+    def test_13_what_is_not_there_yet(self):
+        for name in ("AtariVectorEnv", "ALEVectorInterface"):
+            self.assertFalse(hasattr(drop_in, name))
+
+
+if __name__ == "__main__":
+    package.main()

@@ -1,0 +1,321 @@
+"""AtariEnv: what ale_py's lacks, bad input, copies, and Gymnasium's own checks."""
+
+import copy
+import importlib.util
+import os
+import pathlib
+import pickle
+import subprocess
+import sys
+import unittest
+import warnings
+
+import package
+
+package.require("gymnasium", "numpy")
+
+import gymnasium as gym
+import numpy as np
+from gymnasium.utils.env_checker import check_env
+
+import racebeam
+
+os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+if "DISPLAY" not in os.environ:
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+HOMEBREW = package.SOURCE / "games/homebrew"
+
+
+def played(env, actions):
+    """What some steps show, as comparable values."""
+    return [(step[0].tobytes(), *step[1:]) for step in (env.step(action) for action in actions)]
+
+
+class Registration(unittest.TestCase):
+    def test_every_game_has_an_id_and_ours_can_be_made(self):
+        ids = [env_id for env_id in gym.registry if env_id.startswith("racebeam/")]
+        self.assertEqual(len(ids), len(racebeam.games()))
+        self.assertEqual(len(ids), 110)
+        for env_id in ("racebeam/Beamfall-v5", "racebeam/Updraft-v5"):
+            env = gym.make(env_id)
+            self.assertEqual(type(env.unwrapped).__name__, "AtariEnv")
+            self.assertEqual(env.unwrapped._frameskip, 4)
+            self.assertEqual(env.unwrapped.ale.getInt("max_num_frames_per_episode"), 108000)
+            self.assertEqual(env.unwrapped.ale.getFloat("repeat_action_probability"), 0.25)
+
+    def test_the_checker_of_gymnasium_finds_nothing(self):
+        for obs_type in ("rgb", "grayscale", "ram"):
+            with self.subTest(obs_type=obs_type), warnings.catch_warnings():
+                warnings.simplefilter("error")
+                env = gym.make("racebeam/Beamfall-v5", obs_type=obs_type, render_mode="rgb_array")
+                check_env(env.unwrapped, skip_render_check=importlib.util.find_spec("pygame") is None)
+
+    def test_the_ids_of_ale_come_when_they_are_asked_for(self):
+        script = ("import gymnasium as gym, racebeam\n"
+                  "before = {i for i, s in gym.registry.items() if str(s.entry_point).startswith('racebeam')}\n"
+                  "racebeam.register_ale_ids(); racebeam.register_ale_ids()\n"
+                  "ours = {i for i, s in gym.registry.items() if str(s.entry_point).startswith('racebeam')} - before\n"
+                  "print(len(before), len(ours), sorted(ours)[0], 'PongNoFrameskip-v4' in ours, 'ALE/Combat-v5' in ours)")
+        done = subprocess.run([sys.executable, "-W", "error", "-c", script], capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout.split(), ["110", "352", "ALE/Adventure-v5", "True", "False"])
+        self.assertEqual(done.stderr, "")
+
+
+class Playing(unittest.TestCase):
+    def setUp(self):
+        self.env = racebeam.AtariEnv("beamfall")
+        self.env.reset(seed=11)
+        self.actions = [int(action) for action in np.random.default_rng(5).integers(18, size=200)]
+
+    def test_the_same_seed_is_the_same_game_and_another_is_not(self):
+        first = played(self.env, self.actions)
+        self.env.reset(seed=11)
+        self.assertEqual(played(self.env, self.actions), first)
+        self.env.reset(seed=12)
+        self.assertNotEqual(played(self.env, self.actions), first)
+
+    def test_a_restored_state_shows_what_it_showed(self):
+        played(self.env, self.actions[:20])
+        seen, ram, info = self.env.ale.getScreenRGB(), self.env.ale.getRAM(), self.env._get_info()
+        state = self.env.clone_state(include_rng=True)
+        first = played(self.env, self.actions)
+        self.env.restore_state(state)
+        self.assertEqual(self.env.ale.getScreenRGB().tobytes(), seen.tobytes())
+        self.assertEqual(self.env.ale.getRAM().tobytes(), ram.tobytes())
+        self.assertEqual(self.env._get_info(), info)
+        self.assertEqual(played(self.env, self.actions), first)
+
+    def test_a_state_as_bytes_goes_to_another_environment(self):
+        played(self.env, self.actions[:20])
+        state = racebeam.ALEState(self.env.clone_state(include_rng=True).serialize())
+        first = played(self.env, self.actions)
+        other = racebeam.AtariEnv("beamfall")
+        other.reset(seed=99)
+        other.restore_state(pickle.loads(pickle.dumps(state)))
+        self.assertEqual(played(other, self.actions), first)
+
+    def test_copies_go_on_where_the_game_is(self):
+        played(self.env, self.actions[:30])
+        self.env.action_space.seed(3)
+        copies = [copy.deepcopy(self.env), pickle.loads(pickle.dumps(self.env)), pickle.loads(pickle.dumps(gym.make(
+            "racebeam/Updraft-v5", frameskip=(2, 5))))]
+        first = played(self.env, self.actions), self.env.action_space.sample()
+        for env in copies[:2]:
+            self.assertEqual((played(env, self.actions), env.action_space.sample()), first)
+        self.assertEqual(played(copies[0].reset(seed=11) and copies[0], self.actions),
+                         played(self.env.reset(seed=11) and self.env, self.actions))
+
+    def test_a_copy_draws_the_same_frameskips(self):
+        env = racebeam.AtariEnv("updraft", frameskip=(2, 9))
+        env.reset(seed=1)
+        actions = [action % env.action_space.n for action in self.actions]
+        self.assertEqual(played(copy.deepcopy(env), actions), played(env, actions))
+
+    def test_observations_are_the_callers_own(self):
+        first = self.env.step(0)[0]
+        before = first.copy()
+        played(self.env, self.actions[:20])
+        self.assertTrue(np.array_equal(first, before))
+        first[:] = 7
+        self.assertFalse(np.array_equal(self.env.ale.getScreenRGB(), first))
+
+    def test_two_players_are_both_rewarded(self):
+        if "pong" not in package.roms():
+            self.skipTest("there is no image of pong")
+        env = racebeam.AtariEnv("pong", two_player=True, frameskip=8)
+        env.reset(seed=1)
+        self.assertEqual(env.action_space.nvec.tolist(), [6, 6])
+        self.assertIn(env.ale.getMode(), env.ale.getTwoPlayerModes())
+        rewards = []
+        for _ in range(400):
+            _, reward, _, _, info = env.step((1, 2))
+            self.assertEqual(info["reward_a"], reward)
+            rewards.append((info["reward_a"], info["reward_b"]))
+        self.assertEqual([b for _, b in rewards], [-a for a, _ in rewards])
+        self.assertTrue(any(a for a, _ in rewards))
+
+    def test_player_b_moves(self):
+        if "pong" not in package.roms():
+            self.skipTest("there is no image of pong")
+        screens = []
+        for b in (2, 3):
+            env = racebeam.AtariEnv("pong", two_player=True, repeat_action_probability=0.0)
+            env.reset(seed=1)
+            for _ in range(30):
+                seen = env.step((0, b))[0]
+            screens.append(seen.tobytes())
+        self.assertNotEqual(*screens)
+
+    def test_presets_are_the_settings_of_the_literature(self):
+        def settings(**arguments):
+            env = racebeam.AtariEnv("beamfall", **arguments)
+            ale = env.ale
+            return (env._frameskip, ale.getFloat("repeat_action_probability"), env.action_space.n,
+                    ale.getInt("max_num_frames_per_episode"), ale.getBool("truncate_on_loss_of_life"), env._noop_max,
+                    env._reward_range)
+        self.assertEqual(settings(), (4, 0.25, 18, 0, False, 0, None))
+        self.assertEqual(settings(preset="paper2013"), (5, 0.0, 18, 18000, False, 0, None))
+        self.assertEqual(settings(preset="dqn2015"), (4, 0.0, 18, 18000, True, 30, (-1, 1)))
+        self.assertEqual(settings(preset="machado2018", frameskip=3), (3, 0.25, 18, 18000, False, 0, None))
+
+    def test_presets_are_those_of_the_line_protocol(self):
+        with racebeam.launch() as session:
+            for name in ("paper2013", "dqn2015", "machado2018", "gym-v5"):
+                told = session.load("beamfall", preset=name)
+                env = racebeam.AtariEnv("beamfall", preset=name)
+                low, high = env._reward_range or ("none", "none")
+                self.assertEqual(
+                    (told["frame_skip"], told["sticky"], told["max_episode_frames"], told["life_loss_ends"], told["noop_max"],
+                     told["reward_min"], told["reward_max"]),
+                    (env._frameskip, env.ale.getFloat("repeat_action_probability"),
+                     env.ale.getInt("max_num_frames_per_episode"), int(env.ale.getBool("truncate_on_loss_of_life")),
+                     env._noop_max, low, high), name)
+
+    def test_a_lost_life_ends_the_episode_of_dqn_and_rewards_are_clipped(self):
+        env = racebeam.AtariEnv("beamfall", preset="dqn2015")
+        _, info = env.reset(seed=3)
+        rewards, truncated = set(), False
+        while not truncated:
+            _, reward, terminated, truncated, after = env.step(1)
+            rewards.add(reward)
+            self.assertFalse(terminated)
+        self.assertEqual(after["lives"], info["lives"] - 1)
+        self.assertEqual(rewards, {0.0, 1.0})
+
+    def test_the_first_frames_of_dqn_differ(self):
+        env = racebeam.AtariEnv("beamfall", preset="dqn2015")
+        begins = {env.reset(seed=seed)[1]["episode_frame_number"] for seed in range(40)}
+        self.assertGreater(len(begins), 10)
+        self.assertEqual((min(begins) >= 0, max(begins) <= 29), (True, True))
+
+    def test_fixed_rules_are_a_choice(self):
+        self.assertEqual(racebeam.AtariEnv("beamfall", rules="fixed").ale.getString("rules"), "fixed")
+        with self.assertRaisesRegex(racebeam.InvalidInput, "it takes ale-0.12 or fixed"):
+            racebeam.AtariEnv("beamfall", rules="mended")
+
+    def test_sound_is_heard(self):
+        env = racebeam.AtariEnv("beamfall", sound_obs=True)
+        env.reset(seed=1)
+        heard = {env.step(1)[0]["sound"].tobytes() for _ in range(40)}
+        self.assertGreater(len(heard), 3)
+
+    def test_a_long_step_is_one_step(self):
+        whole, parts = (racebeam.AtariEnv("beamfall", frameskip=frames) for frames in (5000, 1))
+        whole.reset(seed=2)
+        parts.reset(seed=2)
+        seen = whole.step(1)
+        reward = sum(parts.step(1)[1] for _ in range(5000))
+        self.assertEqual((seen[0].tobytes(), seen[1], seen[4]), (parts.ale.getScreenRGB().tobytes(), reward, parts._get_info()))
+
+
+class BadInput(unittest.TestCase):
+    def refused(self, error, sentence, call, *words, **arguments):
+        with self.assertRaisesRegex(error, sentence):
+            call(*words, **arguments)
+
+    def test_arguments(self):
+        make, wrong = racebeam.AtariEnv, gym.error.Error
+        self.refused(racebeam.UnknownGame, "there is no game 'beamfal'; did you mean beamfall", make, "beamfal")
+        self.refused(wrong, "obs_type is 'text'; it takes rgb, grayscale, ram", make, "beamfall", obs_type="text")
+        self.refused(wrong, "render_mode is 'ansi'; it takes None, human, rgb_array", make, "beamfall", render_mode="ansi")
+        self.refused(wrong, "frameskip has the type float", make, "beamfall", frameskip=4.0)
+        for frameskip in (0, -1, (0, 3), (3, 3), (4, 3), (1, 2, 3), ()):
+            self.refused(wrong, "frameskip is", make, "beamfall", frameskip=frameskip)
+        self.refused(RuntimeError, "beamfall has no mode 7; it offers 0", make, "beamfall", mode=7)
+        self.refused(RuntimeError, "beamfall has no difficulty 9; it offers 0, 1", make, "beamfall", difficulty=9)
+        self.refused(racebeam.InvalidInput, "there is no preset 'dqn'; there are ale,", make, "beamfall", preset="dqn")
+        self.refused(racebeam.InvalidInput, "not a number", make, "beamfall", repeat_action_probability=float("nan"))
+        self.refused(racebeam.InvalidInput, "beamfall has no mode for two", make, "beamfall", two_player=True)
+
+    def test_actions(self):
+        env = racebeam.AtariEnv("beamfall")
+        env.reset(seed=1)
+        for action in (18, -1, 10**30):
+            self.refused(IndexError, "is out of range; there are 0 to 17", env.step, action)
+        for action in (1.5, "FIRE", None, np.zeros(2)):
+            self.refused(TypeError, "", env.step, action)
+        before = env.ale.getFrameNumber()
+        for action in (3, np.int64(3), np.array(3), np.uint8(3), True):
+            env.step(action)
+        self.assertEqual(env.ale.getFrameNumber(), before + 20)
+
+    def test_images(self):
+        good = (HOMEBREW / "beamfall.bin").read_bytes()
+        env = racebeam.AtariEnv("beamfall", rom=good)
+        self.assertEqual(env.reset(seed=1)[0].tobytes(), racebeam.AtariEnv("beamfall").reset(seed=1)[0].tobytes())
+        for rom, sentence in ((b"", "it is empty"), (b"x" * 600000, "larger than an image can be"),
+                              ("/nowhere/x.bin", "there is no such file"), ("/dev/zero", "image /dev/zero")):
+            self.refused(racebeam.InvalidInput, sentence, racebeam.AtariEnv, "beamfall", rom=rom)
+
+    def test_seeds(self):
+        env = racebeam.AtariEnv("beamfall")
+        for seed in (-1, 1.5, "x", np.int64(3)):
+            self.refused(gym.error.Error, "Seed must be", env.reset, seed=seed)
+        self.assertEqual(len(env.reset(seed=2**100)[1]["seeds"]), 2)
+
+    def test_a_missing_image_says_where_was_looked(self):
+        script = "import racebeam\ntry: racebeam.AtariEnv('pong')\nexcept FileNotFoundError as e: print(type(e).__name__, e)"
+        with_path = dict(os.environ, RACEBEAM_ROMS="/nowhere", ALE_ROMS_DIR=str(HOMEBREW), PYTHONPATH="")
+        blind = "import importlib.machinery as m; m.PathFinder.find_spec = classmethod(lambda *a, _f=m.PathFinder.find_spec: "
+        blind += "None if a[1:2] == ('ale_py',) else _f(*a[1:]));"
+        done = subprocess.run([sys.executable, "-c", blind + script], env=with_path, capture_output=True, text=True, check=True)
+        self.assertIn("MissingImage no cartridge image of pong was found; looked in RACEBEAM_ROMS, /nowhere (no folder); "
+                      f"ALE_ROMS_DIR, {HOMEBREW} (no file with an MD5 of it); an installed ale_py", done.stdout)
+
+    def test_an_image_is_found_by_its_md5(self):
+        if "pong" not in package.roms():
+            self.skipTest("there is no image of pong")
+        import tempfile
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "something.a26").write_bytes(pathlib.Path(racebeam.find_image("pong")).read_bytes())
+            pathlib.Path(folder, "pong.bin").write_bytes(b"no image of pong")
+            script = "import racebeam; print(racebeam.find_image('pong'))"
+            done = subprocess.run([sys.executable, "-c", script], env=dict(os.environ, RACEBEAM_ROMS=folder),
+                                  capture_output=True, text=True, check=True)
+            self.assertEqual(done.stdout.strip(), str(pathlib.Path(folder, "something.a26")))
+
+    def test_after_close(self):
+        env = racebeam.AtariEnv("beamfall")
+        env.close()
+        env.close()
+        self.refused(gym.error.ClosedEnvironmentError, "was closed", env.step, 0)
+        self.refused(gym.error.ClosedEnvironmentError, "was closed", env.reset)
+
+    def test_states(self):
+        env = racebeam.AtariEnv("beamfall")
+        env.reset(seed=1)
+        whole = env.clone_state().serialize()
+        for data, sentence in ((b"nonsense", "are no state"), (b"", "of no game"), (whole[:-9], ""), (whole + b"x", "")):
+            self.refused(racebeam.InvalidInput, sentence, lambda data=data: env.restore_state(racebeam.ALEState(data)))
+        self.refused(racebeam.InvalidInput, "the state is of", racebeam.AtariEnv("updraft").restore_state, env.clone_state())
+        self.assertEqual(env.clone_state().serialize(), whole)
+
+
+class Window(unittest.TestCase):
+    """By SDL's driver that shows nothing; under a display, set SDL_VIDEODRIVER."""
+
+    def test_a_person_sees_each_frame(self):
+        try:
+            import pygame  # noqa: F401
+        except ModuleNotFoundError:
+            self.skipTest("there is no pygame")
+        script = ("import racebeam, time\n"
+                  "env = racebeam.AtariEnv('beamfall', render_mode='human')\n"
+                  "quiet = racebeam.AtariEnv('beamfall')\n"
+                  "assert (env.reset(seed=1)[0] == quiet.reset(seed=1)[0]).all() and env.render() is None\n"
+                  "begin = time.monotonic()\n"
+                  "for action in range(15):\n"
+                  "    a, b = env.step(action), quiet.step(action)\n"
+                  "    assert (a[0] == b[0]).all() and a[1:] == b[1:], (a[1:], b[1:])\n"
+                  "took = time.monotonic() - begin\n"
+                  "import pygame\n"
+                  "shown = pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
+                  "assert (shown == a[0]).all()\n"
+                  "env.close()\n"
+                  "print(0.8 < took)")
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout.split()[-1:]), (0, ["True"]), done.stderr)
+
+
+if __name__ == "__main__":
+    package.main()

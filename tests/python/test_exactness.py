@@ -1,0 +1,106 @@
+"""racebeam's AtariEnv beside ale_py's, for all of its games: what is seen, won and told is equal, step by step.
+
+At each step all kinds of observation are compared, and where an episode ends the next one begins without a seed, so that the
+generators have to agree, too. The settings take turns: the defaults, and those that change the most. The test plays a run of
+each game, with other settings and seeds each day.
+"""
+
+import argparse
+import datetime
+import sys
+
+import package
+
+package.require("ale_py", "gymnasium", "numpy")
+
+import ale_py
+import numpy as np
+
+import racebeam
+
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("--steps", type=int, default=40, help="of each run (default 40)")
+parser.add_argument("--runs", type=int, default=1, help="runs of each game (default 1)")
+parser.add_argument("--first", type=int, default=datetime.date.today().toordinal(), help="number of the first run (default: of the day)")
+parser.add_argument("--defaults", action="store_true", help="in the default settings alone")
+parser.add_argument("--games", help="A,B: these alone")
+options = parser.parse_args()
+
+ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
+WITHOUT_SCORE = ("combat", "joust", "maze_craze", "warlords")  # ale_py registers no id for them
+SETTINGS = (
+    {},
+    {"obs_type": "ram", "full_action_space": True, "repeat_action_probability": 0.5, "frameskip": (2, 5)},
+    {"obs_type": "grayscale", "repeat_action_probability": 0.0, "max_num_frames_per_episode": 90},
+    {"sound_obs": True, "frameskip": 3},
+    {"continuous": True, "continuous_action_threshold": 0.3},
+)
+
+
+def parts(env, observation):
+    ale = env.ale
+    named = observation if isinstance(observation, dict) else {"observation": observation}
+    return {**named, "ram": ale.getRAM(), "grey": ale.getScreenGrayscale(), "rgb": ale.getScreenRGB(), "palette": ale.getScreen()}
+
+
+class Different(Exception):
+    pass
+
+
+def compare(what, ours, theirs):
+    if type(ours) is not type(theirs):
+        raise Different(f"{what}: the types are {type(ours)} and {type(theirs)}")
+    if isinstance(ours, dict):
+        if list(ours) != list(theirs):
+            raise Different(f"{what}: the keys are {list(ours)} and {list(theirs)}")
+        for key in ours:
+            compare(f"{what}[{key}]", ours[key], theirs[key])
+    elif isinstance(ours, np.ndarray):
+        if ours.dtype != theirs.dtype or ours.shape != theirs.shape or not np.array_equal(ours, theirs):
+            raise Different(f"{what}: {np.count_nonzero(ours != theirs)} elements of {ours.size}")
+    elif ours != theirs:
+        raise Different(f"{what}: {ours} and {theirs}")
+
+
+def play(game, seed, settings):
+    ours, theirs = racebeam.AtariEnv(game, **settings), ale_py.AtariEnv(game, **settings)
+    if ours.action_space != theirs.action_space or ours.observation_space != theirs.observation_space:
+        raise Different("the spaces")
+    compare("meanings", ours.get_action_meanings(), theirs.get_action_meanings())
+    ours.action_space.seed(seed)
+    where = "reset with a seed"
+    seen = [env.reset(seed=seed) for env in (ours, theirs)]
+    for step in range(options.steps + 1):
+        compare(f"{where}: seen", parts(ours, seen[0][0]), parts(theirs, seen[1][0]))
+        compare(f"{where}: told", seen[0][1:], seen[1][1:])
+        if isinstance(seen[0][-2], bool) and (seen[0][2] or seen[0][3]):
+            where = f"reset at step {step}"
+            seen = [env.reset() for env in (ours, theirs)]
+            continue
+        action = ours.action_space.sample()
+        where = f"step {step}"
+        seen = [env.step(action) for env in (ours, theirs)]
+
+
+def settings_of(number, run):
+    return SETTINGS[0 if options.defaults else (number + run) % len(SETTINGS)]
+
+
+games = options.games.split(",") if options.games else [game for game in package.roms() if game not in WITHOUT_SCORE]
+if not games:
+    print("SKIPPED: there are no cartridge images")
+    sys.exit(package.SKIPPED)
+failures = runs = 0
+for number, game in enumerate(games):
+    for run in range(options.first, options.first + options.runs):
+        settings = settings_of(number, run)
+        if game == "video_cube" and "max_num_frames_per_episode" in settings:
+            settings = SETTINGS[0]  # the reference never comes back (tests/conformance/not_comparable.py)
+        try:
+            play(game, 1000 * run + number, settings)
+        except Different as difference:
+            failures += 1
+            print(f"FAILED: {game}, seed {1000 * run + number}, {settings}: {difference}")
+        runs += 1
+print(f"{len(games)} games, {runs} runs of {options.steps} steps: {failures} differ")
+sys.exit(failures > 0)

@@ -1,0 +1,116 @@
+"""The package as it is installed: what it imports, what its files say, and the program that comes with it."""
+
+import importlib.metadata
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+import package
+
+package.require("numpy")
+
+import racebeam
+import racebeam._core
+
+FOLDER = pathlib.Path(racebeam.__file__).parent
+
+
+def python(script, *words, **environment):
+    return subprocess.run([sys.executable, *words, "-c", script], env={**os.environ, **environment}, capture_output=True, text=True)
+
+
+def has(module):
+    return python(f"import {module}").returncode == 0
+
+
+class Import(unittest.TestCase):
+    def test_numpy_is_all_that_it_needs(self):
+        only_numpy = ("import importlib.machinery as m, sys\n"
+                      "find = m.PathFinder.find_spec\n"
+                      "hidden = ('gymnasium', 'pygame', 'ale_py', 'jax', 'torch', 'stable_baselines3', 'cv2')\n"
+                      "m.PathFinder.find_spec = classmethod(lambda c, name, *a: None if name in hidden else find(name, *a))\n"
+                      "import racebeam, racebeam.ale_py\n"
+                      "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); ale.act(1); print(ale.getScreenRGB().shape)\n"
+                      "for name in ('AtariEnv', 'register_ale_ids'):\n"
+                      "    try: getattr(racebeam, name)()\n"
+                      "    except ImportError as error: print(error)")
+        done = python(only_numpy)
+        self.assertEqual(done.stdout.splitlines(), ["(210, 160, 3)", *(
+            f'racebeam.{name} needs Gymnasium; install it with: pip install "racebeam[gymnasium]"'
+            for name in ("AtariEnv", "register_ale_ids"))], done.stderr)
+
+    def test_nothing_heavy_is_imported_before_it_is_used(self):
+        heavy = "'pygame', 'ale_py', 'jax', 'torch', 'stable_baselines3', 'cv2'"
+        self.assertEqual(python(f"import racebeam, sys; print([m for m in ({heavy},) if m in sys.modules])").stdout, "[]\n")
+
+    def test_the_metadata(self):
+        described = importlib.metadata.metadata("racebeam")
+        version = re.search(r"project\(racebeam VERSION ([0-9.]+)", (package.SOURCE / "CMakeLists.txt").read_text())[1]
+        self.assertEqual((described["Version"], racebeam.__version__), (version, version))
+        needed = [name for name in importlib.metadata.requires("racebeam") if "extra" not in name]
+        self.assertEqual(needed, ["numpy>=1.24"])
+
+    def test_a_typo_is_an_AttributeError(self):
+        with self.assertRaisesRegex(AttributeError, "has no attribute 'Atari'"):
+            racebeam.Atari
+
+
+class Files(unittest.TestCase):
+    def test_only_the_modules_entry_is_seen_by_others(self):
+        symbols = subprocess.run(["nm", "-D", "--defined-only", racebeam._core.__file__], capture_output=True, text=True, check=True)
+        self.assertEqual({line.split()[2].split("@")[0] for line in symbols.stdout.splitlines()}, {"PyInit__core"})
+
+    def test_what_is_linked_is_on_every_Linux(self):
+        program = pathlib.Path(sys.executable).parent / "racebeam"
+        for file in (racebeam._core.__file__, program):
+            linked = subprocess.run(["readelf", "-d", file], capture_output=True, text=True, check=True).stdout
+            needed = set(re.findall(r"NEEDED.*\[(.*?)\]", linked))
+            self.assertLessEqual(needed, {"libc.so.6", "libm.so.6", "libz.so.1", "libgcc_s.so.1", "ld-linux-x86-64.so.2", "libpthread.so.0"})
+
+    def test_the_types_are_checked(self):
+        self.assertTrue((FOLDER / "py.typed").exists() and (FOLDER / "_core.pyi").exists())
+        if not has("mypy"):
+            self.skipTest("there is no mypy")
+        for command in (["mypy", "--strict", "--cache-dir", str(package.VENV.parent / "mypy"), "-p", "racebeam"],
+                        ["mypy.stubtest", "racebeam._core", "--ignore-disjoint-bases", "--allowlist",
+                         str(package.SOURCE / "tests/python/stubtest_allowed")]):
+            done = subprocess.run([sys.executable, "-m", *command], capture_output=True, text=True, cwd=FOLDER.parent.parent)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+class Program(unittest.TestCase):
+    def test_it_is_beside_python(self):
+        program = pathlib.Path(sys.executable).parent / "racebeam"
+        said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+        self.assertIn(racebeam.__version__, said)
+
+    def test_launch_finds_it(self):
+        with racebeam.launch() as session:
+            self.assertEqual(session.load("beamfall", seed=1)["game"], "beamfall")
+
+    def test_where_there_is_none_a_sentence_says_so(self):
+        done = python("import racebeam.program as p\np._installed = lambda: None\n"
+                      "try: racebeam.launch()\nexcept FileNotFoundError as error: print(error)".replace("racebeam.launch", "p.path"),
+                      PATH="/nowhere")
+        self.assertIn("the program racebeam is neither beside this package nor on the PATH", done.stdout)
+
+
+class Readme(unittest.TestCase):
+    def test_the_examples_of_the_documents_run(self):
+        for document in ("README.md", "docs/python.md", "clients/python/README.md"):
+            text = (package.SOURCE / document).read_text()
+            for number, example in enumerate(re.findall(r"(?ms)^```python\n(.*?)^```", text)):
+                with self.subTest(document=document, example=number):
+                    needs = {module for module in ("gymnasium", "ale_py", "stable_baselines3") if re.search(rf"\b(import|from) {module}\b", example)}
+                    needs |= {"gymnasium"} if "AtariEnv" in example else set()
+                    if not all(map(has, needs)) or ("Pong" in example and "pong" not in package.roms()):
+                        continue
+                    done = python(example)
+                    self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+if __name__ == "__main__":
+    package.main()

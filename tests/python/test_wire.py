@@ -1,0 +1,233 @@
+"""AtariEnv(server=...) plays what AtariEnv plays, and a server that goes away is an exception."""
+
+import contextlib
+import os
+import pathlib
+import pickle
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import package
+
+package.require("gymnasium", "numpy")
+
+import numpy as np
+
+import racebeam
+import racebeam.program
+
+SETTINGS = (
+    {},
+    {"obs_type": "ram", "frameskip": (2, 6), "max_num_frames_per_episode": 150},
+    {"obs_type": "grayscale", "repeat_action_probability": 0.5, "difficulty": 1},
+    {"sound_obs": True, "frameskip": 3},
+    {"preset": "dqn2015"},
+)
+
+
+@contextlib.contextmanager
+def server(*options):
+    """A server that serves a Unix socket, and its process."""
+    with tempfile.TemporaryDirectory() as folder:
+        ready = pathlib.Path(folder, "ready")
+        command = [racebeam.program.path(), "serve", "--listen", f"unix:{folder}/s", "--listen", "tcp://127.0.0.1:0", "--ready-file",
+                   str(ready), *options]
+        process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+        try:
+            while not ready.exists():
+                time.sleep(0.01)
+            yield [line for line in ready.read_text().splitlines() if not line.startswith("#")], process
+        finally:
+            process.kill()
+            process.wait()
+
+
+def parts(observation):
+    named = observation if isinstance(observation, dict) else {"": observation}
+    return [(name, value.dtype, value.shape, value.tobytes()) for name, value in named.items()]
+
+
+def played(env, steps):
+    env.action_space.seed(4)
+    observation, info = env.reset(seed=9)
+    told = [(parts(observation), info)]
+    for _ in range(steps):
+        observation, *rest = env.step(env.action_space.sample())
+        told.append((parts(observation), rest))
+        if rest[1] or rest[2]:
+            observation, info = env.reset()
+            told.append((parts(observation), info))
+    return told
+
+
+class Environment(unittest.TestCase):
+    def test_it_is_the_same_over_the_wire(self):
+        with server() as (addresses, _):
+            self.assertEqual([address.split(":")[0] for address in sorted(addresses)], ["tcp", "unix"])
+            for address in addresses:
+                for settings in SETTINGS:
+                    with self.subTest(address=address, settings=settings):
+                        here, there = (racebeam.AtariEnv("beamfall", server=where, **settings) for where in (None, address))
+                        self.assertEqual(there.observation_space, here.observation_space)
+                        self.assertEqual(played(there, 300), played(here, 300))
+                        there.close()
+
+    def test_an_image_that_only_the_client_has_is_sent(self):
+        if "pong" not in package.roms():
+            self.skipTest("there is no image of pong")
+        with server() as (addresses, _):
+            for settings in ({}, {"continuous": True}, {"two_player": True}, {"mode": 1, "difficulty": 2}):
+                with self.subTest(settings=settings):
+                    here, there = (racebeam.AtariEnv("pong", server=where, **settings) for where in (None, addresses[0]))
+                    self.assertEqual(played(there, 100), played(here, 100))
+
+    def test_states_go_from_here_to_there(self):
+        with server() as (addresses, _):
+            here, there = (racebeam.AtariEnv("beamfall", server=where) for where in (None, addresses[0]))
+            here.reset(seed=1)
+            there.reset(seed=2)
+            [here.step(1) for _ in range(20)]
+            there.restore_state(here.clone_state(include_rng=True))
+            self.assertEqual(there.clone_state(include_rng=True), here.clone_state(include_rng=True))
+            copy = pickle.loads(pickle.dumps(there))
+            for _ in range(50):
+                steps = [env.step(2) for env in (here, there, copy)]
+                self.assertEqual({step[0].tobytes() for step in steps}, {steps[0][0].tobytes()})
+                self.assertEqual([step[1:] for step in steps[1:]], [steps[0][1:]] * 2)
+
+    def test_bad_input_is_what_it_is_here(self):
+        with server() as (addresses, _):
+            for arguments, error in (({"mode": 7}, RuntimeError), ({"difficulty": 9}, RuntimeError), ({"rules": "x"}, ValueError),
+                                     ({"rom": b"x" * 600000}, racebeam.InvalidInput)):
+                with self.subTest(arguments=arguments), self.assertRaises(error):
+                    racebeam.AtariEnv("beamfall", server=addresses[0], **arguments)
+            with self.assertRaises(racebeam.UnknownGame):
+                racebeam.AtariEnv("beamfal", server=addresses[0])
+            env = racebeam.AtariEnv("beamfall", server=addresses[0])
+            with self.assertRaises(IndexError):
+                env.step(18)
+
+    def test_a_server_that_dies_is_a_ConnectionError(self):
+        with server() as (addresses, process):
+            env = racebeam.AtariEnv("beamfall", server=addresses[0])
+            env.reset(seed=1)
+            process.kill()
+            process.wait()
+            for call in (lambda: env.step(0), env.reset, env.clone_state):
+                with self.assertRaises(ConnectionError):
+                    call()
+            env.close()
+            with self.assertRaises(OSError):
+                racebeam.AtariEnv("beamfall", server=addresses[0])
+
+
+class Sessions(unittest.TestCase):
+    def test_arrays_have_shapes(self):
+        with racebeam.launch(arrays=True) as session:
+            session.load("beamfall", seed=1, sound=1)
+            shown = session.look("screen", "rgb", "grey", "ram", "palette", "audio")
+            self.assertEqual({name: value.shape for name, value in shown.items()},
+                             {"screen": (210, 160), "rgb": (210, 160, 3), "grey": (210, 160), "ram": (128,), "palette": (256, 3),
+                              "audio": (512,)})
+            self.assertTrue(np.array_equal(shown["palette"][shown["screen"]], shown["rgb"]))
+            session.observe("grey84x4", "screen:delta")
+            self.assertEqual([session.act(1)[name].shape for name in ("grey84x4", "screen")], [(4, 84, 84), (210, 160)])
+
+    def test_addresses(self):
+        for address in ("", "tcp:", "tcp://", "tcp://host", "udp://host:1", "unix:", "tcp://host:port", "host:1"):
+            with self.subTest(address=address), self.assertRaisesRegex(ValueError, "it takes tcp://HOST:PORT"):
+                racebeam.connect(address)
+        for address in ("unix:/nowhere", "tcp://127.0.0.1:1"):
+            with self.subTest(address=address), self.assertRaises(OSError):
+                racebeam.connect(address)
+
+    def test_a_token_is_sent(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tokens = pathlib.Path(folder, "tokens")
+            tokens.write_text("0123456789abcdef0123456789abcdef\n")
+            tokens.chmod(0o600)
+            said = subprocess.run([racebeam.program.path(), "serve", "--help"], capture_output=True, text=True).stdout
+            self.assertIn("--token-file", said)
+            with server("--token-file", str(tokens)) as (addresses, _):
+                tcp = next(address for address in addresses if address.startswith("tcp"))
+                with self.assertRaises(racebeam.Refused) as refused:
+                    racebeam.connect(tcp, token="0" * 32)
+                self.assertEqual(refused.exception.code, "unauthorized")
+                with racebeam.connect(tcp, token="0123456789abcdef0123456789abcdef") as session:
+                    self.assertEqual(session.load("beamfall")["game"], "beamfall")
+
+    def test_a_session_is_opened_again_only_when_asked(self):
+        with server() as (addresses, _):
+            session = racebeam.connect(addresses[0])
+            session.load("beamfall")
+            session.close_connection()
+            with self.assertRaises(ConnectionError):
+                session.act(1)
+            with session.reconnect() as again:
+                with self.assertRaises(racebeam.Refused) as refused:
+                    again.act(1)
+                self.assertEqual(refused.exception.code, "no-game")
+        with racebeam.launch() as session, self.assertRaises(ValueError):
+            session.reconnect()
+
+    def test_a_server_that_is_silent_is_a_TimeoutError(self):
+        import socket
+        with socket.create_server(("127.0.0.1", 0)) as silent:
+            with self.assertRaises(TimeoutError):
+                racebeam.connect(f"tcp://127.0.0.1:{silent.getsockname()[1]}", timeout=0.2)
+
+    def test_half_a_reply_ends_the_session(self):
+        import socket
+        with socket.create_server(("127.0.0.1", 0)) as listener:
+            def answer():
+                connection, _ = listener.accept()
+                connection.recv(100)
+                connection.sendall(b"ok server=x protocol=1\n")
+                connection.recv(100)
+                connection.sendall(b"ok reward=")
+                connection.close()
+            thread = threading.Thread(target=answer)
+            thread.start()
+            session = racebeam.connect(f"tcp://127.0.0.1:{listener.getsockname()[1]}")
+            for _ in range(2):
+                with self.assertRaises(ConnectionError):
+                    session.act(1)
+            thread.join()
+
+    def test_another_version_of_the_protocol_is_refused(self):
+        import socket
+        with socket.create_server(("127.0.0.1", 0)) as listener:
+            def answer():
+                connection, _ = listener.accept()
+                connection.recv(100)
+                connection.sendall(b"ok server=x protocol=2\n")
+                connection.close()
+            thread = threading.Thread(target=answer)
+            thread.start()
+            with self.assertRaisesRegex(ConnectionError, "speaks version 2"):
+                racebeam.connect(f"tcp://127.0.0.1:{listener.getsockname()[1]}")
+            thread.join()
+
+    def test_a_request_is_one_line(self):
+        with racebeam.launch() as session:
+            with self.assertRaisesRegex(ValueError, "a request is one line"):
+                session.load("beamfall\nquit")
+            self.assertEqual(session.load("beamfall")["game"], "beamfall")
+
+    def test_the_file_can_be_copied_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(racebeam.__file__).parent / "wire/client.py"
+            pathlib.Path(folder, "client.py").write_bytes(source.read_bytes())
+            script = "import client; s = client.launch(); print(s.load('beamfall', seed=1)['seed']); s.close_connection()"
+            path = os.path.dirname(racebeam.program.path()) + ":" + os.environ["PATH"]
+            done = subprocess.run([sys.executable, "-S", "-c", script], cwd=folder, capture_output=True, text=True,
+                                  env={**os.environ, "PATH": path})
+            self.assertEqual(done.stdout, "1\n", done.stderr)
+
+
+if __name__ == "__main__":
+    package.main()
