@@ -16,22 +16,29 @@
 namespace racebeam {
 namespace {
 
-void refuse_unless(bool good, const std::string& sentence) {
-  if (!good) throw InvalidInput(sentence);
+// The sentence is made only if it is needed: a step allocates nothing.
+template <class Sentence>
+void refuse_unless(bool good, const Sentence& sentence) {
+  if (!good) throw InvalidInput(sentence());
 }
 
-std::string count_of(std::size_t count, const std::string& what) { return std::to_string(count) + ' ' + what; }
+std::string count_of(std::size_t count, const std::string& what) {
+  return std::to_string(count) + ' ' + what;
+}
 
 void check_count(std::size_t given, const std::string& what, std::size_t machines) {
-  refuse_unless(given == machines,
-                "there are " + count_of(given, what) + " for " + count_of(machines, "machines"));
+  refuse_unless(given == machines, [&] {
+    return "there are " + count_of(given, what) + " for " + count_of(machines, "machines");
+  });
 }
 
 void check_act(const Act& act) {
-  refuse_unless(act.a >= 0 && act.a < kActions, "player A has no action " + std::to_string(act.a) + "; there are 0 to 17");
+  refuse_unless(act.a >= 0 && act.a < kActions,
+                [&] { return "player A has no action " + std::to_string(act.a) + "; there are 0 to 17"; });
   refuse_unless(act.b >= kActions && act.b < 2 * kActions,
-                "player B has no action " + std::to_string(act.b) + "; there are 18 to 35");
-  refuse_unless(!std::isnan(act.strength_a) && !std::isnan(act.strength_b), "the strength of a paddle is not a number");
+                [&] { return "player B has no action " + std::to_string(act.b) + "; there are 18 to 35"; });
+  refuse_unless(!std::isnan(act.strength_a) && !std::isnan(act.strength_b),
+                [&] { return "the strength of a paddle is not a number"; });
 }
 
 // Bytes of a machine that has played, beside its stack and results; measured (docs/performance.md).
@@ -39,17 +46,20 @@ constexpr std::size_t kMachine = std::size_t{240} << 10;
 
 // Before any memory is taken: a system that promises more than it has ends the process later.
 std::size_t checked_size(std::size_t machines, const BatchSettings& settings) {
-  refuse_unless(machines > 0, "there are 0 machines; there must be 1 or more");
-  refuse_unless(settings.batch_size <= machines, "batch_size is " + std::to_string(settings.batch_size) +
-                                                     "; it takes 1 to " + std::to_string(machines) +
-                                                     ", or 0 for all machines");
+  refuse_unless(machines > 0, [&] { return "there are 0 machines; there must be 1 or more"; });
+  refuse_unless(settings.batch_size <= machines, [&] {
+    return "batch_size is " + std::to_string(settings.batch_size) + "; it takes 1 to " +
+           std::to_string(machines) + ", or 0 for all machines";
+  });
   const StackSettings& stack = settings.stack;
-  refuse_unless(stack.depth >= 0, "the stack has " + std::to_string(stack.depth) +
-                                      " screens; it must have 0 or more");
+  refuse_unless(stack.depth >= 0, [&] {
+    return "the stack has " + std::to_string(stack.depth) + " screens; it must have 0 or more";
+  });
   const std::uint64_t bytes = machines * kMachine, all = usable_memory().amount;
-  refuse_unless(bytes <= all, count_of(machines, "machines") + " take about " +
-                                  count_of(bytes >> 20, "MiB; this process may use ") +
-                                  count_of(all >> 20, "MiB"));
+  refuse_unless(bytes <= all, [&] {
+    return count_of(machines, "machines") + " take about " +
+           count_of(bytes >> 20, "MiB; this process may use ") + count_of(all >> 20, "MiB");
+  });
   return settings.batch_size == 0 ? machines : settings.batch_size;
 }
 
@@ -61,10 +71,25 @@ void put(std::span<T> array, std::size_t position, std::int64_t value) {
 }  // namespace
 
 BatchArrays BatchResults::arrays() {
-  return {observations, final_observations, final_lives, final_frames, final_episode_frames,
-          screens,      ram,                rewards,     rewards_b,    raw_rewards,
-          raw_rewards_b, terminated,        truncated,   finished,     game_over,
-          lives,        frames,             episode_frames, numbers};
+  return {observations,
+          final_observations,
+          final_lives,
+          final_frames,
+          final_episode_frames,
+          screens,
+          ram,
+          rewards,
+          rewards_b,
+          raw_rewards,
+          raw_rewards_b,
+          terminated,
+          truncated,
+          finished,
+          game_over,
+          lives,
+          frames,
+          episode_frames,
+          numbers};
 }
 
 struct Batch::Impl final : VectorHost {
@@ -84,7 +109,9 @@ struct Batch::Impl final : VectorHost {
   }
 
   // VectorHost
-  void run_all(std::size_t count, const std::function<void(std::size_t)>& task) override { pool.run(count, task); }
+  void run_all(std::size_t count, const std::function<void(std::size_t)>& task) override {
+    pool.run(count, task);
+  }
   void opened(std::size_t, Slot& slot) override {
     slot.set_drawing(settings.screens ? Drawing::kLast : Drawing::kNone);
     slot.set_stack(settings.stack);
@@ -100,7 +127,9 @@ struct Batch::Impl final : VectorHost {
   }
 
   std::size_t screen_size() const;  // of a stack, with the zeros behind lower ones
-  std::size_t observation_size() const { return static_cast<std::size_t>(settings.stack.depth) * screen_size(); }
+  std::size_t observation_size() const {
+    return static_cast<std::size_t>(settings.stack.depth) * screen_size();
+  }
   void put_stack(const Slot& slot, std::span<std::uint8_t> observations, std::size_t position) const;
   void write(std::size_t number, std::size_t position, const BatchArrays& arrays) const;
   void write_final(const Slot& slot, std::size_t position, const BatchArrays& arrays) const;
@@ -146,7 +175,7 @@ struct Batch::Impl final : VectorHost {
   ThreadPool pool;
   const BatchArrays* out = nullptr;  // null: nowhere
   int height = 0;
-  std::vector<Final> finals;         // by machine
+  std::vector<Final> finals;  // by machine
   VectorEnvironment vector;
 
   std::vector<Act> acts;              // of a request; kept for their memory
@@ -166,7 +195,8 @@ std::size_t Batch::Impl::screen_size() const {
   return static_cast<std::size_t>(rows * columns * stack.channels());
 }
 
-void Batch::Impl::put_stack(const Slot& slot, std::span<std::uint8_t> observations, std::size_t position) const {
+void Batch::Impl::put_stack(const Slot& slot, std::span<std::uint8_t> observations,
+                            std::size_t position) const {
   if (observations.empty()) return;
   const std::size_t stride = screen_size(), size = observation_size();
   const auto own = observations.subspan(position * size, size);
@@ -224,9 +254,10 @@ std::span<const Act> Batch::Impl::acts_of(std::span<const int> actions, auto mac
   for (std::size_t i = 0; i < actions.size(); ++i) {
     const std::size_t machine = machine_of(i);
     const std::vector<int>& all = vector.slot(machine).actions();
-    refuse_unless(actions[i] >= 0 && static_cast<std::size_t>(actions[i]) < all.size(),
-                  "machine " + std::to_string(machine) + " has no action " + std::to_string(actions[i]) +
-                      "; it takes 0 to " + std::to_string(all.size() - 1));
+    refuse_unless(actions[i] >= 0 && static_cast<std::size_t>(actions[i]) < all.size(), [&] {
+      return "machine " + std::to_string(machine) + " has no action " + std::to_string(actions[i]) +
+             "; it takes 0 to " + std::to_string(all.size() - 1);
+    });
     acts.push_back({.a = all[static_cast<std::size_t>(actions[i])]});
   }
   return acts;
@@ -234,17 +265,21 @@ std::span<const Act> Batch::Impl::acts_of(std::span<const int> actions, auto mac
 
 void Batch::Impl::check_free() const {
   const auto busy = std::ranges::count(playing, 1);
-  refuse_unless(busy == 0, count_of(static_cast<std::size_t>(busy), "machines play; receive them first"));
+  refuse_unless(busy == 0, [&] {
+    return count_of(static_cast<std::size_t>(busy), "machines play; receive them first");
+  });
 }
 
 void Batch::Impl::check_machines(std::span<const std::int32_t> machines) const {
   std::vector<std::uint8_t> taken = playing;
   for (const std::int32_t machine : machines) {
     const bool is_there = machine >= 0 && static_cast<std::size_t>(machine) < taken.size();
-    refuse_unless(is_there, "there is no machine " + std::to_string(machine) + "; there are 0 to " +
-                                std::to_string(taken.size() - 1));
+    refuse_unless(is_there, [&] {
+      return "there is no machine " + std::to_string(machine) + "; there are 0 to " +
+             std::to_string(taken.size() - 1);
+    });
     refuse_unless(std::exchange(taken[static_cast<std::size_t>(machine)], std::uint8_t{1}) == 0,
-                  "machine " + std::to_string(machine) + " plays already; receive it first");
+                  [&] { return "machine " + std::to_string(machine) + " plays already; receive it first"; });
   }
 }
 
@@ -271,8 +306,10 @@ void Batch::Impl::play(std::size_t number) {
 // The caller's thread helps.
 std::span<const std::size_t> Batch::Impl::await_batch() {
   const auto busy = static_cast<std::size_t>(std::ranges::count(playing, 1));
-  refuse_unless(busy >= batch_size, count_of(busy, "machines play, and a receive takes ") +
-                                        std::to_string(batch_size) + "; send some first");
+  refuse_unless(busy >= batch_size, [&] {
+    return count_of(busy, "machines play, and a receive takes ") + std::to_string(batch_size) +
+           "; send some first";
+  });
   const auto enough = [this] { return done.size() >= batch_size; };
   for (;;) {
     std::unique_lock lock(mutex);
@@ -317,10 +354,11 @@ BatchResults Batch::make_results() const {
     for (auto* numbers : {&results.final_lives, &results.final_frames, &results.final_episode_frames})
       numbers->resize(count);
   }
-  if (impl_->settings.screens) results.screens.resize(count * static_cast<std::size_t>(height()) * kScreenWidth);
+  if (impl_->settings.screens)
+    results.screens.resize(count * static_cast<std::size_t>(height()) * kScreenWidth);
   results.ram.resize(count * kRamSize);
-  for (auto* numbers : {&results.rewards, &results.rewards_b, &results.raw_rewards, &results.raw_rewards_b, &results.lives,
-                        &results.frames, &results.episode_frames, &results.numbers})
+  for (auto* numbers : {&results.rewards, &results.rewards_b, &results.raw_rewards, &results.raw_rewards_b,
+                        &results.lives, &results.frames, &results.episode_frames, &results.numbers})
     numbers->resize(count);
   for (auto* flags : {&results.terminated, &results.truncated, &results.finished, &results.game_over})
     flags->resize(count);
@@ -340,7 +378,8 @@ void Batch::step(std::span<const int> actions, const BatchArrays& out) {
   step(impl_->acts_of(actions, [](std::size_t i) { return i; }), out);
 }
 
-void Batch::reset(const BatchArrays& out, std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds) {
+void Batch::reset(const BatchArrays& out, std::span<const std::uint8_t> chosen,
+                  std::span<const std::int64_t> seeds) {
   if (!chosen.empty()) check_count(chosen.size(), "choices", size());
   if (!seeds.empty()) check_count(seeds.size(), "seeds", size());
   impl_->check_free();
@@ -358,14 +397,16 @@ void Batch::send(std::span<const Act> acts, std::span<const std::int32_t> machin
   for (const Act& act : acts) check_act(act);
   impl_->check_machines(machines);
   std::vector<std::size_t> numbers(machines.begin(), machines.end());
-  for (std::size_t i = 0; i < numbers.size(); ++i) impl_->jobs[numbers[i]] = {.act = acts[i], .failure = nullptr};
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    impl_->jobs[numbers[i]] = {.act = acts[i], .failure = nullptr};
   impl_->begin(numbers);
 }
 
 void Batch::send(std::span<const int> actions, std::span<const std::int32_t> machines) {
   check_count(actions.size(), "actions", machines.size());
   impl_->check_machines(machines);
-  send(impl_->acts_of(actions, [&](std::size_t i) { return static_cast<std::size_t>(machines[i]); }), machines);
+  send(impl_->acts_of(actions, [&](std::size_t i) { return static_cast<std::size_t>(machines[i]); }),
+       machines);
 }
 
 void Batch::send_resets(std::span<const std::int64_t> seeds) {
@@ -374,7 +415,8 @@ void Batch::send_resets(std::span<const std::int64_t> seeds) {
   std::vector<std::size_t> numbers(size());
   std::iota(numbers.begin(), numbers.end(), std::size_t{0});
   for (const std::size_t number : numbers)
-    impl_->jobs[number] = {.act = {}, .resets = true, .seed = seeds.empty() ? -1 : seeds[number], .failure = nullptr};
+    impl_->jobs[number] = {
+        .act = {}, .resets = true, .seed = seeds.empty() ? -1 : seeds[number], .failure = nullptr};
   impl_->begin(numbers);
 }
 
@@ -382,7 +424,8 @@ void Batch::receive(const BatchArrays& out) {
   const auto numbers = impl_->await_batch();
   for (std::size_t position = 0; position < numbers.size(); ++position) {
     const std::size_t number = numbers[position];
-    if (impl_->jobs[number].failure) std::rethrow_exception(std::exchange(impl_->jobs[number].failure, nullptr));
+    if (impl_->jobs[number].failure)
+      std::rethrow_exception(std::exchange(impl_->jobs[number].failure, nullptr));
     impl_->write(number, position, out);
     const bool ended = impl_->vector.slot(number).outcome().finished;
     if (ended && impl_->settings.autoreset == Autoreset::kSameStep) impl_->pass_final(number, position, out);
