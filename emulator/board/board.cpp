@@ -198,6 +198,7 @@ std::int32_t Board::write_anywhere(std::uint16_t address, std::uint8_t value, st
 }
 
 std::uint8_t Board::read_riot(std::uint16_t address, std::int32_t cycle) {
+  // clang-format off
   switch (address & 7) {
     case 0: return ports_.swcha(state.inputs);
     case 1: return state.riot.swacnt;
@@ -206,6 +207,7 @@ std::uint8_t Board::read_riot(std::uint16_t address, std::int32_t cycle) {
     case 4: case 6: return Timer(state.riot, cycle).intim();
     default: return Timer(state.riot, cycle).instat();
   }
+  // clang-format on
 }
 
 // The ports come first, and ignore A4 (docs/spec/riot.md, 1).

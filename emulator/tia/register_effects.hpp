@@ -118,6 +118,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t
   BallState& ball = tia_.ball;
   const auto flag = [value](int bit) { return static_cast<std::uint8_t>(value >> bit & 1); };
   const auto motion = [value] { return static_cast<std::uint8_t>(value >> 4); };
+  // clang-format off
   switch (write.reg()) {
     case VBLANK: assign(tia_.vblank, flag(1), after(VBLANK), kAllObjects), painter_.enabled(); break;
     case NUSIZ0: write_nusiz(0, value, after(NUSIZ0)); break;
@@ -152,6 +153,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t
     case CXCLR:  clear_collisions(clock); break;
     default:     painter_.reach(clock); break;
   }
+  // clang-format on
 }
 
 template <class Painter>

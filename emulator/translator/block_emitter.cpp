@@ -42,6 +42,7 @@ void BlockEmitter::check_limit() {
 }
 
 void BlockEmitter::emit(const Instruction& instruction, Flags live) {
+  // clang-format off
   switch (instruction.access) {
     case Access::Read: case Access::Immediate: emit_read(instruction, live); break;
     case Access::Write: write(instruction); break;
@@ -50,11 +51,13 @@ void BlockEmitter::emit(const Instruction& instruction, Flags live) {
     case Access::Branch: emit_branch(instruction); return;
     case Access::Jump: emit_jump(instruction); return;
   }
+  // clang-format on
   elapsed_ += instruction.cycles;
 }
 
 void BlockEmitter::emit_read(const Instruction& instruction, Flags live) {
   const Value value = read(instruction);
+  // clang-format off
   switch (instruction.operation) {
     case Operation::lda: return load(as_.r12d, value, NzHome::kA);
     case Operation::ldx: return load(as_.r13d, value, NzHome::kX);
@@ -66,6 +69,7 @@ void BlockEmitter::emit_read(const Instruction& instruction, Flags live) {
     case Operation::cpy: return compare(as_.r14b, value, live);
     default: return bit(value, live);
   }
+  // clang-format on
 }
 
 void BlockEmitter::settle(const ExitState& exit) {

@@ -13,6 +13,7 @@ constexpr std::uint8_t high_byte(std::uint16_t word) { return static_cast<std::u
 }  // namespace
 
 BlockEmitter::Value BlockEmitter::read(const Instruction& instruction) {
+  // clang-format off
   switch (instruction.mode) {
     case Mode::immediate: return {Value::Kind::kConstant, static_cast<std::uint8_t>(instruction.operand)};
     case Mode::zero_page: case Mode::absolute: return read_fixed(instruction);
@@ -22,6 +23,7 @@ BlockEmitter::Value BlockEmitter::read(const Instruction& instruction) {
     case Mode::absolute_y: return read_indexed(instruction, as_.r14d);
     default: return read_through_pointer(instruction);
   }
+  // clang-format on
 }
 
 BlockEmitter::Value BlockEmitter::read_fixed(const Instruction& instruction) {

@@ -145,6 +145,7 @@ void BlockEmitter::implied(const Instruction& instruction, Flags) {
     else as_.dec(reg);
     made_nz(home, true);  // INC and DEC preserve the host's carry
   };
+  // clang-format off
   switch (instruction.operation) {
     case Operation::clc: carry_ = CarryHome::kClear; host_carry_ = HostCarry::kUnknown; break;
     case Operation::sec: carry_ = CarryHome::kSet; host_carry_ = HostCarry::kUnknown; break;
@@ -170,6 +171,7 @@ void BlockEmitter::implied(const Instruction& instruction, Flags) {
     case Operation::pla: pull(instruction); break;
     default: break;  // nop
   }
+  // clang-format on
 }
 
 // Where the stack pointer is in the TIA, games write registers with PHP and PHA.

@@ -19,6 +19,7 @@ void BlockEmitter::write(const Instruction& instruction) {
                       : instruction.operation == Operation::stx ? as_.r13d
                                                                 : as_.r14d;
   const auto index = [&] { return instruction.mode == Mode::absolute_x ? as_.r13 : as_.r14; };
+  // clang-format off
   switch (instruction.mode) {
     case Mode::zero_page: case Mode::absolute: write_fixed(instruction, value); return;
     case Mode::zero_page_x: write_zero_page_indexed(instruction, as_.r13, value); return;
@@ -31,6 +32,7 @@ void BlockEmitter::write(const Instruction& instruction) {
       if (instruction.mode == Mode::indirect_y) as_.add(as_.eax, as_.r14d);
       break;
   }
+  // clang-format on
   write_at_eax(instruction, value);
 }
 

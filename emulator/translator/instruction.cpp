@@ -30,12 +30,14 @@ Instruction decode(const std::uint8_t* bytes, std::uint16_t pc) {
 }
 
 bool is_translatable(const Instruction& instruction) {
+  // clang-format off
   switch (instruction.operation) {
     case Operation::brk: case Operation::plp: case Operation::rti: return false;
     case Operation::nop: return instruction.mode == Mode::implied;
     case Operation::sbc: return true;
     default: return instruction.operation < Operation::anc;
   }
+  // clang-format on
 }
 
 }  // namespace racebeam::translator

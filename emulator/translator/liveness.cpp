@@ -47,6 +47,7 @@ bool may_switch_banks(const Instruction& instruction, const Window& window) {
   const auto in_window = [&](unsigned count) {
     return is_cartridge(instruction.operand) && ((instruction.operand - window.code.first) & 0x3FFFU) + count <= window.code.span;
   };
+  // clang-format off
   switch (instruction.mode) {
     case Mode::absolute:
       return is_cartridge(instruction.operand) && !in_window(1) && window.port_reader(instruction.operand) == nullptr;
@@ -54,6 +55,7 @@ bool may_switch_banks(const Instruction& instruction, const Window& window) {
     case Mode::indirect_x: case Mode::indirect_y: return true;
     default: return false;
   }
+  // clang-format on
 }
 
 }  // namespace

@@ -97,6 +97,7 @@ void LineRecord::summarize(bool pal) {
     const unsigned reg = write.reg();
     sets |= RegisterVectors(kRegisterBytes[reg].sets);
     if (reg != HMOVE) more = more | kRegisterBytes[reg].may_set;  // these may stay as they were
+    // clang-format off
     switch (reg) {
       // May start the Cosmic Ark mode, by an HMOVE on the previous line.
       case HMM0: foreseen &= write.value() >> 4 != 6; [[fallthrough]];
@@ -110,6 +111,7 @@ void LineRecord::summarize(bool pal) {
       case COLUP0: case COLUP1: case COLUPF: case COLUBK: more.color[3] |= pal ? kAll : 0; break;
       default: break;
     }
+    // clang-format on
   }
   more.spare[0] = foreseen ? 0 : kAll;
   RegisterVectors counts(more);
