@@ -6,6 +6,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "clients/python/core/ale_interface.hpp"
 #include "clients/python/core/arrays.hpp"
@@ -133,8 +134,14 @@ void check_action(int action, int first) {
                      " to " + std::to_string(first + kActions - 1));
 }
 
+void check_strength(float strength) {
+  if (!std::isfinite(strength))
+    throw InvalidInput("a paddle's strength is " + std::to_string(strength) + "; it must be a finite number");
+}
+
 int act(AleInterface& self, int action, float strength) {
   check_action(action, 0);
+  check_strength(strength);
   const Turn turn(self.lock());
   Environment& environment = self.environment();
   environment.set_drawing(environment.settings().color_averaging ? Drawing::kLastTwo : Drawing::kLast);
@@ -148,6 +155,8 @@ nb::tuple step(AleInterface& self, int action, float strength, int times, View v
   if (times < 1) throw InvalidInput("times is " + std::to_string(times) + "; it must be 1 or more");
   check_action(action, 0);
   check_action(action_b, kActions);
+  check_strength(strength);
+  check_strength(strength_b);
   FreshBytes bytes;
   StepResult result;
   std::size_t height = 0;
