@@ -229,10 +229,23 @@ std::vector<int> list_of(AleInterface& self) {
   return self.environment().game().*list;
 }
 
+// The reference's words, then which choices there are.
 template <auto method>
-void change(AleInterface& self, int value) {
+void change(AleInterface& self, int value, const std::string& words) {
   const Turn turn(self.lock());
-  (self.environment().*method)(value);
+  try {
+    (self.environment().*method)(value);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(words + ": " + error.what());
+  }
+}
+
+void set_mode(AleInterface& self, int mode) {
+  change<&Environment::set_mode>(self, mode, "Invalid game mode requested");
+}
+
+void set_difficulty(AleInterface& self, int difficulty) {
+  change<&Environment::set_difficulty>(self, difficulty, "Invalid difficulty requested");
 }
 
 std::optional<std::string> supported(const ImageArgument& where) {
@@ -265,8 +278,8 @@ void bind_game(nb::class_<AleInterface>& interface) {
       .def("getTwoPlayerModes", list_of<&Game::two_player_modes>, "Modes in which player B plays, too.")
       .def("getMode", ask<&Environment::mode>)
       .def("getDifficulty", ask<&Environment::difficulty>)
-      .def("setMode", change<&Environment::set_mode>)
-      .def("setDifficulty", change<&Environment::set_difficulty>)
+      .def("setMode", set_mode, "mode"_a)
+      .def("setDifficulty", set_difficulty, "difficulty"_a)
       .def("getGame", [](AleInterface& self) {
             const Turn turn(self.lock());
             return self.environment().game().name;
