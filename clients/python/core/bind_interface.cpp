@@ -6,6 +6,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "clients/python/core/ale_interface.hpp"
 #include "clients/python/core/arrays.hpp"
@@ -133,8 +134,14 @@ void check_action(int action, int first) {
                      " to " + std::to_string(first + kActions - 1));
 }
 
+void check_strength(float strength) {
+  if (!std::isfinite(strength))
+    throw InvalidInput("a paddle's strength is " + std::to_string(strength) + "; it must be a finite number");
+}
+
 int act(AleInterface& self, int action, float strength) {
   check_action(action, 0);
+  check_strength(strength);
   const Turn turn(self.lock());
   Environment& environment = self.environment();
   environment.set_drawing(environment.settings().color_averaging ? Drawing::kLastTwo : Drawing::kLast);
@@ -148,6 +155,8 @@ nb::tuple step(AleInterface& self, int action, float strength, int times, View v
   if (times < 1) throw InvalidInput("times is " + std::to_string(times) + "; it must be 1 or more");
   check_action(action, 0);
   check_action(action_b, kActions);
+  check_strength(strength);
+  check_strength(strength_b);
   FreshBytes bytes;
   StepResult result;
   std::size_t height = 0;
@@ -220,10 +229,23 @@ std::vector<int> list_of(AleInterface& self) {
   return self.environment().game().*list;
 }
 
+// The reference's words, then which choices there are.
 template <auto method>
-void change(AleInterface& self, int value) {
+void change(AleInterface& self, int value, const std::string& words) {
   const Turn turn(self.lock());
-  (self.environment().*method)(value);
+  try {
+    (self.environment().*method)(value);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(words + ": " + error.what());
+  }
+}
+
+void set_mode(AleInterface& self, int mode) {
+  change<&Environment::set_mode>(self, mode, "Invalid game mode requested");
+}
+
+void set_difficulty(AleInterface& self, int difficulty) {
+  change<&Environment::set_difficulty>(self, difficulty, "Invalid difficulty requested");
 }
 
 std::optional<std::string> supported(const ImageArgument& where) {
@@ -256,8 +278,8 @@ void bind_game(nb::class_<AleInterface>& interface) {
       .def("getTwoPlayerModes", list_of<&Game::two_player_modes>, "Modes in which player B plays, too.")
       .def("getMode", ask<&Environment::mode>)
       .def("getDifficulty", ask<&Environment::difficulty>)
-      .def("setMode", change<&Environment::set_mode>)
-      .def("setDifficulty", change<&Environment::set_difficulty>)
+      .def("setMode", set_mode, "mode"_a)
+      .def("setDifficulty", set_difficulty, "difficulty"_a)
       .def("getGame", [](AleInterface& self) {
             const Turn turn(self.lock());
             return self.environment().game().name;

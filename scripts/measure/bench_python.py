@@ -1,0 +1,71 @@
+"""racebeam's AtariEnv beside ale_py's, in one process: steps a second, four frames a step, for each kind of observation.
+
+Both play chunks of the same random actions in turns, and have to show the same. Only the processor time of the steps
+counts; resets are left out. The ratio is the median of the chunks' ratios. Needs `scripts/wheel --venv`.
+"""
+
+import argparse
+import statistics
+import time
+import zlib
+
+GAMES = "pong,breakout,seaquest,qbert,ms_pacman,freeway,asterix,beam_rider,space_invaders,up_n_down"
+KINDS = ("rgb", "grayscale", "ram")
+
+parser = argparse.ArgumentParser(prog="scripts/bench python", description=__doc__,
+                                 formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("--games", default=GAMES, help=f"A,B (default {GAMES})")
+parser.add_argument("--steps", type=int, default=100, help="of a chunk (default 100)")
+parser.add_argument("--chunks", type=int, default=9, help="of a game (default 9)")
+options = parser.parse_args()
+
+import ale_py  # noqa: E402
+
+import racebeam  # noqa: E402
+
+
+def play(env, actions):
+    """The processor time of the steps, and a checksum of what they showed."""
+    spent, seen = 0.0, 0
+    for action in actions:
+        begin = time.process_time()
+        observation, reward, terminated, truncated, _ = env.step(action)
+        spent += time.process_time() - begin
+        seen = zlib.crc32(f"{reward} {terminated}".encode(), zlib.crc32(observation, seen))
+        if terminated or truncated:
+            env.reset()
+    return spent, seen
+
+
+def measure(game, kind):
+    """Steps a second of ALE and of racebeam, and the ratio; medians of the chunks."""
+    both = [module.AtariEnv(game, obs_type=kind) for module in (ale_py, racebeam)]
+    for env in both:
+        env.reset(seed=1)
+    space = both[0].action_space
+    space.seed(1)
+    times = []
+    for chunk in range(options.chunks + 1):
+        actions = [int(space.sample()) for _ in range(options.steps)]
+        (theirs, seen), (ours, shown) = (play(env, actions) for env in both)
+        if seen != shown:
+            raise SystemExit(f"bench: {game}, {kind}: the two do not show the same")
+        if chunk > 0:  # the first makes tables and code
+            times.append((theirs, ours))
+    return (options.steps / statistics.median(theirs for theirs, _ in times),
+            options.steps / statistics.median(ours for _, ours in times),
+            statistics.median(theirs / ours for theirs, ours in times))
+
+
+ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
+print(f"{'game':<16}" + "".join(f"{kind:>28}" for kind in KINDS))
+print(f"{'':<16}" + f"{'ALE':>10}{'racebeam':>10}{'ratio':>8}" * len(KINDS))
+ratios = {kind: [] for kind in KINDS}
+for game in options.games.split(","):
+    row = ""
+    for kind in KINDS:
+        theirs, ours, ratio = measure(game, kind)
+        ratios[kind].append(ratio)
+        row += f"{theirs:10.0f}{ours:10.0f}{ratio:8.2f}"
+    print(f"{game:<16}{row}", flush=True)
+print(f"{'geometric mean':<16}" + "".join(f"{statistics.geometric_mean(ratios[kind]):28.2f}" for kind in KINDS))
