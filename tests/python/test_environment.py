@@ -243,7 +243,7 @@ class BadInput(unittest.TestCase):
         good = (HOMEBREW / "beamfall.bin").read_bytes()
         env = racebeam.AtariEnv("beamfall", rom=good)
         self.assertEqual(env.reset(seed=1)[0].tobytes(), racebeam.AtariEnv("beamfall").reset(seed=1)[0].tobytes())
-        for rom, sentence in ((b"", "it is empty"), (b"x" * 600000, "larger than an image can be"),
+        for rom, sentence in ((b"", "it is empty"), (b"x" * 600000, "larger than the largest image"),
                               ("/nowhere/x.bin", "there is no such file"), ("/dev/zero", "image /dev/zero")):
             self.refused(racebeam.InvalidInput, sentence, racebeam.AtariEnv, "beamfall", rom=rom)
 
