@@ -64,8 +64,10 @@ void Console::Impl::reset() {
 
 // A black picture. A buffer that a saved state holds too is replaced, not changed.
 void Console::Impl::blank(std::shared_ptr<FrameBuffer>& picture) {
-  if (is_own(picture)) picture->blank();
-  else picture = std::make_shared<FrameBuffer>();
+  if (is_own(picture))
+    picture->blank();
+  else
+    picture = std::make_shared<FrameBuffer>();
 }
 
 // Takes over the pictures of a saved state. The console keeps its own buffers for later frames, unless they
@@ -93,12 +95,12 @@ Format Console::Impl::detect_format() {
 void Console::Impl::check_ram_size(std::span<const std::uint8_t> cartridge_ram) const {
   if (cartridge_ram.size() == board.cartridge_ram.size()) return;
   throw InvalidInput("the state has " + std::to_string(cartridge_ram.size()) +
-                              " bytes of cartridge RAM; the cartridge that runs has " +
-                              std::to_string(board.cartridge_ram.size()));
+                     " bytes of cartridge RAM; the cartridge that runs has " +
+                     std::to_string(board.cartridge_ram.size()));
 }
 
-Console::Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on,
-                 CpuKind cpu, Pace* pace)
+Console::Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties,
+                 PowerOn& power_on, CpuKind cpu, Pace* pace)
     : impl_(std::make_unique<Impl>(std::move(rom), properties, power_on, cpu, pace)) {
   impl_->power_up();
 }

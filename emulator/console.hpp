@@ -28,8 +28,8 @@ class Console {
   // translated.
   // pace: is told of every step, those of format detection included, and must outlive the console. Null:
   // none.
-  Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, PowerOn& power_on,
-          CpuKind cpu = CpuKind::kAuto, Pace* pace = nullptr);
+  Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties,
+          PowerOn& power_on, CpuKind cpu = CpuKind::kAuto, Pace* pace = nullptr);
   ~Console();
 
   void reset();  // system reset, docs/spec/console.md, 2
@@ -56,9 +56,9 @@ class Console {
   // passes can be restored and run, whatever its source.
   void check(const State& state, std::span<const std::uint8_t> cartridge_ram = {}) const;
 
-  Format format() const;                                   // kNtsc, kPal, kPal60 or kSecam: detected, or from the properties
-  bool has_paddles() const;                                // in either port
-  int height() const;                                      // rows of picture(): the picture's height, at least 200
+  Format format() const;     // kNtsc, kPal, kPal60 or kSecam: detected, or from the properties
+  bool has_paddles() const;  // in either port
+  int height() const;        // rows of picture(): the picture's height, at least 200
   std::span<const std::uint8_t> picture() const;           // height() x 160 palette indices, drawn last
   std::span<const std::uint8_t> previous_picture() const;  // the picture before it
 

@@ -14,7 +14,11 @@ namespace racebeam {
 
 struct Console::Impl {
   Impl(std::shared_ptr<const Rom> rom, const Properties& given, PowerOn& source, CpuKind kind, Pace* paced_by)
-      : properties(given), power_on(source), pace(paced_by), board(std::move(rom), given), format(given.format),
+      : properties(given),
+        power_on(source),
+        pace(paced_by),
+        board(std::move(rom), given),
+        format(given.format),
         translator(Translator::make(board, kind)) {}
 
   Properties properties;

@@ -86,8 +86,7 @@ void check_beam(const TiaState& tia, const Video& video) {
            tia.pixel == kLinePixels * (clocks / kLineClocks) + std::max(into - kBlankClocks, 0);
   };
   if (follows_from(start) || (tia.origin == 0 && follows_from(0))) return;
-  refuse_field("the next pixel", tia.pixel,
-               "the pixel of the beam's clock, " + std::to_string(tia.cursor));
+  refuse_field("the next pixel", tia.pixel, "the pixel of the beam's clock, " + std::to_string(tia.cursor));
 }
 
 void check_frame(const FrameState& frame) {

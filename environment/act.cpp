@@ -9,7 +9,8 @@ namespace racebeam {
 namespace {
 
 std::int32_t clamped(std::int64_t reward, const Settings& settings) {
-  return static_cast<std::int32_t>(std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max));
+  return static_cast<std::int32_t>(
+      std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max));
 }
 
 // The last of each act.

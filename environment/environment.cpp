@@ -55,8 +55,7 @@ void check_offered(int number, const std::vector<int>& offered, const std::strin
   if (std::ranges::find(offered, number) != offered.end()) return;
   std::string list;
   for (const int one : offered) list += (list.empty() ? "" : ", ") + std::to_string(one);
-  throw InvalidInput(game.name + " has no " + what + " " + std::to_string(number) + "; it offers " +
-                              list);
+  throw InvalidInput(game.name + " has no " + what + " " + std::to_string(number) + "; it offers " + list);
 }
 
 std::size_t ram_index(int index) {
@@ -151,9 +150,7 @@ int Environment::mode() const { return impl_->play.mode; }
 int Environment::difficulty() const { return impl_->play.difficulty; }
 
 Environment::RawRewards Environment::raw_rewards() const { return impl_->raw_rewards; }
-Environment::Rewards Environment::rewards() const {
-  return {impl_->play.rewards[0], impl_->play.rewards[1]};
-}
+Environment::Rewards Environment::rewards() const { return {impl_->play.rewards[0], impl_->play.rewards[1]}; }
 
 bool Environment::game_over() const { return impl_->over(); }
 bool Environment::terminal() const { return impl_->rule.terminal(); }
@@ -225,7 +222,8 @@ std::shared_ptr<const Environment::Saved> Environment::save(bool with_random) co
 }
 std::uint64_t Environment::state_hash() const { return racebeam::state_hash(impl_->parts()); }
 bool Environment::same_state(const Environment& other) const {
-  return impl_->identity == other.impl_->identity && racebeam::same_state(impl_->parts(), other.impl_->parts());
+  return impl_->identity == other.impl_->identity &&
+         racebeam::same_state(impl_->parts(), other.impl_->parts());
 }
 
 void Environment::restore(const Saved& saved) { impl_->restore(saved); }

@@ -62,21 +62,23 @@ class Environment {
   RawRewards raw_rewards() const;
   void reset_game();  // throws InvalidInput when the image does not come to the mode that was set
 
-  // As constructed anew with this random_seed: powered on, in the game's default mode. Drawing and watch() stay.
+  // As constructed anew with this random_seed: powered on, in the game's default mode. Drawing and watch()
+  // stay.
   void reload(std::uint32_t random_seed);
 
-  // As act(), for a number of frames that is not the settings': no-ops at the start of an episode, or a step of
-  // an agent that chooses its number of frames each time.
+  // As act(), for a number of frames that is not the settings': no-ops at the start of an episode, or a step
+  // of an agent that chooses its number of frames each time.
   int act_for(int frames, int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
 
-  // Says which screens will be looked at. It changes nothing but the speed: one that was not drawn is drawn when it is
-  // asked for, which costs more. kLast unless told; kLastTwo with colour averaging, kEvery while somebody watches.
-  // Who takes previous_screen() as well wants kLastTwo, who takes rewards and RAM alone wants kNone.
+  // Says which screens will be looked at. It changes nothing but the speed: one that was not drawn is drawn
+  // when it is asked for, which costs more. kLast unless told; kLastTwo with colour averaging, kEvery while
+  // somebody watches. Who takes previous_screen() as well wants kLastTwo, who takes rewards and RAM alone
+  // wants kNone.
   void set_drawing(Drawing drawing);
   Drawing drawing() const;
 
-  // Gives back the memory that only makes drawing faster, some 40 KiB, or 80 where objects flicker: for one that will not
-  // act for a while.
+  // Gives back the memory that only makes drawing faster, some 40 KiB, or 80 where objects flicker: for one
+  // that will not act for a while.
   void rest();
 
   // Called after each frame of an act, not for those of a reset; nothing: no longer. For recordings.
@@ -96,8 +98,8 @@ class Environment {
   int frame_number() const;          // counted frames since loading; goes on below 0 after the largest int
   int episode_frame_number() const;  // since the last reset
 
-  int height() const;                            // rows of the screen
-  std::span<const std::uint8_t> screen() const;  // height x 160 palette indices, row-major
+  int height() const;                                     // rows of the screen
+  std::span<const std::uint8_t> screen() const;           // height x 160 palette indices, row-major
   std::span<const std::uint8_t> previous_screen() const;  // of the frame before; never averaged
   Format format() const;                                  // never Format::kAuto
   std::span<const std::uint8_t, kRamSize> ram() const;
@@ -126,10 +128,11 @@ class Environment {
 
   // For planners, who meet the same state by different ways: two environments of the same image, game and
   // settings that are in the same state, and are given the same actions, show the same for ever, unless an
-  // episode's limit of frames comes between. Looked at are the machine with the cartridge's RAM, paddles, mode,
-  // difficulty, the actions held and the rule's variables; left out are what tells of the way and not of the
-  // place: pictures, sound, counters of frames, the last act's rewards. Nor are generators looked at: with
-  // sticky actions two equal states may go on differently. Less than 0.2 microseconds; Saved has the same.
+  // episode's limit of frames comes between. Looked at are the machine with the cartridge's RAM, paddles,
+  // mode, difficulty, the actions held and the rule's variables; left out are what tells of the way and not
+  // of the place: pictures, sound, counters of frames, the last act's rewards. Nor are generators looked at:
+  // with sticky actions two equal states may go on differently. Less than 0.2 microseconds; Saved has the
+  // same.
   std::uint64_t state_hash() const;  // see state_hash.hpp
   bool same_state(const Environment& other) const;
 

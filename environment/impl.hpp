@@ -22,7 +22,8 @@ namespace racebeam {
 class Blend;
 
 struct Environment::Impl {
-  Impl(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings, Pace* pace);
+  Impl(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings,
+       Pace* pace);
 
   const std::shared_ptr<const Image> image;
   const std::shared_ptr<const Game> game;
@@ -43,7 +44,7 @@ struct Environment::Impl {
   std::array<std::uint8_t, kAudioSize> audio{};
   std::optional<BootFacts> boot_facts;  // of the image; studied at the first reset
   RawRewards raw_rewards;
-  bool drew_at_reset = false;           // the generator took part in the last one
+  bool drew_at_reset = false;        // the generator took part in the last one
   std::function<void()> each_frame;  // empty: nobody watches
   Drawing drawing;
 

@@ -28,7 +28,8 @@ void Environment::Impl::reset() {
 
 // Not where something takes part that ResetStart does not know.
 bool Environment::Impl::may_copy_reset() const {
-  return settings.copy_resets && !settings.classic && console.cartridge_ram().empty() && !rule.keeps_variables();
+  return settings.copy_resets && !settings.classic && console.cartridge_ram().empty() &&
+         !rule.keeps_variables();
 }
 
 ResetStart Environment::Impl::reset_start() {
@@ -98,7 +99,7 @@ void Environment::Impl::set_up_mode() {
     Memory memory() override { return impl.memory(); }
     void select(int frames) override { impl.select(frames); }
     void soft_reset() override { impl.soft_reset(); }
-    
+
     std::uint32_t random() override {
       impl.drew_at_reset = true;
       return static_cast<std::uint32_t>(impl.random());

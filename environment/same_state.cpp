@@ -14,9 +14,10 @@ namespace {
 using PlayWords = std::array<std::uint32_t, 8>;
 PlayWords words_of(const EpisodeState& play) {
   const auto word = [](auto value) { return std::bit_cast<std::uint32_t>(value); };
-  return {word(play.held.a.action), word(play.held.a.strength), word(play.held.b.action),
-          word(play.held.b.strength), word(play.paddles[0]), word(play.paddles[1]),
-          word(play.mode), word(play.difficulty)};
+  return {word(play.held.a.action), word(play.held.a.strength),
+          word(play.held.b.action), word(play.held.b.strength),
+          word(play.paddles[0]),    word(play.paddles[1]),
+          word(play.mode),          word(play.difficulty)};
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ struct Settings {
   std::uint32_t random_seed = 0;        // seeds the sticky-action generator
   std::uint32_t system_seed = 4753849;  // seeds power-on RAM and timer
   int frame_skip = 1;                   // frames an act lasts, at least 1
-  int frame_skip_max = 0;               // above frame_skip: each act draws its number of frames from this range
-  float sticky = 0.25F;                 // probability that a frame repeats the action before
-  int max_episode_frames = 0;           // 0: no limit
+  int frame_skip_max = 0;      // above frame_skip: each act draws its number of frames from this range
+  float sticky = 0.25F;        // probability that a frame repeats the action before
+  int max_episode_frames = 0;  // 0: no limit
   bool truncate_on_life_loss = false;
   int reward_min = std::numeric_limits<int>::min();
   int reward_max = std::numeric_limits<int>::max();

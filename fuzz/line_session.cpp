@@ -171,8 +171,8 @@ void run(Bytes input) {
     require(is_reply(replies[n]), "a reply is `ok` or an error, and printable",
             requests[n] + "\n" + replies[n]);
   if (replies.size() < requests.size()) {
-    const bool has_quit = !replies.empty() && replies.back() == "ok" &&
-                          ends_session(requests[replies.size() - 1]);
+    const bool has_quit =
+        !replies.empty() && replies.back() == "ok" && ends_session(requests[replies.size() - 1]);
     require(has_quit, "every line gets a reply, until quit", text);
   }
   const bool half = !text.empty() && text.back() != '\n' && replies.size() == requests.size();

@@ -58,8 +58,7 @@ class Catalogue {
         throw InvalidInput("the built-in image " + name + " has no game file");
     std::ranges::sort(md5s_, {}, &Md5Entry::md5);
     for (std::size_t i = 1; i < md5s_.size(); ++i)
-      if (md5s_[i].md5 == md5s_[i - 1].md5)
-        throw InvalidInput("two games list the MD5 " + md5s_[i].md5);
+      if (md5s_[i].md5 == md5s_[i - 1].md5) throw InvalidInput("two games list the MD5 " + md5s_[i].md5);
   }
 
   void write(std::ostream& out) const {

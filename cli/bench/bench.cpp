@@ -230,8 +230,7 @@ void run(const BenchOptions& options) {
   if (options.batch.machines > 0) return run_batch(options);
   const Cartridge cartridge = open_cartridge(options.machine);
   if (options.commands) return run_commands(options, cartridge);
-  if (options.resets > 0)
-    return show(time_resets(cartridge, options.machine, options.resets), options.json);
+  if (options.resets > 0) return show(time_resets(cartridge, options.machine, options.resets), options.json);
   if (options.search) return show(time_search(cartridge, options.machine), options.json);
   Bench bench{options, cartridge};
   const Tally tally = bench.run();
@@ -261,9 +260,12 @@ void add_bench(CLI::App& app) {
   command.add_flag("--save-restore", options->save_restore, "Also measure saving and restoring");
   command.add_flag("--commands", options->commands, "Execute the commands on standard input, line by line");
   add_count(command, "--batch", options->batch.machines, 1, "Measure a batch of this many machines instead");
-  add_count(command, "--threads", options->batch.threads, 1, "Threads of the batch (default: one for each processor)");
-  command.add_flag("--same-step", options->batch.same_step, "Machines of the batch reset in the step that ends an episode");
-  command.add_flag("--search", options->search, "Measure a planner's work instead: 500 random branches of 300 frames from one state");
+  add_count(command, "--threads", options->batch.threads, 1,
+            "Threads of the batch (default: one for each processor)");
+  command.add_flag("--same-step", options->batch.same_step,
+                   "Machines of the batch reset in the step that ends an episode");
+  command.add_flag("--search", options->search,
+                   "Measure a planner's work instead: 500 random branches of 300 frames from one state");
   add_count(command, "--resets", options->resets, 1, "Measure this many resets instead, in milliseconds");
   command.add_flag("--json", options->json, "Print the figures as one JSON object");
   command.footer(kFooter);

@@ -35,7 +35,8 @@ nlohmann::ordered_json time_resets(const Cartridge& cartridge, const MachineOpti
       {"resets", resets},
       {"mean_ms", sum / resets},
       {"median_ms", times[times.size() / 2]},
-      {"share_under_0.1_ms", static_cast<double>(std::ranges::lower_bound(times, 0.1) - times.begin()) / resets},
+      {"share_under_0.1_ms",
+       static_cast<double>(std::ranges::lower_bound(times, 0.1) - times.begin()) / resets},
   };
 }
 

@@ -62,8 +62,8 @@ Cartridge open_by_name(const MachineOptions& machine) {
   auto game = find_game(image->stem);
   if (!game) game = find_game_by_md5(image->md5);
   if (!game)
-    throw std::invalid_argument("there is no game with the name '" + image->stem + "'' of the file " + machine.rom +
-                                ", nor one with its MD5, " + image->md5 +
+    throw std::invalid_argument("there is no game with the name '" + image->stem + "'' of the file " +
+                                machine.rom + ", nor one with its MD5, " + image->md5 +
                                 "; give the file the name of its game");
   const Cartridge cartridge{image, game};
   power_on(cartridge, machine);  // invalid settings must fail before any other output
@@ -76,7 +76,8 @@ bool check_controller(const std::string& name) {
   if (name == "rlglue")
     throw std::invalid_argument("-game_controller rlglue is not supported; accepted are fifo and fifo_named");
   if (name != "fifo" && name != "fifo_named") {
-    throw std::invalid_argument("-game_controller '" + name + "' is not supported; accepted are fifo and fifo_named");
+    throw std::invalid_argument("-game_controller '" + name +
+                                "' is not supported; accepted are fifo and fifo_named");
   }
   return name == "fifo_named";
 }
@@ -133,7 +134,8 @@ int run(const std::vector<std::string>& words) {
   const Cartridge cartridge = open_by_name(machine);
   mention_ignored(settings);
   const ClassicOptions protocol = protocol_options(settings);
-  const ClassicService service{[&](Pace* pace) { return power_on(cartridge, machine, pace); }, protocol, nullptr};
+  const ClassicService service{[&](Pace* pace) { return power_on(cartridge, machine, pace); }, protocol,
+                               nullptr};
   ServerSettings server;
   server.endpoints = {{named ? Address(AlePipes{}) : Address(StandardStreams{}), true}};
   Services services;

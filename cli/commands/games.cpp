@@ -138,7 +138,8 @@ void add_games(CLI::App& app) {
   const auto json = std::make_shared<bool>(false), rules = std::make_shared<bool>(false);
   CLI::App& command = *app.add_subcommand("games", "List the games of the catalogue");
   CLI::Option* as_array = command.add_flag("--json", *json, "Print a JSON array instead of a table");
-  command.add_flag("--rules", *rules, "Print the origin of each rule, and what --rules fixed corrects")->excludes(as_array);
+  command.add_flag("--rules", *rules, "Print the origin of each rule, and what --rules fixed corrects")
+      ->excludes(as_array);
   command.footer(kFooter);
   command.callback([json, rules] { *json ? print_json() : *rules ? print_rules() : print_table(); });
 }

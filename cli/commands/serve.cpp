@@ -124,8 +124,9 @@ void limit_memory(Services& services, std::uint64_t most) {
   const auto budget = std::make_shared<MemoryBudget>(most);
   budget->take_anyway(resident_memory() + kShared);
   if (budget->taken() >= most) {
-    throw std::invalid_argument("--max-memory " + std::to_string(most) + " is too little: the server itself uses " +
-                                std::to_string(budget->taken()) + " bytes");
+    throw std::invalid_argument("--max-memory " + std::to_string(most) +
+                                " is too little: the server itself uses " + std::to_string(budget->taken()) +
+                                " bytes");
   }
   if (services.classic) std::get<ClassicService>(*services.classic).memory = budget;
   if (services.line) std::get<LineService>(*services.line).memory = budget;

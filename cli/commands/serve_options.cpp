@@ -103,14 +103,12 @@ void add_limits(CLI::App& command, ServeOptions& options) {
   add_number(command, "--max-line", limits.line, 256, "Bytes of a request");
   add_number(command, "--max-output", limits.output, 1024,
              "Buffered bytes for a slow reader; above them, its requests wait, too");
-  add_number(command, "--max-reply", limits.reply, 1 << 20,
-             "Bytes of a reply, counted as in PROTOCOL.md");
+  add_number(command, "--max-reply", limits.reply, 1 << 20, "Bytes of a reply, counted as in PROTOCOL.md");
   add_number(command, "--max-request-frames", limits.request_frames, 1, "Frames of a request");
   add_number(command, "--record-limit", limits.recording, 1, "Bytes of a recording");
   add_number(command, "--idle", server.idle_seconds, 0,
              "Seconds without a byte after which a session on a socket is closed; 0: never");
-  add_number(command, "--handshake", server.handshake_seconds, 1,
-             "Seconds for TLS and the client's token");
+  add_number(command, "--handshake", server.handshake_seconds, 1, "Seconds for TLS and the client's token");
   add_number(command, "--grace", server.grace_seconds, 0,
              "Seconds that sessions have to end after the server was told to stop");
 }
@@ -132,8 +130,9 @@ void add_operation(CLI::App& command, ServeOptions& options) {
   constexpr std::uint64_t kMostThreads = 1024;
   server.threads = static_cast<int>(std::min(usable_processors().amount, kMostThreads));
   command
-      .add_option("--threads", server.threads,
-                  "Threads of event loops; as many others help with open and step (default: the usable processors)")
+      .add_option(
+          "--threads", server.threads,
+          "Threads of event loops; as many others help with open and step (default: the usable processors)")
       ->check(whole_number(1, kMostThreads))
       ->capture_default_str()
       ->group(group);
@@ -146,8 +145,9 @@ void add_operation(CLI::App& command, ServeOptions& options) {
       ->default_val(server.busy_poll.count())
       ->group(group);
   command
-      .add_option("--ready-file", server.ready_file,
-                  "File for the addresses, one a line after # lines, written when all are served, removed at the end")
+      .add_option(
+          "--ready-file", server.ready_file,
+          "File for the addresses, one a line after # lines, written when all are served, removed at the end")
       ->type_name("FILE")
       ->group(group);
   command.add_option("--http", server.http, "Health and metrics: /healthz, /readyz, /metrics")
@@ -200,7 +200,8 @@ void collect_endpoints(ServeOptions& options) {
     options.server.endpoints.push_back(std::move(endpoint));
   }
   if (addresses.empty())
-    throw CLI::ValidationError("serve", "no address to serve: give --stdio, --pipes PREFIX or --listen ADDRESS");
+    throw CLI::ValidationError("serve",
+                               "no address to serve: give --stdio, --pipes PREFIX or --listen ADDRESS");
   const auto is_stdio = [](const Endpoint& endpoint) {
     return std::holds_alternative<StandardStreams>(endpoint.address);
   };
@@ -214,8 +215,7 @@ void check_strict(const ServeOptions& options) {
   const bool fits = std::ranges::all_of(options.server.endpoints, [](const Endpoint& endpoint) {
     return is_stream(endpoint.address) && !endpoint.classic;
   });
-  if (!fits)
-    throw CLI::ValidationError("--strict", "requires --stdio or --pipes, and the line protocol");
+  if (!fits) throw CLI::ValidationError("--strict", "requires --stdio or --pipes, and the line protocol");
 }
 
 }  // namespace

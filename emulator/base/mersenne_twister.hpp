@@ -8,7 +8,7 @@
 namespace racebeam {
 
 using MersenneTwister =
-    std::mersenne_twister_engine<std::uint32_t, 32, 624, 397, 31, 0x9908B0DF, 11, 0xFFFFFFFF, 7, 0x9D2C5680, 15, 0xEFC60000,
-                                 18, 1812433253>;
+    std::mersenne_twister_engine<std::uint32_t, 32, 624, 397, 31, 0x9908B0DF, 11, 0xFFFFFFFF, 7, 0x9D2C5680,
+                                 15, 0xEFC60000, 18, 1812433253>;
 
 }  // namespace racebeam

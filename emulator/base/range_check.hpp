@@ -11,8 +11,8 @@
 namespace racebeam {
 
 [[noreturn]] inline void refuse_field(const char* what, std::int64_t value, const std::string& accepted) {
-  throw InvalidInput("invalid state: " + std::string(what) + " is " +
-                              std::to_string(value) + "; it must be " + accepted);
+  throw InvalidInput("invalid state: " + std::string(what) + " is " + std::to_string(value) +
+                     "; it must be " + accepted);
 }
 
 inline void check_range(const char* what, std::int64_t value, std::int64_t least, std::int64_t most) {

@@ -28,7 +28,9 @@ RACEBEAM_INLINE std::uint32_t top_bits(TwoWords words) {
   using Bytes [[gnu::vector_size(16)]] = char;
   return static_cast<std::uint32_t>(__builtin_ia32_pmovmskb128(reinterpret_cast<Bytes>(words)));
 #else
-  const auto bits = [](std::uint64_t word) { return (word >> 7 & 0x0101010101010101) * 0x0102040810204080 >> 56; };
+  const auto bits = [](std::uint64_t word) {
+    return (word >> 7 & 0x0101010101010101) * 0x0102040810204080 >> 56;
+  };
   return static_cast<std::uint32_t>(bits(words[0]) | bits(words[1]) << 8);
 #endif
 }

@@ -31,7 +31,8 @@ Board::Board(std::shared_ptr<const Rom> rom, const Properties& properties)
       cartridge_ram(ram_beside_state(slot.scheme)),
       rom_(std::move(rom)),
       ports_(properties) {
-  slot.ram = cartridge_ram.empty() ? std::span(state.cartridge.ram).first(slot.scheme.ram) : std::span(cartridge_ram);
+  slot.ram = cartridge_ram.empty() ? std::span(state.cartridge.ram).first(slot.scheme.ram)
+                                   : std::span(cartridge_ram);
   if (slot.scheme.power_on != nullptr) slot.scheme.power_on(slot);
   map_memory();
 }
@@ -125,7 +126,9 @@ bool Board::needs_exact_step() const {
 bool Board::find_code(std::uint16_t pc) {
   const std::uint64_t banks = selected_banks();
   const unsigned slice = pc >> 10;
-  const auto distance = [pc](const KnownWindow& window) { return static_cast<std::uint16_t>(pc - window.first); };
+  const auto distance = [pc](const KnownWindow& window) {
+    return static_cast<std::uint16_t>(pc - window.first);
+  };
   KnownWindow& known = known_windows_[((banks * kHash + slice) * kHash >> 56) % known_windows_.size()];
   if (known.slice != slice || known.banks != banks || distance(known) >= known.span + 2) {
     if (!map.may_hold_code(pc)) return false;
@@ -138,7 +141,8 @@ bool Board::find_code(std::uint16_t pc) {
 }
 
 const std::uint8_t* Board::locate_code(std::uint16_t pc, std::uint8_t latch, std::int32_t cycle) {
-  return find_code(pc) ? code.memory + static_cast<std::uint16_t>(pc - code.first) : fetch_slowly(pc, latch, cycle);
+  return find_code(pc) ? code.memory + static_cast<std::uint16_t>(pc - code.first)
+                       : fetch_slowly(pc, latch, cycle);
 }
 
 // The opcode is read before its cycles are counted, the operand after that (docs/spec/cpu.md, 3).
@@ -175,17 +179,20 @@ Delivery Board::write_cartridge(std::uint16_t address, std::uint8_t value) {
 std::uint8_t Board::read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle) {
   if (address & 0x1000) return read_cartridge(address, cycle);
   if (address & 0x0080) return read_riot(address, cycle);
-  if (slot.scheme.watches_tia) [[unlikely]] read_cartridge(address, cycle);
+  if (slot.scheme.watches_tia) [[unlikely]]
+    read_cartridge(address, cycle);
   return read_tia(address, latch, cycle);
 }
 
 // WSYNC comes first, because most lines have one.
-std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
+std::int32_t Board::write_device(std::uint16_t address, std::uint8_t value, std::int32_t cycle,
+                                 bool after_read) {
   const bool plain = address == WSYNC && cycle < overlong_cycle_ && !slot.scheme.watches_tia;
   return plain ? write_wsync(cycle, after_read) : write_anywhere(address, value, cycle, after_read);
 }
 
-std::int32_t Board::write_anywhere(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
+std::int32_t Board::write_anywhere(std::uint16_t address, std::uint8_t value, std::int32_t cycle,
+                                   bool after_read) {
   const bool to_cartridge = (address & 0x1000) != 0;
   if (!to_cartridge && (address & 0x0080) != 0) {
     write_riot(address, value, cycle);
@@ -212,8 +219,10 @@ std::uint8_t Board::read_riot(std::uint16_t address, std::int32_t cycle) {
 
 // The ports come first, and ignore A4 (docs/spec/riot.md, 1).
 void Board::write_riot(std::uint16_t address, std::uint8_t value, std::int32_t cycle) {
-  if ((address & 7) == 1) state.riot.swacnt = value;
-  else if ((address & 0x14) == 0x14) Timer(state.riot, cycle).set(value, kTimerShift[address & 3]);
+  if ((address & 7) == 1)
+    state.riot.swacnt = value;
+  else if ((address & 0x14) == 0x14)
+    Timer(state.riot, cycle).set(value, kTimerShift[address & 3]);
 }
 
 // An access that draws up to its clock, and changes no register.
@@ -236,7 +245,9 @@ std::uint8_t Board::read_tia(std::uint16_t address, std::uint8_t latch, std::int
     touch_tia(cycle);
     if (reg < 12) {
       driven = ports_.pot(state.inputs, static_cast<int>(reg - 8), static_cast<std::uint32_t>(cycle),
-                          frame.dump_release, frame.dumping) ? 0x80 : 0;
+                          frame.dump_release, frame.dumping)
+                   ? 0x80
+                   : 0;
     } else if (reg < 14) {
       driven = ports_.fire_pin(state.inputs, static_cast<int>(reg - 12)) ? 0x80 : 0;
     }
@@ -251,7 +262,8 @@ std::uint8_t Board::collision_bits(unsigned reg, std::int32_t cycle) {
   return static_cast<std::uint8_t>((state.tia.collisions >> (2 * reg) & 3) << 6);
 }
 
-std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle, bool after_read) {
+std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::int32_t cycle,
+                              bool after_read) {
   const unsigned reg = address & 0x3F;
   if (cycle >= overlong_cycle_) {
     close_frame();
@@ -259,7 +271,8 @@ std::int32_t Board::write_tia(std::uint16_t address, std::uint8_t value, std::in
   switch (reg) {
     case VSYNC: write_vsync(value, cycle); break;
     case VBLANK: write_dump((value & 0x80) != 0, cycle); break;
-    default: if (is_sound(reg)) sound.write(reg, value);
+    default:
+      if (is_sound(reg)) sound.write(reg, value);
   }
   if (reg == WSYNC) return write_wsync(cycle, after_read);
   if (!(kPictureRegisters >> reg & 1)) {

@@ -19,7 +19,9 @@
 
 namespace racebeam {
 
-namespace translator { struct Layout; }
+namespace translator {
+struct Layout;
+}
 
 class Board {
  public:
@@ -35,11 +37,12 @@ class Board {
   CartridgeSlot slot;
   std::vector<std::uint8_t> cartridge_ram;  // what does not fit into the state; empty for most schemes
   WriteLog* log = nullptr;                  // of the step that runs
-  CodeWindow code;                          // where the CPU fetches; empty after the map has changed or the frame has closed
-  bool stop = false;                        // the frame has closed: the CPU stops after this instruction
+  CodeWindow code;    // where the CPU fetches; empty after the map has changed or the frame has closed
+  bool stop = false;  // the frame has closed: the CPU stops after this instruction
 
   // Accesses of the CPU where there is no plain memory. `latch` is the data bus before the access.
-  std::uint8_t read(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);  // plain memory or a device
+  std::uint8_t read(std::uint16_t address, std::uint8_t latch,
+                    std::int32_t cycle);  // plain memory or a device
   std::uint8_t read_device(std::uint16_t address, std::uint8_t latch, std::int32_t cycle);
 
   // Returns the bytes of the instruction at `pc`. Moves the code window there if plain memory holds them,
@@ -52,7 +55,8 @@ class Board {
 
   // Whether a TIA write goes to the log and has no other effect. Never true in an exact step.
   bool is_plain_write(std::uint16_t address, std::int32_t cycle) const {
-    if (cycle >= overlong_cycle_) [[unlikely]] return false;
+    if (cycle >= overlong_cycle_) [[unlikely]]
+      return false;
     return (plain_registers_ >> (address & 0x3F) & 1) != 0;
   }
 
@@ -60,7 +64,8 @@ class Board {
   // write_device() must handle it.
   RACEBEAM_INLINE bool wait_for_line(std::uint16_t address, std::int32_t& cycle) {
     if ((address & 0x3F) != WSYNC || plain_registers_ == 0 || cycle >= overlong_cycle_) return false;
-    if (log->is_short_of_room(cycle)) [[unlikely]] return false;
+    if (log->is_short_of_room(cycle)) [[unlikely]]
+      return false;
     last_access_ = cycle;
     cycle += (overlong_cycle_ - cycle) % kLineCycles;
     return true;
@@ -126,10 +131,11 @@ class Board {
   // The first cycle, at a line's start, from which a TIA write closes the frame.
   std::int32_t overlong_cycle_ = 0;
   std::array<std::uint8_t, 3> fetched_{};  // an instruction that is not in plain memory
-  std::int32_t last_access_ = 0;           // cycle of the last TIA access that was no plain write: the picture is drawn so far
-  bool exact_mode_ = false;                // each access is played on its own
-  bool picture_is_exact_ = true;           // of the last step, even if it ran in another mode
-  bool fetched_latches_ = false;           // an opcode was read from a collision register
+  std::int32_t last_access_ =
+      0;  // cycle of the last TIA access that was no plain write: the picture is drawn so far
+  bool exact_mode_ = false;       // each access is played on its own
+  bool picture_is_exact_ = true;  // of the last step, even if it ran in another mode
+  bool fetched_latches_ = false;  // an opcode was read from a collision register
 };
 
 }  // namespace racebeam

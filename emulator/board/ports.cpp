@@ -15,7 +15,8 @@ std::uint32_t charge_cycles(std::int32_t ohms) {
 }  // namespace
 
 Ports::Ports(const Properties& properties)
-    : side_{Port{properties.left, 0}, Port{properties.right, 1}}, swap_paddles_(properties.swap_paddles ? 1 : 0) {
+    : side_{Port{properties.left, 0}, Port{properties.right, 1}},
+      swap_paddles_(properties.swap_paddles ? 1 : 0) {
   if (properties.swap_ports) std::swap(side_[0], side_[1]);
 }
 
@@ -40,7 +41,8 @@ bool Ports::fire_pin(const Inputs& inputs, int side) const {
   return (inputs.joystick[static_cast<std::size_t>(port.player)] & kStickFire) == 0;
 }
 
-bool Ports::pot(const Inputs& inputs, int number, std::uint32_t cycle, std::uint32_t release, bool dumping) const {
+bool Ports::pot(const Inputs& inputs, int number, std::uint32_t cycle, std::uint32_t release,
+                bool dumping) const {
   const Port& port = side_[static_cast<std::size_t>(number / 2)];
   if (port.controller == Controller::kJoystick) return false;
   const std::int32_t ohms = inputs.paddle[static_cast<std::size_t>(paddle(port, number % 2))];

@@ -37,7 +37,7 @@ using PortReader = std::uint8_t (*)(CartridgeSlot&, std::uint16_t address, std::
 struct MapperOps {
   void (*reset)(CartridgeSlot&);  // sets the initial banks
   void (*map)(CartridgeSlot&);    // maps what the banks select
-  PortReader read;       // reads a hidden page, or watches a read of the TIA
+  PortReader read;                // reads a hidden page, or watches a read of the TIA
   // Any cartridge address, or a watched TIA address.
   Delivery (*write)(CartridgeSlot&, std::uint16_t address, std::uint8_t value);
 

@@ -50,7 +50,8 @@ struct MemoryMap {
   bool may_hold_code(std::uint16_t address) const {
     if (page_of(address) != nullptr) return true;
     const bool last = (address >> 6 & 0x7F) == kLastPage;
-    return last && (address & 0x3F) < quiet_tail && page_of(static_cast<std::uint16_t>(address - kPageSize)) != nullptr;
+    return last && (address & 0x3F) < quiet_tail &&
+           page_of(static_cast<std::uint16_t>(address - kPageSize)) != nullptr;
   }
 
   // Maps `memory`, `size` bytes of it, from cartridge address `from` (0-$FFF) on, for all values of bits 13,

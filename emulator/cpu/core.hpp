@@ -20,7 +20,8 @@ struct ZeroPage {
 
 struct Core {
   Board& board;
-  std::int64_t clock;         // cycle() and executed() in one number, so that an instruction counts both with one addition
+  std::int64_t
+      clock;  // cycle() and executed() in one number, so that an instruction counts both with one addition
   std::uintptr_t at;          // PC, as an address in the host's memory
   std::uintptr_t start, end;  // of the code window; end is 0 if locate() must find the next instruction
   std::uintptr_t origin;      // the host's address of address 0
@@ -41,7 +42,13 @@ struct Core {
   static constexpr std::int32_t kLongestRow = 4096;
 
   Core(Board& on, std::int32_t most, std::int32_t at_least)
-      : board(on), budget(most), enough(at_least), A(on.state.cpu.A), X(on.state.cpu.X), Y(on.state.cpu.Y), SP(on.state.cpu.SP),
+      : board(on),
+        budget(most),
+        enough(at_least),
+        A(on.state.cpu.A),
+        X(on.state.cpu.X),
+        Y(on.state.cpu.Y),
+        SP(on.state.cpu.SP),
         latch(on.state.cpu.latch) {
     clock = on.state.cycle * kCycle + kAlarm - (budget - kLongestRow);
     take_window();
@@ -63,7 +70,9 @@ struct Core {
   RACEBEAM_INLINE static const std::uint8_t* byte_at(std::uintptr_t where) {
     return reinterpret_cast<const std::uint8_t*>(where);
   }
-  RACEBEAM_INLINE static std::uintptr_t place(const std::uint8_t* byte) { return reinterpret_cast<std::uintptr_t>(byte); }
+  RACEBEAM_INLINE static std::uintptr_t place(const std::uint8_t* byte) {
+    return reinterpret_cast<std::uintptr_t>(byte);
+  }
 
   RACEBEAM_INLINE void take_window() {
     start = place(board.code.memory);
@@ -85,13 +94,15 @@ struct Core {
     const std::uint32_t crosses = (next ^ target) & 0x100;
     clock += kCycle;
     add_penalty(crosses);
-    if (at < start) [[unlikely]] end = 0;
+    if (at < start) [[unlikely]]
+      end = 0;
     look_at_budget();
     return crosses == 0 ? 1 : 2;
   }
 
   RACEBEAM_INLINE void look_at_budget() {
-    if (clock & kAlarm) [[unlikely]] end = 0;
+    if (clock & kAlarm) [[unlikely]]
+      end = 0;
   }
 
   // After an access to a device: the window may have changed, or the frame may have closed.
@@ -123,7 +134,8 @@ struct Core {
 
   // The status byte as it is pushed: bits 5 and 4 are always 1.
   RACEBEAM_INLINE std::uint8_t status() const {
-    return static_cast<std::uint8_t>(is_negative() << 7 | V << 6 | 0x30 | D << 3 | I << 2 | is_zero() << 1 | C);
+    return static_cast<std::uint8_t>(is_negative() << 7 | V << 6 | 0x30 | D << 3 | I << 2 | is_zero() << 1 |
+                                     C);
   }
 
   RACEBEAM_INLINE void set_status(std::uint8_t p) {
@@ -135,22 +147,28 @@ struct Core {
   }
 
   RACEBEAM_INLINE void set_nz(std::uint8_t value) { nz = value; }
-  RACEBEAM_INLINE void set_nz(std::uint8_t negative, std::uint32_t nonzero) { nz = (negative & 0x80U) << 8 | nonzero; }
+  RACEBEAM_INLINE void set_nz(std::uint8_t negative, std::uint32_t nonzero) {
+    nz = (negative & 0x80U) << 8 | nonzero;
+  }
   RACEBEAM_INLINE bool is_negative() const { return (nz & 0x8080) != 0; }
   RACEBEAM_INLINE bool is_zero() const { return (nz & 0xFF) == 0; }
 
   RACEBEAM_INLINE std::uint8_t read(std::uint16_t address) {
     const std::uint8_t* page = board.map.page_of(address);
-    if (page == nullptr) [[unlikely]] return read_device(address);
+    if (page == nullptr) [[unlikely]]
+      return read_device(address);
     return latch = page[address & 0x3F];
   }
 
   RACEBEAM_INLINE std::uint8_t read(ZeroPage address) {
-    if (address.at < 0x80) [[unlikely]] return read(std::uint16_t{address.at});
+    if (address.at < 0x80) [[unlikely]]
+      return read(std::uint16_t{address.at});
     return latch = board.state.riot.ram[address.at - 0x80U];
   }
 
-  RACEBEAM_INLINE std::uint16_t read_word_of_ram(unsigned zero_page) { return word(&board.state.riot.ram[zero_page - 0x80U]); }
+  RACEBEAM_INLINE std::uint16_t read_word_of_ram(unsigned zero_page) {
+    return word(&board.state.riot.ram[zero_page - 0x80U]);
+  }
 
   RACEBEAM_INLINE std::uint8_t read_device(std::uint16_t address) {
     latch = board.read_device(address, latch, cycle());
@@ -210,7 +228,8 @@ struct Core {
 
   RACEBEAM_INLINE void write_device(std::uint16_t address, std::uint8_t value) {
     std::int32_t now = cycle();
-    if ((address & 0x1080) != 0) [[unlikely]] return write_slowly(address, value, true);
+    if ((address & 0x1080) != 0) [[unlikely]]
+      return write_slowly(address, value, true);
     if (board.is_plain_write(address, now)) return board.log->append_change(now, address & 0x3F, value);
     if (board.wait_for_line(address, now)) return set_cycle(now);
     write_slowly(address, value, true);
@@ -242,7 +261,8 @@ struct Core {
     return read_stack();
   }
   RACEBEAM_INLINE std::uint8_t read_stack() {
-    if (SP < 0x80) [[unlikely]] return read(0x0100 | SP);
+    if (SP < 0x80) [[unlikely]]
+      return read(0x0100 | SP);
     return latch = board.state.riot.ram[SP - 0x80U];
   }
 };

@@ -90,13 +90,14 @@ void interpret(Board& board, std::int32_t most, std::int32_t enough) {
 #define FOLLOWER(code) \
   if (often_follows(0x##code, kBefore) && next == 0x##code) goto op_##code;
 
-#define NEXT(code)                                      \
-  do {                                                  \
-    constexpr std::uint8_t kBefore = 0x##code;          \
-    if (cpu.at >= cpu.end) [[unlikely]] goto elsewhere; \
-    const unsigned next = *Core::byte_at(cpu.at);       \
-    RACEBEAM_FOLLOWERS(FOLLOWER)                        \
-    goto* kHandlers[next];                              \
+#define NEXT(code)                                \
+  do {                                            \
+    constexpr std::uint8_t kBefore = 0x##code;    \
+    if (cpu.at >= cpu.end) [[unlikely]]           \
+      goto elsewhere;                             \
+    const unsigned next = *Core::byte_at(cpu.at); \
+    RACEBEAM_FOLLOWERS(FOLLOWER)                  \
+    goto* kHandlers[next];                        \
   } while (false)
 
 elsewhere:

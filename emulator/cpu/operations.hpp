@@ -36,13 +36,17 @@ RACEBEAM_INLINE void take_decimal(Core& cpu, Byte m, DecimalResult result) {
 }
 
 RACEBEAM_INLINE void adc(Core& cpu, Byte m) {
-  if (cpu.D) [[unlikely]] take_decimal(cpu, m, add_decimal(cpu.A, m, cpu.C));
-  else add_binary(cpu, m);
+  if (cpu.D) [[unlikely]]
+    take_decimal(cpu, m, add_decimal(cpu.A, m, cpu.C));
+  else
+    add_binary(cpu, m);
 }
 
 RACEBEAM_INLINE void sbc(Core& cpu, Byte m) {
-  if (cpu.D) [[unlikely]] take_decimal(cpu, m, subtract_decimal(cpu.A, m, cpu.C));
-  else add_binary(cpu, byte(~m));
+  if (cpu.D) [[unlikely]]
+    take_decimal(cpu, m, subtract_decimal(cpu.A, m, cpu.C));
+  else
+    add_binary(cpu, byte(~m));
 }
 
 RACEBEAM_INLINE void compare(Core& cpu, Byte reg, Byte m) {
@@ -94,7 +98,9 @@ RACEBEAM_INLINE void las(Core& cpu, Byte m) { cpu.set_nz(cpu.A = cpu.X = cpu.SP 
 
 // Write: the argument is the effective address, for the four that store a part of it. Returns the byte to
 // store.
-RACEBEAM_INLINE Byte high_plus_one(Address address) { return byte((address >> 8) + 1 > 0xFF ? 0 : (address >> 8) + 1); }
+RACEBEAM_INLINE Byte high_plus_one(Address address) {
+  return byte((address >> 8) + 1 > 0xFF ? 0 : (address >> 8) + 1);
+}
 RACEBEAM_INLINE Byte sta(Core& cpu, Address) { return cpu.A; }
 RACEBEAM_INLINE Byte stx(Core& cpu, Address) { return cpu.X; }
 RACEBEAM_INLINE Byte sty(Core& cpu, Address) { return cpu.Y; }

@@ -4,7 +4,13 @@ namespace racebeam {
 namespace {
 
 enum : std::uint8_t {  // opcodes
-  kBpl = 0x10, kBmi = 0x30, kBne = 0xD0, kBitAbsolute = 0x2C, kLdyAbsolute = 0xAC, kLdaAbsolute = 0xAD, kLdxAbsolute = 0xAE
+  kBpl = 0x10,
+  kBmi = 0x30,
+  kBne = 0xD0,
+  kBitAbsolute = 0x2C,
+  kLdyAbsolute = 0xAC,
+  kLdaAbsolute = 0xAD,
+  kLdxAbsolute = 0xAE
 };
 
 enum class TimerRegister { kNone, kIntim, kInstat };

@@ -56,14 +56,14 @@ enum class CosmicShape : std::uint8_t { kNormal, kStretched, kHidden };
 struct TiaRegisters {
   std::array<std::uint8_t, 4> color{};  // COLUP0 COLUP1 COLUPF COLUBK
   std::uint8_t ctrlpf = 0;
-  std::uint8_t reflect = 0;             // latch of CTRLPF bit 0
-  std::array<std::uint8_t, 3> pf{};     // PF0 PF1 PF2
+  std::uint8_t reflect = 0;          // latch of CTRLPF bit 0
+  std::array<std::uint8_t, 3> pf{};  // PF0 PF1 PF2
   std::array<PlayerState, 2> player{};
   std::array<MissileState, 2> missile{};
   BallState ball;
-  std::uint8_t vblank = 0;         // VBLANK bit 1
-  std::uint8_t comb_armed = 0;     // the next line start is blanked by an HMOVE
-  std::uint8_t cosmic = 0;         // missile 0 moves by itself (docs/spec/tia.md, "Cosmic Ark mode")
+  std::uint8_t vblank = 0;      // VBLANK bit 1
+  std::uint8_t comb_armed = 0;  // the next line start is blanked by an HMOVE
+  std::uint8_t cosmic = 0;      // missile 0 moves by itself (docs/spec/tia.md, "Cosmic Ark mode")
   std::uint8_t cosmic_count = 0;
   CosmicShape cosmic_shape = CosmicShape::kNormal;
   std::uint8_t enabled = 0;  // enabled_objects(), kept up to date
@@ -92,11 +92,11 @@ struct FrameState {
   std::uint8_t open = 0;                    // the last step ended without closing its frame
   std::uint8_t greyed = 0;                  // and its undrawn rows have been greyed
   std::uint8_t spare = 0;
-  std::uint32_t cartridge_clock = 0;        // cycle of the last access to a cartridge with a clock (DPC)
+  std::uint32_t cartridge_clock = 0;  // cycle of the last access to a cartridge with a clock (DPC)
 };
 
 struct CartridgeState {
-  std::array<std::uint8_t, 8> bank{};   // what each window shows, as the scheme defines it
+  std::array<std::uint8_t, 8> bank{};  // what each window shows, as the scheme defines it
   // on-board RAM, or registers; larger RAM is beside the state (cartridge.hpp)
   alignas(4) std::array<std::uint8_t, 256> ram{};
 };
@@ -105,8 +105,8 @@ struct CartridgeState {
 constexpr std::int32_t kEndlessCycle = 1 << 29;
 
 struct State {
-  std::int32_t cycle = 0;    // T: CPU cycles since the frame started
-  std::uint32_t drawn = 0;   // draws taken from the power-on generator
+  std::int32_t cycle = 0;   // T: CPU cycles since the frame started
+  std::uint32_t drawn = 0;  // draws taken from the power-on generator
   CpuState cpu;
   RiotState riot;
   TiaState tia;

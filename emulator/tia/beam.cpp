@@ -14,13 +14,21 @@ bool writes_groups(unsigned enabled, std::uint8_t ctrlpf) {
   constexpr unsigned p0 = 1U << kP0, p1 = 1U << kP1, m0 = 1U << kM0, m1 = 1U << kM1, bl = 1U << kBall,
                      pf = 1U << kPlayfield;
   switch (enabled) {
-    case pf: case p0: case p1: case p0 | p1: case m0: case m1: case bl:
-    case m0 | m1: case bl | m0: case bl | m1: case bl | p1:
-      return true;
-    case pf | p0: case pf | p1: case pf | bl:
-      return (ctrlpf & 2) == 0;
-    default:
-      return false;
+    case pf:
+    case p0:
+    case p1:
+    case p0 | p1:
+    case m0:
+    case m1:
+    case bl:
+    case m0 | m1:
+    case bl | m0:
+    case bl | m1:
+    case bl | p1: return true;
+    case pf | p0:
+    case pf | p1:
+    case pf | bl: return (ctrlpf & 2) == 0;
+    default: return false;
   }
 }
 
@@ -34,7 +42,8 @@ PixelMask shapes(const TiaState& tia, const Line& line) {
 
 }  // namespace
 
-Beam::Beam(TiaState& state, const Video& video) : tia_(state), video_(video), draw_pixels_(pixel_drawer(simd())) {}
+Beam::Beam(TiaState& state, const Video& video)
+    : tia_(state), video_(video), draw_pixels_(pixel_drawer(simd())) {}
 
 void Beam::find_window() {
   start_ = tia_.origin + kLineClocks * video_.ystart;
@@ -101,7 +110,8 @@ void Beam::draw_beyond(std::int32_t clock) {
 // 80 % more instructions a frame.
 RACEBEAM_INLINE std::uint8_t* Beam::row_of(int first) {
   const auto rows = reinterpret_cast<std::uintptr_t>(picture_->pixels().data());
-  return reinterpret_cast<std::uint8_t*>(rows + static_cast<std::uintptr_t>(tia_.pixel) - static_cast<std::uintptr_t>(first));
+  return reinterpret_cast<std::uint8_t*>(rows + static_cast<std::uintptr_t>(tia_.pixel) -
+                                         static_cast<std::uintptr_t>(first));
 }
 
 // The common case: from the cursor to a visible clock on the same line.
@@ -134,7 +144,8 @@ void Beam::pass_to(std::int32_t clock) {
   if (clock < start() || tia_.cursor >= clock) return;
   const auto pass = [this](std::int32_t clocks) {
     const int first = kLineClocks - tia_.left, last = first + clocks;
-    if (first < kCombEnd && last >= kCombEnd && is_since_hmove(tia_.cursor + kCombEnd - first)) tia_.comb_armed = 0;
+    if (first < kCombEnd && last >= kCombEnd && is_since_hmove(tia_.cursor + kCombEnd - first))
+      tia_.comb_armed = 0;
     tia_.pixel += std::max(last, kBlankClocks) - std::max(first, kBlankClocks);
     tia_.cursor += clocks;
     tia_.left -= clocks;
@@ -208,7 +219,8 @@ bool Beam::end_picture(std::int32_t begin) {
   const int line_clock = kLineClocks - tia_.left, last = line_clock - kBlankClocks;
   const std::int32_t first_visible = tia_.cursor - line_clock + kBlankClocks;
   const int first = std::max(begin, first_visible) - first_visible;
-  if (last > first && !tia_.vblank && draws_pixels()) spill(picture_->pixels().data() + tia_.pixel - last, first, last);
+  if (last > first && !tia_.vblank && draws_pixels())
+    spill(picture_->pixels().data() + tia_.pixel - last, first, last);
   return true;
 }
 
@@ -224,7 +236,8 @@ void Beam::blank_comb(std::uint8_t* row, int first, int last) {
 void Beam::blank_comb(std::uint8_t* row, int begin, int end, int first, int last) {
   int blank_to = first + kCombEnd - begin;
   if (!exact_spans()) blank_to = std::min(blank_to, last);
-  if (blank_to > first && draws_pixels()) std::memset(row + first, 0, static_cast<std::size_t>(blank_to - first));
+  if (blank_to > first && draws_pixels())
+    std::memset(row + first, 0, static_cast<std::size_t>(blank_to - first));
   if (end >= kCombEnd) tia_.comb_armed = 0;
 }
 
@@ -242,8 +255,8 @@ void Beam::act_on_line_end() {
 // Missile 0 keeps moving 17 clocks a line, in a pattern of four (docs/spec/tia.md, 9).
 void Beam::advance_cosmic() {
   static constexpr std::uint8_t kStep[4] = {18, 33, 0, 17};
-  static constexpr CosmicShape kShape[4] = {CosmicShape::kNormal, CosmicShape::kStretched, CosmicShape::kHidden,
-                                            CosmicShape::kNormal};
+  static constexpr CosmicShape kShape[4] = {CosmicShape::kNormal, CosmicShape::kStretched,
+                                            CosmicShape::kHidden, CosmicShape::kNormal};
   tia_.cosmic_count = (tia_.cosmic_count + 1) & 3;
   std::uint8_t& position = tia_.missile[0].position;
   position = static_cast<std::uint8_t>((position + kLinePixels - kStep[tia_.cosmic_count]) % kLinePixels);

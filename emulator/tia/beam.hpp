@@ -27,8 +27,8 @@ enum class RenderMode : std::uint8_t {
 
 // The geometry of a console's picture; constant once its format is known.
 struct Video {
-  int ystart = 34;           // first line drawn
-  int height = 210;          // lines drawn
+  int ystart = 34;   // first line drawn
+  int height = 210;  // lines drawn
   bool hmove_blanks = true;
   bool pal = false;  // loses its colour on odd line counts, and may have more lines
 };
@@ -68,7 +68,6 @@ class Beam {
   // objects: those whose registers have changed (bit n: Object n).
   void changed(std::uint8_t objects) { stale_ |= objects; }
 
-
   // The registers are about to change, without calls of changed().
   void lose_track() {
     if (!lost_track_) line_.shown = tia_.registers();
@@ -82,7 +81,7 @@ class Beam {
   // Draws what the reference writes beyond the last span, which began at `begin` or before. Returns false if
   // that cannot be known.
   bool end_picture(std::int32_t begin);
-  void finish_line();                                       // draws the rest of the line and processes its end
+  void finish_line();          // draws the rest of the line and processes its end
   void pass_lines(int count);  // skips lines that are drawn already, and whose ends have been processed
   int lines_to_end() const { return (end() - 1 - tia_.cursor) / kLineClocks; }  // without the last
   std::size_t row() const { return static_cast<std::size_t>(tia_.pixel) / kLinePixels; }
@@ -130,7 +129,8 @@ class Beam {
   // Most writes are in the blank of a line, where there is nothing to draw.
   RACEBEAM_INLINE bool pass_blank(std::int32_t clock) {
     const std::int32_t clocks = clock - tia_.cursor;
-    if (clocks > tia_.left - kLinePixels || tia_.cursor < start_ || tia_.cursor >= end_ || exact_spans()) return false;
+    if (clocks > tia_.left - kLinePixels || tia_.cursor < start_ || tia_.cursor >= end_ || exact_spans())
+      return false;
     tia_.cursor = clock;
     tia_.left -= clocks;
     return true;
@@ -139,7 +139,8 @@ class Beam {
   bool passes_none(std::int32_t clock, const PlayfieldPart& part) {
     if (exact_spans() || tia_.cursor < start_ || clock > line_end() || clock > end_) return false;
     const int first = kLinePixels - tia_.left, last = first + clock - tia_.cursor;
-    const bool left = first < part.left_end && last > part.left, right = first < part.right_end && last > part.right;
+    const bool left = first < part.left_end && last > part.left,
+               right = first < part.right_end && last > part.right;
     if (left || right) return false;
     // If it was enabled, its position matters.
     if (tia_.enabled & object_bit(kPlayfield)) seen_ |= object_bit(kPlayfield);

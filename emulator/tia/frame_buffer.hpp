@@ -28,7 +28,9 @@ class FrameBuffer {
  public:
   // All rows, one after the other: those of the window, and those that a reset may have shifted it down by
   // (docs/spec/tia.md, 2).
-  std::span<std::uint8_t> pixels() { return {reinterpret_cast<std::uint8_t*>(rows_.data()), sizeof(Row) * rows()}; }
+  std::span<std::uint8_t> pixels() {
+    return {reinterpret_cast<std::uint8_t*>(rows_.data()), sizeof(Row) * rows()};
+  }
   std::span<const std::uint8_t> pixels() const {
     return {reinterpret_cast<const std::uint8_t*>(rows_.data()), sizeof(Row) * rows()};
   }

@@ -89,7 +89,8 @@ class RegisterEffects {
 
 template <class Painter>
 template <class T>
-RACEBEAM_INLINE bool RegisterEffects<Painter>::assign(T& reg, T value, std::int32_t clock, std::uint8_t objects) {
+RACEBEAM_INLINE bool RegisterEffects<Painter>::assign(T& reg, T value, std::int32_t clock,
+                                                      std::uint8_t objects) {
   if (painter_.looks() && reg == value) {
     painter_.reach(clock);
     return false;
@@ -101,7 +102,8 @@ RACEBEAM_INLINE bool RegisterEffects<Painter>::assign(T& reg, T value, std::int3
 }
 
 template <class Painter>
-void RegisterEffects<Painter>::play(const std::uint32_t* first, const std::uint32_t* last, std::int32_t base) {
+void RegisterEffects<Painter>::play(const std::uint32_t* first, const std::uint32_t* last,
+                                    std::int32_t base) {
   for (const std::uint32_t* entry = first; entry != last; ++entry) {
     const TiaWrite write(*entry);
     play(write, base + write.cycle());
@@ -157,12 +159,14 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t
 }
 
 template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_color(unsigned which, std::uint8_t value, std::int32_t clock) {
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_color(unsigned which, std::uint8_t value,
+                                                           std::int32_t clock) {
   assign(tia_.color[which], static_cast<std::uint8_t>((value & 0xFE) | color_loss()), clock, kNoObject);
 }
 
 template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_nusiz(unsigned which, std::uint8_t value, std::int32_t clock) {
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_nusiz(unsigned which, std::uint8_t value,
+                                                           std::int32_t clock) {
   PlayerState& player = tia_.player[which];
   const bool reselects = player.skip || (which == 0 && tia_.cosmic);
   value &= 0x37;
@@ -176,12 +180,15 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_nusiz(unsigned which, std::
 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, std::int32_t clock) {
-  const bool latches = line_cycle(clock / 3) < 49;  // later, the playfield turns round at the end of the line only
+  const bool latches =
+      line_cycle(clock / 3) < 49;  // later, the playfield turns round at the end of the line only
   const std::uint8_t reflect = latches ? value & 1 : tia_.reflect;
   value &= 0x37;
   if (painter_.looks() && tia_.ctrlpf == value && tia_.reflect == reflect) return painter_.reach(clock);
-  if (latches) painter_.draw_to(clock, kBallBit | kPlayfieldBit);
-  else painter_.come_to(clock);
+  if (latches)
+    painter_.draw_to(clock, kBallBit | kPlayfieldBit);
+  else
+    painter_.come_to(clock);
   // Drawing may have passed a line's end, and with it the latch.
   tia_.reflect = latches ? value & 1 : tia_.reflect;
   tia_.ctrlpf = value;
@@ -189,7 +196,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, 
 }
 
 template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, std::uint8_t value, std::int32_t cycle) {
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, std::uint8_t value,
+                                                               std::int32_t cycle) {
   static constexpr std::array<std::uint8_t, 4> kDelay = {4, 5, 2, 3};  // until the next block of four pixels
   static_assert(kLineCycles % 4 == 0 && std::ranges::max(kDelay) == kRegisters[PF0].delay);
   const std::int32_t clock = 3 * cycle + kDelay[static_cast<std::size_t>(cycle - first_cycle_) % 4];
@@ -206,7 +214,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, s
 
 // Writing one player's graphics moves the other's into the register that VDELPx shows.
 template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, std::uint8_t value, std::int32_t clock) {
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, std::uint8_t value,
+                                                              std::int32_t clock) {
   PlayerState& written = tia_.player[which];
   PlayerState& other = tia_.player[1 - which];
   std::uint8_t objects = kBallBit | object(kP0, 0) | object(kP0, 1);
@@ -216,8 +225,10 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, st
     if (other.vdel && other.old_grp != other.grp) objects |= object(kP0, 1 - which);
     if (which == 1 && tia_.ball.vdel && tia_.ball.old_enabled != tia_.ball.enabled) objects |= kBallBit;
   }
-  if (objects != 0) painter_.draw_to(clock, objects);
-  else painter_.reach(clock);
+  if (objects != 0)
+    painter_.draw_to(clock, objects);
+  else
+    painter_.reach(clock);
   written.grp = value;
   other.old_grp = other.grp;
   if (which == 1) tia_.ball.old_enabled = tia_.ball.enabled;
@@ -226,7 +237,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, st
 }
 
 template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_vdel(unsigned which, std::uint8_t value, std::int32_t clock) {
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_vdel(unsigned which, std::uint8_t value,
+                                                          std::int32_t clock) {
   assign(tia_.player[which].vdel, value, clock, object(kP0, which));
   control(object(kP0, which));
 }
@@ -249,7 +261,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, 
 
 // Unlocking a missile leaves it in the middle of its player.
 template <class Painter>
-RACEBEAM_INLINE void RegisterEffects<Painter>::write_resmp(unsigned which, std::uint8_t value, std::int32_t clock) {
+RACEBEAM_INLINE void RegisterEffects<Painter>::write_resmp(unsigned which, std::uint8_t value,
+                                                           std::int32_t clock) {
   MissileState& missile = tia_.missile[which];
   const bool unlocks = missile.locked && !value;
   const bool changed = assign(missile.locked, value, clock, object(kM0, which));
@@ -264,7 +277,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_resmp(unsigned which, std::
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_hmm0(std::uint8_t motion, std::int32_t clock) {
   MissileState& missile = tia_.missile[0];
-  const bool enters = static_cast<std::uint32_t>(clock) == tia_.hmove_clock + 63 && missile.motion == 7 && motion == 6;
+  const bool enters =
+      static_cast<std::uint32_t>(clock) == tia_.hmove_clock + 63 && missile.motion == 7 && motion == 6;
   if (enters) {
     painter_.come_to(clock);
     tia_.cosmic = 1;
@@ -283,7 +297,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::show_cosmic_normally() {
 }
 
 template <class Painter>
-RACEBEAM_INLINE std::uint8_t RegisterEffects<Painter>::strobe_position(std::int32_t clock, int in_blank, int delay) const {
+RACEBEAM_INLINE std::uint8_t RegisterEffects<Painter>::strobe_position(std::int32_t clock, int in_blank,
+                                                                       int delay) const {
   const int h = 3 * line_cycle(clock / 3);
   return static_cast<std::uint8_t>(h < kBlankClocks ? in_blank : (h - kBlankClocks + delay) % kLinePixels);
 }
@@ -324,8 +339,13 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_missile(unsigned which, st
 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_ball(std::int32_t clock) {
-  struct Exception { std::uint32_t since; int h; std::uint8_t position; };
-  static constexpr Exception kExceptions[] = {{54, 60, 10}, {54, 69, 10}, {9, 18, 3}, {21, 30, 6}, {18, 27, 5}};
+  struct Exception {
+    std::uint32_t since;
+    int h;
+    std::uint8_t position;
+  };
+  static constexpr Exception kExceptions[] = {
+      {54, 60, 10}, {54, 69, 10}, {9, 18, 3}, {21, 30, 6}, {18, 27, 5}};
   painter_.draw_to(clock, kBallBit);
   const std::uint32_t since = static_cast<std::uint32_t>(clock) - tia_.hmove_clock;
   const int h = 3 * line_cycle(clock / 3);
@@ -340,8 +360,10 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(std::int32_t cycle) 
   const std::int32_t clock = 3 * cycle;
   const int x = line_cycle(cycle);
   const bool arms = video_.hmove_blanks && (x == 75 || x <= 20);
-  if (arms) painter_.draw_to(clock, kAllObjects);
-  else painter_.come_to(clock);
+  if (arms)
+    painter_.draw_to(clock, kAllObjects);
+  else
+    painter_.come_to(clock);
   const auto& movement = kMovement[static_cast<std::size_t>(x)];
   const auto move = [&](std::uint8_t& position, std::uint8_t motion, std::uint8_t objects) {
     if (movement[motion] == 0) return;

@@ -58,12 +58,16 @@ struct TrackPolicy {
     reach(clock);
     if (watches && (objects & sought) != 0) beam.draw_to(reached);
   }
-  RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart&) const { draw_to(clock, object_bit(kPlayfield)); }
+  RACEBEAM_INLINE void draw_before(std::int32_t clock, const PlayfieldPart&) const {
+    draw_to(clock, object_bit(kPlayfield));
+  }
   RACEBEAM_INLINE bool minds(unsigned objects) const { return (sought & objects) != 0; }
   RACEBEAM_INLINE void come_to(std::int32_t clock) const {
     reach(clock);
-    if (watches) beam.draw_to(reached);
-    else beam.pass_to(reached);
+    if (watches)
+      beam.draw_to(reached);
+    else
+      beam.pass_to(reached);
   }
   RACEBEAM_INLINE void changed(std::uint8_t objects) const { beam.changed(objects); }
   RACEBEAM_INLINE void enabled() const {

@@ -19,9 +19,9 @@ struct Sound {
   std::array<std::uint8_t, 6> registers{};
 
   struct Channel {
-    std::uint8_t divider = 0;   // ticks since the shift registers were clocked
-    std::uint8_t poly4 = 1;     // A in docs/spec/audio.md
-    std::uint8_t poly5 = 1;     // B in docs/spec/audio.md
+    std::uint8_t divider = 0;  // ticks since the shift registers were clocked
+    std::uint8_t poly4 = 1;    // A in docs/spec/audio.md
+    std::uint8_t poly5 = 1;    // B in docs/spec/audio.md
   };
   std::array<Channel, 2> channel{};
 

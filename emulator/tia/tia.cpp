@@ -16,7 +16,8 @@ constexpr std::uint32_t kLineOfWrites = TiaWrite(kLineCycles, 0, 0).packed();
 constexpr std::array<std::uint32_t, 8> kFirstOfFour = {~0U, ~0U, ~0U, ~0U, 0, 0, 0, 0};
 
 // Whether the next writes are those of the record. origin: the line's first cycle, as in a write of the log.
-RACEBEAM_INLINE bool meets_the_same(const std::uint32_t* entry, std::uint32_t origin, const LineRecord& record) {
+RACEBEAM_INLINE bool meets_the_same(const std::uint32_t* entry, std::uint32_t origin,
+                                    const LineRecord& record) {
   FourWords difference{};
   int left = record.count;
   for (const std::uint32_t* event = record.event.data(); left > 0; event += 4, entry += 4, left -= 4) {
@@ -30,8 +31,8 @@ RACEBEAM_INLINE bool meets_the_same(const std::uint32_t* entry, std::uint32_t or
 enum class Likeness { kOther, kBegins, kLooks, kIsSame };
 
 // How far a line that starts with `registers` and has the writes from `entry` on equals a recorded one.
-RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::uint32_t* entry, std::uint32_t origin,
-                                 const LineRecord& record) {
+RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::uint32_t* entry,
+                                 std::uint32_t origin, const LineRecord& record) {
   const bool same = record.mask != nullptr && record.starts_with(registers);
   if (!same && !record.looks_like(registers)) return Likeness::kOther;
   const LineWrite next(entry[record.count], origin);
@@ -41,10 +42,12 @@ RACEBEAM_INLINE Likeness compare(const RegisterVectors& registers, const std::ui
 }
 
 // Whether the writes from `entry` to `end` are the beginning of the record's.
-bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::uint32_t origin, const LineRecord& record) {
+bool begins_the_same(const std::uint32_t* entry, const std::uint32_t* end, std::uint32_t origin,
+                     const LineRecord& record) {
   const auto count = static_cast<std::size_t>(end - entry);
   if (count > record.count) return false;
-  return std::equal(entry, end, record.event.begin(), [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
+  return std::equal(entry, end, record.event.begin(),
+                    [=](std::uint32_t a, std::uint32_t b) { return a - origin == b; });
 }
 
 // Instructions of the host, as counted in some games.
@@ -116,8 +119,10 @@ void Tia::find_collisions(std::int32_t cycle, Collisions asked) {
 }
 
 void Tia::touch(std::int32_t cycle) {
-  if (beam_.draws_pixels()) RenderPolicy{beam_, reached_}.come_to(3 * cycle);
-  else TrackPolicy{beam_, tia_, reached_, watches_}.come_to(3 * cycle);
+  if (beam_.draws_pixels())
+    RenderPolicy{beam_, reached_}.come_to(3 * cycle);
+  else
+    TrackPolicy{beam_, tia_, reached_, watches_}.come_to(3 * cycle);
 }
 
 bool Tia::end_picture(std::int32_t cycle) {
@@ -201,14 +206,15 @@ bool Tia::recall_lines(std::uint32_t& origin, Collisions asked) {
     const Likeness likeness = compare(registers, played_, origin, *record);
     if (likeness < Likeness::kLooks || (*shown != record->number && !beam_.can_copy(shown, record->number))) {
       const bool can_meet = (record->meetings & asked) != 0 || (record->view.seen & kClears) != 0;
-      enough = record->number != kNoLine && likeness == Likeness::kBegins && asked != kWholePicture && !can_meet &&
-               begins_the_same(played_, log_->next, origin, *record);
+      enough = record->number != kNoLine && likeness == Likeness::kBegins && asked != kWholePicture &&
+               !can_meet && begins_the_same(played_, log_->next, origin, *record);
       break;
     }
     const std::uint32_t* next = played_ + record->count;
     if (likeness == Likeness::kIsSame) {
       record->pass(registers);
-      if (record->view.seen & kMoves) tia_.hmove_clock = static_cast<std::uint32_t>(cursor + 3 * record->hmove_cycle);
+      if (record->view.seen & kMoves)
+        tia_.hmove_clock = static_cast<std::uint32_t>(cursor + 3 * record->hmove_cycle);
       if (record->view.seen & kClears) beam_.clear_collisions();
     } else {
       beam_.lose_track();
@@ -281,7 +287,8 @@ void Tia::grey(FrameBuffer& picture, std::int32_t cycle) const {
   const int line = (3 * cycle - tia_.origin) / kLineClocks;
   const int first = std::clamp(line - video_.ystart, 0, video_.height);
   const auto window = picture.pixels().first(static_cast<std::size_t>(video_.height * kLinePixels));
-  for (std::uint8_t& pixel : window.subspan(static_cast<std::size_t>(first * kLinePixels))) pixel = (pixel & 15) >> 1;
+  for (std::uint8_t& pixel : window.subspan(static_cast<std::size_t>(first * kLinePixels)))
+    pixel = (pixel & 15) >> 1;
   picture.forget_lines();
 }
 

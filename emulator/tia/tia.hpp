@@ -23,12 +23,12 @@ class Tia {
   void begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& log, RenderMode mode,
                   Collisions sought);
   void play_log(std::int32_t cycle) { play_log(cycle, kWholePicture); }  // all that was written up to `cycle`
-  void empty_log(std::int32_t cycle);    // the same, and empties the log, whose cycles then count from `cycle`
-  void touch(std::int32_t cycle);  // an access that changes no register: draws up to it
-  void catch_up(std::int32_t cycle);  // plays all writes, and draws up to `cycle`
+  void empty_log(std::int32_t cycle);  // the same, and empties the log, whose cycles then count from `cycle`
+  void touch(std::int32_t cycle);      // an access that changes no register: draws up to it
+  void catch_up(std::int32_t cycle);   // plays all writes, and draws up to `cycle`
   void find_collisions(std::int32_t cycle, Collisions asked);  // computes these latches as of `cycle`
-  Collisions asked() const { return asked_; }  // latches that have been read in this step
-  bool cleared() const { return beam_.cleared(); }  // whether all latches have been, in this step
+  Collisions asked() const { return asked_; }                  // latches that have been read in this step
+  bool cleared() const { return beam_.cleared(); }             // whether all latches have been, in this step
   // Of this step: an estimate of the host's instructions.
   std::uint32_t work() const { return work_ + 250 * beam_.spans(); }
   bool drew_all() const { return tia_.cursor >= beam_.end(); }  // whether the window is complete

@@ -6,7 +6,8 @@ namespace racebeam::translator {
 
 Layout::Layout(Board& board) {
   const auto at = [&board](const auto& member) {
-    return static_cast<std::int32_t>(reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&board));
+    return static_cast<std::int32_t>(reinterpret_cast<const char*>(&member) -
+                                     reinterpret_cast<const char*>(&board));
   };
   const State& state = board.state;
   ram = at(state.riot.ram);

@@ -50,7 +50,9 @@ class Assembler : public Xbyak::CodeGenerator {
   using CodeGenerator::word;
   Xbyak::Address byte_of(std::int32_t place) { return byte[rbx + place]; }
   Xbyak::Address dword_of(std::int32_t place) { return dword[rbx + place]; }
-  Xbyak::Address ram(unsigned zero_page) { return byte[rbx + layout.ram + static_cast<int>(zero_page & 0x7F)]; }
+  Xbyak::Address ram(unsigned zero_page) {
+    return byte[rbx + layout.ram + static_cast<int>(zero_page & 0x7F)];
+  }
 };
 
 // A flag in eax when translated code ends: the interpreter must execute the instruction at PC. The low 16

@@ -31,7 +31,8 @@ class Discovery {
     for (std::size_t next = 0; next < pending_.size(); ++next) scan(pending_[next]);
     std::erase_if(leaders_, [this](const auto& leader) { return !seen_[leader.first]; });
     std::vector<Block> blocks;
-    for (auto leader = leaders_.begin(); leader != leaders_.end(); ++leader) blocks.push_back(block_at(*leader));
+    for (auto leader = leaders_.begin(); leader != leaders_.end(); ++leader)
+      blocks.push_back(block_at(*leader));
     return blocks;
   }
 

@@ -29,7 +29,8 @@ void BlockEmitter::emit() {
 // the limit.
 void BlockEmitter::check_limit() {
   bool matters = block_.is_loop_head;
-  for (const Instruction& instruction : block_.instructions) matters = matters || may_write_device(instruction);
+  for (const Instruction& instruction : block_.instructions)
+    matters = matters || may_write_device(instruction);
   if (!matters) return;
   Xbyak::Label reached;
   as_.cmp(as_.ebp, as_.dword_of(as_.layout.limit));
@@ -90,7 +91,8 @@ void BlockEmitter::exit_before(const Instruction& instruction) {
 
 // Emits code at `label`, out of line: the interpreter executes the instruction. exit: what is known at the
 // jump to `label`.
-void BlockEmitter::exit_out_of_line(Xbyak::Label label, const Instruction& instruction, const ExitState& exit) {
+void BlockEmitter::exit_out_of_line(Xbyak::Label label, const Instruction& instruction,
+                                    const ExitState& exit) {
   cold([this, instruction, exit, label]() mutable {
     as_.L(label);
     settle(exit);
@@ -140,8 +142,10 @@ void BlockEmitter::emit_branch(const Instruction& instruction) {
       case NzHome::kX: as_.test(as_.r13b, as_.r13b); break;
       case NzHome::kY: as_.test(as_.r14b, as_.r14b); break;
       case NzHome::kNumber:
-        if (only_zero) as_.test(as_.r8b, as_.r8b);
-        else as_.test(as_.r8d, 0x8080);
+        if (only_zero)
+          as_.test(as_.r8b, as_.r8b);
+        else
+          as_.test(as_.r8d, 0x8080);
         return;
     }
     host_nz_ = true;
@@ -153,31 +157,55 @@ void BlockEmitter::emit_branch(const Instruction& instruction) {
   switch (instruction.operation) {
     case Operation::bpl:
       test_nz(false);
-      if (number) as_.jz(taken, kNear), clobber();
-      else as_.jns(taken, kNear);
+      if (number)
+        as_.jz(taken, kNear), clobber();
+      else
+        as_.jns(taken, kNear);
       break;
     case Operation::bmi:
       test_nz(false);
-      if (number) as_.jnz(taken, kNear), clobber();
-      else as_.js(taken, kNear);
+      if (number)
+        as_.jnz(taken, kNear), clobber();
+      else
+        as_.js(taken, kNear);
       break;
-    case Operation::bne: test_nz(true); as_.jnz(taken, kNear); if (number) clobber(); break;
-    case Operation::beq: test_nz(true); as_.jz(taken, kNear); if (number) clobber(); break;
-    case Operation::bvc: test_byte(as_.layout.overflow); as_.je(taken, kNear); clobber(); break;
-    case Operation::bvs: test_byte(as_.layout.overflow); as_.jne(taken, kNear); clobber(); break;
+    case Operation::bne:
+      test_nz(true);
+      as_.jnz(taken, kNear);
+      if (number) clobber();
+      break;
+    case Operation::beq:
+      test_nz(true);
+      as_.jz(taken, kNear);
+      if (number) clobber();
+      break;
+    case Operation::bvc:
+      test_byte(as_.layout.overflow);
+      as_.je(taken, kNear);
+      clobber();
+      break;
+    case Operation::bvs:
+      test_byte(as_.layout.overflow);
+      as_.jne(taken, kNear);
+      clobber();
+      break;
     default: {
       const bool if_set = instruction.operation == Operation::bcs;
       if (carry_ != CarryHome::kNumber) {
         if ((carry_ == CarryHome::kSet) != if_set) return;  // never taken
         as_.jmp(taken, kNear);
       } else if (host_carry_ != HostCarry::kUnknown) {
-        if ((host_carry_ == HostCarry::kSame) == if_set) as_.jc(taken, kNear);
-        else as_.jnc(taken, kNear);
+        if ((host_carry_ == HostCarry::kSame) == if_set)
+          as_.jc(taken, kNear);
+        else
+          as_.jnc(taken, kNear);
       } else {
         as_.test(as_.r9b, as_.r9b);
         clobber();
-        if (if_set) as_.jnz(taken, kNear);
-        else as_.jz(taken, kNear);
+        if (if_set)
+          as_.jnz(taken, kNear);
+        else
+          as_.jz(taken, kNear);
       }
       break;
     }
@@ -192,7 +220,8 @@ void BlockEmitter::emit_branch(const Instruction& instruction) {
     if (static_cast<std::int8_t>(instruction.operand) == kTimerLoopOffset && as_.covers(read) &&
         is_timer_loop(as_.window.code.memory + as_.offset_of(instruction.pc))) {
       constexpr int kLoadCycles = 4, kBranchCycles = 2;
-      call_skip_timer_loop(as_, as_.window.code.memory + as_.offset_of(instruction.pc), kLoadCycles + kBranchCycles + penalty);
+      call_skip_timer_loop(as_, as_.window.code.memory + as_.offset_of(instruction.pc),
+                           kLoadCycles + kBranchCycles + penalty);
     }
     jump_to(instruction.target());
   });
@@ -205,8 +234,10 @@ void BlockEmitter::emit_jump(const Instruction& instruction) {
   const bool known = can_jump_to(instruction.target());
   if (known) elapsed_ += instruction.cycles;
   settle(exit_state());
-  if (known) jump_to(instruction.target());
-  else exit_before(instruction);
+  if (known)
+    jump_to(instruction.target());
+  else
+    exit_before(instruction);
 }
 
 // Whether execution may continue at `target` without the interpreter. Code on the cartridge does not depend

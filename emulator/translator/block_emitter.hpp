@@ -115,7 +115,7 @@ class BlockEmitter {
   Assembler& as_;
   const Block& block_;
   std::vector<std::function<void()>> cold_;
-  int elapsed_ = 0;       // cycles that are not in ebp yet
+  int elapsed_ = 0;  // cycles that are not in ebp yet
   NzHome nz_ = NzHome::kNumber;
   CarryHome carry_ = CarryHome::kNumber;
   HostCarry host_carry_ = HostCarry::kUnknown;

@@ -38,7 +38,8 @@ BlockEmitter::Value BlockEmitter::read_fixed(const Instruction& instruction) {
   }
   if (!is_cartridge(address)) {
     as_.mov(as_.eax, address);
-    as_.mov(as_.ecx, instruction.length == 3 ? high_byte(address) : address);  // the last byte on the data bus was the operand's
+    as_.mov(as_.ecx, instruction.length == 3 ? high_byte(address)
+                                             : address);  // the last byte on the data bus was the operand's
     read_device(instruction, exit_state());
     return {Value::Kind::kEax};
   }
@@ -190,7 +191,8 @@ void BlockEmitter::add_penalty(const Instruction& instruction, Reg32 index) {
 void BlockEmitter::remove_penalty(const Instruction& instruction) {
   const int low = instruction.operand & 0xFF;
   switch (instruction.mode) {
-    case Mode::absolute_x: case Mode::absolute_y:
+    case Mode::absolute_x:
+    case Mode::absolute_y:
       if (low == 0) return;
       as_.cmp(instruction.mode == Mode::absolute_x ? as_.r13b : as_.r14b, 256 - low);
       as_.adc(as_.ebp, -1);
@@ -209,6 +211,8 @@ void BlockEmitter::load_rom() {
   rom_loaded_ = true;
 }
 
-void BlockEmitter::load_rom_again() { as_.mov(as_.r10, reinterpret_cast<std::uintptr_t>(as_.window.code.memory)); }
+void BlockEmitter::load_rom_again() {
+  as_.mov(as_.r10, reinterpret_cast<std::uintptr_t>(as_.window.code.memory));
+}
 
 }  // namespace racebeam::translator

@@ -47,8 +47,10 @@ void BlockEmitter::into_al(const Value& value) {
 // Moves the carry to the host's: as it is for adc, inverted (a borrow) for sbb.
 void BlockEmitter::carry_to_host(bool inverted) {
   if (carry_ != CarryHome::kNumber) {
-    if ((carry_ == CarryHome::kSet) != inverted) as_.stc();
-    else as_.clc();
+    if ((carry_ == CarryHome::kSet) != inverted)
+      as_.stc();
+    else
+      as_.clc();
   } else if (inverted) {
     as_.cmp(as_.r9d, 1);
   } else {
@@ -58,8 +60,10 @@ void BlockEmitter::carry_to_host(bool inverted) {
 
 void BlockEmitter::carry_from_host(bool inverted, Flags live) {
   if (live.c) {
-    if (inverted) as_.setnc(as_.r9b);
-    else as_.setc(as_.r9b);
+    if (inverted)
+      as_.setnc(as_.r9b);
+    else
+      as_.setc(as_.r9b);
   }
   carry_ = CarryHome::kNumber;
   host_carry_ = inverted ? HostCarry::kInverted : HostCarry::kSame;
@@ -72,8 +76,10 @@ void BlockEmitter::add(const Instruction& instruction, Value value, Flags live) 
   as_.jne(decimal, kNear);
   carry_to_host(subtracts);
   const auto apply = [&](const auto& operand) {
-    if (subtracts) as_.sbb(as_.r12b, operand);
-    else as_.adc(as_.r12b, operand);
+    if (subtracts)
+      as_.sbb(as_.r12b, operand);
+    else
+      as_.adc(as_.r12b, operand);
   };
   switch (value.kind) {
     case Value::Kind::kConstant: apply(static_cast<std::uint32_t>(value.constant)); break;
@@ -141,8 +147,10 @@ void BlockEmitter::implied(const Instruction& instruction, Flags) {
     made_nz(home, false);
   };
   const auto step = [this](Reg8 reg, bool up, NzHome home) {
-    if (up) as_.inc(reg);
-    else as_.dec(reg);
+    if (up)
+      as_.inc(reg);
+    else
+      as_.dec(reg);
     made_nz(home, true);  // INC and DEC preserve the host's carry
   };
   // clang-format off
@@ -268,15 +276,20 @@ void BlockEmitter::modify(const Instruction& instruction, Flags live) {
   }
   const bool counts = instruction.operation == Operation::inc || instruction.operation == Operation::dec;
   if (counts && !live.nz) {
-    if (instruction.operation == Operation::inc) as_.inc(as_.byte[place]);
-    else as_.dec(as_.byte[place]);
+    if (instruction.operation == Operation::inc)
+      as_.inc(as_.byte[place]);
+    else
+      as_.dec(as_.byte[place]);
     made_nz(NzHome::kNumber, true);
     return;
   }
   as_.movzx(as_.eax, as_.byte[place]);
-  if (instruction.operation == Operation::inc) as_.inc(as_.al);
-  else if (instruction.operation == Operation::dec) as_.dec(as_.al);
-  else shift(instruction.operation, as_.al, live);
+  if (instruction.operation == Operation::inc)
+    as_.inc(as_.al);
+  else if (instruction.operation == Operation::dec)
+    as_.dec(as_.al);
+  else
+    shift(instruction.operation, as_.al, live);
   as_.mov(as_.byte[place], as_.al);
   if (live.nz) as_.mov(as_.r8d, as_.eax);
   const bool rotates = instruction.operation == Operation::rol || instruction.operation == Operation::ror;
@@ -288,8 +301,14 @@ void BlockEmitter::shift(Operation operation, const Xbyak::Operand& operand, Fla
   switch (operation) {
     case Operation::asl: as_.shl(reg, 1); break;
     case Operation::lsr: as_.shr(reg, 1); break;
-    case Operation::rol: carry_to_host(false); as_.rcl(reg, 1); break;
-    default: carry_to_host(false); as_.rcr(reg, 1); break;
+    case Operation::rol:
+      carry_to_host(false);
+      as_.rcl(reg, 1);
+      break;
+    default:
+      carry_to_host(false);
+      as_.rcr(reg, 1);
+      break;
   }
   carry_from_host(false, live);
 }

@@ -43,7 +43,8 @@ void BlockEmitter::write_fixed(const Instruction& instruction, Reg32 value) {
     return;
   }
   const unsigned reg = address & 0x3F;
-  if (is_tia(address) && (as_.window.plain_registers >> reg & 1) != 0) return write_register(instruction, reg, value);
+  if (is_tia(address) && (as_.window.plain_registers >> reg & 1) != 0)
+    return write_register(instruction, reg, value);
   const bool is_free = is_tia(address) && !as_.window.cartridge_watches();
   if (is_free && reg == WSYNC) return write_wsync(instruction);
   if (is_free && reg == HMCLR) return write_hmclr(instruction, value);
@@ -69,7 +70,8 @@ void BlockEmitter::write_sound(const Instruction& instruction, unsigned reg, Reg
 void BlockEmitter::write_hmclr(const Instruction& instruction, Reg32 value) {
   static_assert(HMP1 == HMP0 + 1 && HMM0 == HMP0 + 2 && HMM1 == HMP0 + 3 && HMBL == HMP0 + 4);
   constexpr int kFirst = offsetof(WriteLog, written) + 2 * HMP0;
-  for (const int at : {0, 4}) as_.mov(as_.dword[as_.r15 + (kFirst + at)], WriteLog::kUnknown << 16 | WriteLog::kUnknown);
+  for (const int at : {0, 4})
+    as_.mov(as_.dword[as_.r15 + (kFirst + at)], WriteLog::kUnknown << 16 | WriteLog::kUnknown);
   as_.mov(as_.word[as_.r15 + (kFirst + 8)], WriteLog::kUnknown);
   append(instruction, HMCLR, value);
   clobbered_flags();

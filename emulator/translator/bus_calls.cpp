@@ -41,7 +41,8 @@ std::uint32_t decimal(std::uint32_t a, std::uint32_t m, std::uint32_t carry, boo
   return overflow << 16 | unsigned{result.carry} << 8 | result.value;
 }
 
-std::int32_t skip_timer_loop(Board* board, const std::uint8_t* branch, std::int32_t cycle, std::int32_t period) {
+std::int32_t skip_timer_loop(Board* board, const std::uint8_t* branch, std::int32_t cycle,
+                             std::int32_t period) {
   const std::int32_t skipped = period * sure_timer_turns(branch, board->state.riot, cycle + 4, period);
   board->translated.waited += skipped;
   return cycle + skipped;

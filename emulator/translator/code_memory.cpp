@@ -19,7 +19,8 @@ std::size_t whole_pages(std::size_t size) {
 }  // namespace
 
 CodeMemory::CodeMemory(std::size_t size) : size_(whole_pages(size)) {
-  void* memory = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void* memory =
+      mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (memory == MAP_FAILED) refuse("cannot allocate memory for translated code");
   base_ = static_cast<char*>(memory);
   open_ = size_;
@@ -29,7 +30,8 @@ CodeMemory::~CodeMemory() { munmap(base_, size_); }
 
 void CodeMemory::seal(std::size_t size) {
   size = whole_pages(size);
-  if (mprotect(base_ + used_, size, PROT_READ | PROT_EXEC) != 0) refuse("the system refuses executable memory");
+  if (mprotect(base_ + used_, size, PROT_READ | PROT_EXEC) != 0)
+    refuse("the system refuses executable memory");
   used_ += size;
 }
 

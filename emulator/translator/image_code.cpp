@@ -24,7 +24,8 @@ std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom, const Wiring& wiring) {
   std::erase_if(all, [](const auto& one) { return one.expired(); });
   for (const auto& one : all) {
     const auto code = one.lock();
-    if (code && !code->is_full() && code->wiring_ == wiring && std::ranges::equal(code->rom_, rom)) return code;
+    if (code && !code->is_full() && code->wiring_ == wiring && std::ranges::equal(code->rom_, rom))
+      return code;
   }
   auto code = std::make_shared<ImageCode>(rom, wiring, code_capacity);
   all.push_back(code);
@@ -40,7 +41,8 @@ View* ImageCode::view(const CodeWindow& window, const Rom& rom, bool make) {
   const auto rom_offset = static_cast<std::size_t>(window.memory - rom.data());
   const std::lock_guard lock(mutex_);
   std::unique_ptr<View>& view = views_[{rom_offset, window.first, window.span}];
-  if (view == nullptr && make) view = std::make_unique<View>(CodeWindow{rom_.data() + rom_offset, window.first, window.span});
+  if (view == nullptr && make)
+    view = std::make_unique<View>(CodeWindow{rom_.data() + rom_offset, window.first, window.span});
   return view.get();
 }
 

@@ -26,8 +26,9 @@ struct View {
   explicit View(const CodeWindow& window)
       : code(window), entries(window.span), profitability(window.span), known(window.span) {}
 
-  const CodeWindow code;                     // in the ImageCode's copy of the image
-  std::vector<const void*> entries;          // by offset: the code of the block that starts there; read by other threads
+  const CodeWindow code;  // in the ImageCode's copy of the image
+  std::vector<const void*>
+      entries;  // by offset: the code of the block that starts there; read by other threads
   std::vector<Profitability> profitability;  // by offset: of the block that starts there
   std::vector<bool> known;                   // by offset: whether a block starts there; guarded by the lock
 

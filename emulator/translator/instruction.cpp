@@ -26,7 +26,13 @@ Instruction decode(const std::uint8_t* bytes, std::uint16_t pc) {
   const OpcodeRow& row = kRows[bytes[0]];
   const std::uint8_t length = row.operation == Operation::jsr ? 3 : kOpcodes[bytes[0]].length;
   const unsigned low = length > 1 ? bytes[1] : 0U, high = length > 2 ? bytes[2] : 0U;
-  return {pc, row.operation, row.mode, row.access, length, row.cycles, static_cast<std::uint16_t>(low | high << 8)};
+  return {pc,
+          row.operation,
+          row.mode,
+          row.access,
+          length,
+          row.cycles,
+          static_cast<std::uint16_t>(low | high << 8)};
 }
 
 bool is_translatable(const Instruction& instruction) {

@@ -7,12 +7,18 @@ namespace {
 
 bool sets_carry(Operation operation) {
   switch (operation) {
-    case Operation::adc: case Operation::sbc: case Operation::cmp: case Operation::cpx: case Operation::cpy:
-    case Operation::asl: case Operation::lsr: case Operation::rol: case Operation::ror: case Operation::clc:
-    case Operation::sec:
-      return true;
-    default:
-      return false;
+    case Operation::adc:
+    case Operation::sbc:
+    case Operation::cmp:
+    case Operation::cpx:
+    case Operation::cpy:
+    case Operation::asl:
+    case Operation::lsr:
+    case Operation::rol:
+    case Operation::ror:
+    case Operation::clc:
+    case Operation::sec: return true;
+    default: return false;
   }
 }
 
@@ -24,10 +30,17 @@ bool sets_overflow(Operation operation) {
 // All documented instructions set N and Z except these.
 bool sets_nz(const Instruction& instruction) {
   switch (instruction.operation) {
-    case Operation::clc: case Operation::cld: case Operation::cli: case Operation::clv: case Operation::sec:
-    case Operation::sed: case Operation::sei: case Operation::nop: case Operation::pha: case Operation::php:
-    case Operation::txs:
-      return false;
+    case Operation::clc:
+    case Operation::cld:
+    case Operation::cli:
+    case Operation::clv:
+    case Operation::sec:
+    case Operation::sed:
+    case Operation::sei:
+    case Operation::nop:
+    case Operation::pha:
+    case Operation::php:
+    case Operation::txs: return false;
     default:
       return instruction.access != Access::Write && instruction.access != Access::Branch &&
              instruction.access != Access::Jump;
@@ -45,7 +58,8 @@ bool may_switch_banks(const Instruction& instruction, const Window& window) {
   if (instruction.access != Access::Read && instruction.access != Access::Modify) return false;
   if (window.cartridge_watches()) return true;
   const auto in_window = [&](unsigned count) {
-    return is_cartridge(instruction.operand) && ((instruction.operand - window.code.first) & 0x3FFFU) + count <= window.code.span;
+    return is_cartridge(instruction.operand) &&
+           ((instruction.operand - window.code.first) & 0x3FFFU) + count <= window.code.span;
   };
   // clang-format off
   switch (instruction.mode) {

@@ -19,7 +19,8 @@ class Profitability {
   void record(std::int32_t cycles) {
     const std::uint8_t losses = losses_.load(std::memory_order_relaxed);
     if (cycles < kBreakEvenCycles) {
-      if (losses < kMostLosses) losses_.store(static_cast<std::uint8_t>(losses + 1), std::memory_order_relaxed);
+      if (losses < kMostLosses)
+        losses_.store(static_cast<std::uint8_t>(losses + 1), std::memory_order_relaxed);
     } else if (losses != 0) {
       losses_.store(0, std::memory_order_relaxed);
     }
@@ -27,7 +28,9 @@ class Profitability {
 
   // How many instructions the block has, plus the one that it leaves to the interpreter.
   std::int32_t length() const { return length_.load(std::memory_order_relaxed); }
-  void set_length(std::size_t length) { length_.store(static_cast<std::uint8_t>(length), std::memory_order_relaxed); }
+  void set_length(std::size_t length) {
+    length_.store(static_cast<std::uint8_t>(length), std::memory_order_relaxed);
+  }
 
  private:
   static constexpr std::uint8_t kMostLosses = 4;  // unprofitable entries in a row

@@ -22,7 +22,9 @@ class TranslationBudget {
   // Called around each step of the machine. While the budget is full, the counter is not read.
   void begin_step() { began_ = is_full() ? 0 : ticks(), spent_ = 0; }
   void end_step() {
-    if (began_ != 0) balance_ = std::min(balance_ + std::min(ticks() - began_ - spent_, kLongestStep) * kPercent / 100, kCapacity);
+    if (began_ != 0)
+      balance_ =
+          std::min(balance_ + std::min(ticks() - began_ - spent_, kLongestStep) * kPercent / 100, kCapacity);
   }
 
   // Charges the time from its construction to its destruction.

@@ -133,7 +133,8 @@ bool Translator::Impl::has_code(Board& board) {
   if (is_useful || !budget.covers_batch()) return code != nullptr;
   const translator::TranslationBudget::Charge charge(budget);
   try {
-    code = translator::ImageCode::of(board.slot.rom, {board.plain_registers(), board.slot.scheme.port_reader});
+    code =
+        translator::ImageCode::of(board.slot.rom, {board.plain_registers(), board.slot.scheme.port_reader});
     views = {};
   } catch (const std::system_error&) {
     // The system has no memory for code now. A later step tries again.
@@ -143,7 +144,8 @@ bool Translator::Impl::has_code(Board& board) {
 
 translator::View* Translator::Impl::current_view(Board& board) {
   const std::uint16_t pc = board.state.cpu.PC;
-  if (static_cast<std::uint16_t>(pc - board.code.first) >= board.code.span && !board.find_code(pc)) return nullptr;
+  if (static_cast<std::uint16_t>(pc - board.code.first) >= board.code.span && !board.find_code(pc))
+    return nullptr;
   const std::uintptr_t place = reinterpret_cast<std::uintptr_t>(board.code.memory) / MemoryMap::kPageSize;
   CachedView& cached = views[(place ^ board.code.first / 1024U) % views.size()];
   if (cached.view == nullptr || !same(cached.window, board.code)) {
@@ -159,7 +161,8 @@ Translator::Impl::Entry Translator::Impl::find_entry(Board& board) {
   if (view == nullptr) return {};
   const std::uint16_t pc = board.state.cpu.PC;
   if (!translator::contains(view->code, pc)) return {};
-  translator::Profitability* const profitability = &view->profitability[static_cast<std::uint16_t>(pc - view->code.first)];
+  translator::Profitability* const profitability =
+      &view->profitability[static_cast<std::uint16_t>(pc - view->code.first)];
   if (const void* known = view->entry(pc)) return {known, profitability};
   if (code->is_full() || !budget.covers_batch()) return {};
   const translator::TranslationBudget::Charge charge(budget);
@@ -178,7 +181,8 @@ bool Translator::Impl::enter(Board& board, const void* start) {
 
 // Runs translated code from `entry` on. Returns how many instructions the interpreter must execute next.
 std::int32_t Translator::Impl::run_block(Board& board, const Entry& entry) {
-  if (!budget.is_unlimited() && entry.profitability->is_unprofitable()) return interpreted_run.next(entry.profitability->length());
+  if (!budget.is_unlimited() && entry.profitability->is_unprofitable())
+    return interpreted_run.next(entry.profitability->length());
   const std::int32_t before = board.state.cycle - board.translated.waited;
   const bool interpret_next = enter(board, entry.start);
   const std::int32_t cycles = board.state.cycle - board.translated.waited - before;
@@ -196,7 +200,8 @@ std::unique_ptr<Translator> Translator::make(Board& board, CpuKind kind) {
     if (kind == CpuKind::kAuto) return nullptr;
     throw std::system_error(std::make_error_code(std::errc::permission_denied), executable_memory_error());
   }
-  return std::unique_ptr<Translator>(new Translator(std::make_unique<Impl>(board, kind == CpuKind::kTranslator)));
+  return std::unique_ptr<Translator>(
+      new Translator(std::make_unique<Impl>(board, kind == CpuKind::kTranslator)));
 }
 
 bool Translator::run(Board& board, std::int32_t instructions) {
@@ -223,10 +228,13 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
       return board.stop || board.state.cpu.jammed || first_cycle >= limit;
     }
     const Impl::Entry entry = impl_->find_entry(board);
-    const std::int32_t run = entry.start != nullptr ? impl_->run_block(board, entry) : impl_->interpreted_run.next(1);
+    const std::int32_t run =
+        entry.start != nullptr ? impl_->run_block(board, entry) : impl_->interpreted_run.next(1);
     if (run == 0 || board.stop) continue;
-    if (run < kShortRun || left < run + kRunSlack) interpret(board, std::min(run, left));
-    else interpret(board, run + kRunSlack, run);
+    if (run < kShortRun || left < run + kRunSlack)
+      interpret(board, std::min(run, left));
+    else
+      interpret(board, run + kRunSlack, run);
   }
   return true;
 }

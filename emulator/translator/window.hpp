@@ -9,7 +9,7 @@ namespace racebeam::translator {
 
 // How the cartridge is wired: the same for all boards with one cartridge scheme.
 struct Wiring {
-  std::uint64_t plain_registers;                        // TIA registers whose writes only go to the write log, a bit each
+  std::uint64_t plain_registers;  // TIA registers whose writes only go to the write log, a bit each
   PortReader (*port_reader_at)(std::uint16_t address);  // of the scheme
 
   bool operator==(const Wiring&) const = default;

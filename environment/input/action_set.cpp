@@ -14,7 +14,8 @@ const std::vector<int>& actions_of(ActionSet set, const Game& game) {
 
 Act act_of(float radius, float angle, float fire, float threshold) {
   // Rows: down, neither, up; columns: left, neither, right. Without FIRE, and with it.
-  constexpr int kActionOf[2][3][3] = {{{9, 5, 8}, {4, 0, 3}, {7, 2, 6}}, {{17, 13, 16}, {12, 1, 11}, {15, 10, 14}}};
+  constexpr int kActionOf[2][3][3] = {{{9, 5, 8}, {4, 0, 3}, {7, 2, 6}},
+                                      {{17, 13, 16}, {12, 1, 11}, {15, 10, 14}}};
   const float x = radius * std::cos(angle), y = radius * std::sin(angle);
   const auto part = [threshold](float value) { return value > threshold ? 2 : value < -threshold ? 0 : 1; };
   return {.a = kActionOf[fire > threshold][part(y)][part(x)], .strength_a = radius};

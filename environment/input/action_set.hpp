@@ -11,9 +11,9 @@ enum class ActionSet { kFull, kLegal, kMinimal };
 
 const std::vector<int>& actions_of(ActionSet set, const Game& game);  // player A's numbers, ascending
 
-// A joystick that is turned and tilted: `radius` 0 to 1, `angle` in radians, 0 to the right; FIRE where `fire`
-// is above the threshold. Its direction is the one of 9 whose components are above the threshold, and the radius is the
-// strength of a paddle (docs/spec/environment.md, 15).
+// A joystick that is turned and tilted: `radius` 0 to 1, `angle` in radians, 0 to the right; FIRE where
+// `fire` is above the threshold. Its direction is the one of 9 whose components are above the threshold, and
+// the radius is the strength of a paddle (docs/spec/environment.md, 15).
 Act act_of(float radius, float angle, float fire, float threshold);
 
 }  // namespace racebeam

@@ -11,7 +11,8 @@ namespace racebeam {
 
 class Noops {
  public:
-  Noops(std::uint32_t seed, int max) : random_(seed), choices_(static_cast<std::uint32_t>(std::max(max, 1))) {}
+  Noops(std::uint32_t seed, int max)
+      : random_(seed), choices_(static_cast<std::uint32_t>(std::max(max, 1))) {}
 
   // Draws from 0 to max - 1, without bias, by rejection. Returns 0 if max is not positive.
   int draw() {

@@ -38,9 +38,10 @@ void check(int width, int height, int to_width, int to_height) {
     return;
   }
   throw std::invalid_argument("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                              " can't be made " + std::to_string(to_width) + " x " + std::to_string(to_height) +
-                              "; it can shrink, to a width of at most " + std::to_string(AreaResize::kWidest) +
-                              " and to one " + std::to_string(kMostShrinking) + "th of its height");
+                              " can't be made " + std::to_string(to_width) + " x " +
+                              std::to_string(to_height) + "; it can shrink, to a width of at most " +
+                              std::to_string(AreaResize::kWidest) + " and to one " +
+                              std::to_string(kMostShrinking) + "th of its height");
 }
 
 }  // namespace
@@ -156,9 +157,8 @@ void AreaResize::run_plain(const std::uint8_t* in, std::uint8_t* out) const {
 #if RACEBEAM_HAS_AVX
 [[gnu::target("avx2")]] void AreaResize::reduce_avx2(const std::uint8_t* row, float* to) const {
   for (const Octet& octet : octets_) {
-    const __m256i cells =
-        _mm256_loadu2_m128i(reinterpret_cast<const __m128i*>(row + octet.from[1]),
-                            reinterpret_cast<const __m128i*>(row + octet.from[0]));
+    const __m256i cells = _mm256_loadu2_m128i(reinterpret_cast<const __m128i*>(row + octet.from[1]),
+                                              reinterpret_cast<const __m128i*>(row + octet.from[0]));
     __m256 sum = _mm256_setzero_ps();
     for (std::size_t tap = 0; tap < octet.places.size(); ++tap) {
       const __m256i places = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(octet.places[tap].data()));

@@ -28,7 +28,8 @@ template <std::size_t pictures>
 void make_rows(const std::array<const std::uint8_t*, pictures>& in, const BrightnessTable& table,
                std::span<std::uint8_t> plane) {
   const auto same_as_above = [&in](std::size_t at) {
-    return std::ranges::all_of(in, [at](const std::uint8_t* picture) { return same_row(picture + at, picture + at - kRow); });
+    return std::ranges::all_of(
+        in, [at](const std::uint8_t* picture) { return same_row(picture + at, picture + at - kRow); });
   };
   const auto brightest = [&](std::size_t at) {
     std::uint8_t most = table[in[0][at]];
@@ -95,7 +96,8 @@ const AreaResize& screen_resize(int height, int to_width, int to_height) {
   static std::mutex mutex;
   static std::map<std::tuple<int, int, int>, AreaResize> all;
   const std::lock_guard lock(mutex);
-  return all.try_emplace({height, to_width, to_height}, kScreenWidth, height, to_width, to_height).first->second;
+  return all.try_emplace({height, to_width, to_height}, kScreenWidth, height, to_width, to_height)
+      .first->second;
 }
 
 }  // namespace racebeam

@@ -1,5 +1,5 @@
-// Pictures of palette indices as planes of brightness, alone or the brighter of two, and the tables that make a
-// plane smaller (docs/spec/environment.md, 15).
+// Pictures of palette indices as planes of brightness, alone or the brighter of two, and the tables that make
+// a plane smaller (docs/spec/environment.md, 15).
 #pragma once
 
 #include <array>

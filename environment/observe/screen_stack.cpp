@@ -14,8 +14,7 @@ int checked(int size, int least, int most, const std::string& what) {
   if (size == 0) return most;
   if (size >= least && size <= most) return size;
   throw InvalidInput("the " + what + " of an observation is " + std::to_string(size) + "; it takes " +
-                     std::to_string(least) + " to " + std::to_string(most) +
-                     ", or 0 for the screen's own");
+                     std::to_string(least) + " to " + std::to_string(most) + ", or 0 for the screen's own");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Screens as learning agents take them: small, grey or in colour, the brighter of two frames, several in a stack
-// (docs/spec/environment.md, 15; the figures of OpenCV's INTER_AREA).
+// Screens as learning agents take them: small, grey or in colour, the brighter of two frames, several in a
+// stack (docs/spec/environment.md, 15; the figures of OpenCV's INTER_AREA).
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace racebeam {
 constexpr int kSmallSide = 84;
 
 struct StackSettings {
-  int depth = 4;  // screens; 0: none are made
+  int depth = 4;                                // screens; 0: none are made
   int width = kSmallSide, height = kSmallSide;  // of each, at most the machine's; 0: the machine's
   bool rgb = false;  // red, green and blue of each pixel, in this order, instead of one grey
 
@@ -50,14 +50,16 @@ class ScreenStack {
   void set_bytes(std::span<const std::uint8_t> bytes);  // as bytes() gave them
 
  private:
-  std::span<std::uint8_t> newest() { return std::span(screens_).subspan(newest_ * screen_size_, screen_size_); }
+  std::span<std::uint8_t> newest() {
+    return std::span(screens_).subspan(newest_ * screen_size_, screen_size_);
+  }
   std::span<std::uint8_t> plane(std::size_t channel) {
     return std::span(seen_).subspan(channel * plane_size_, plane_size_);
   }
   void reduce(std::size_t channel, std::span<std::uint8_t> to);
 
   int depth_;
-  const AreaResize* resize_;  // null: screens stay as they are
+  const AreaResize* resize_;                 // null: screens stay as they are
   std::span<const BrightnessTable> tables_;  // one a channel
   std::size_t plane_size_, screen_size_;
   std::vector<std::uint8_t> seen_;     // planes, one after the other

@@ -2,7 +2,6 @@
 // (docs/spec/classic-protocol.md, 6, rules 1 and 2).
 #pragma once
 
-
 #include "emulator/base/mersenne_twister.hpp"
 #include "emulator/state/power_on.hpp"
 

@@ -31,7 +31,7 @@ struct ResetStart {
   PaddleLimits limits;
   std::int32_t mode = 0, difficulty = 0;
   std::array<std::uint8_t, 6> sound{};  // registers
-  State machine;  // after the system reset
+  State machine;                        // after the system reset
 
   std::uint64_t hash() const;
   bool operator==(const ResetStart& other) const;

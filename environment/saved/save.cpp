@@ -32,11 +32,11 @@ std::string Identity::game_name() const { return text_of(game); }
 void check_identity(const Identity& saved, const Identity& running) {
   if (saved.md5 != running.md5) {
     throw InvalidInput("the state is of the image with MD5 " + saved.md5_text() +
-                                "; the one that runs has MD5 " + running.md5_text());
+                       "; the one that runs has MD5 " + running.md5_text());
   }
   if (saved.game != running.game) {
     throw InvalidInput("the state is of the game " + saved.game_name() + "; the one that runs is " +
-                                running.game_name());
+                       running.game_name());
   }
 }
 

@@ -15,6 +15,7 @@ void check_tally(const Tally& tally, const Game& game);
 void check_sound(const Sound& sound);
 
 // Checks the generator's words, and the position in them.
-void check_generator(std::span<const std::uint32_t, MersenneTwister::state_size> words, std::uint32_t position);
+void check_generator(std::span<const std::uint32_t, MersenneTwister::state_size> words,
+                     std::uint32_t position);
 
 }  // namespace racebeam

@@ -36,7 +36,8 @@ struct Prefix {
 
   std::size_t picture_size() const { return static_cast<std::size_t>(height) * kScreenWidth; }
   std::size_t size_of_rest() const {
-    return sizeof(Values) + cartridge_ram + 2 * picture_size() + (has_random != 0 ? sizeof(GeneratorWords) : 0);
+    return sizeof(Values) + cartridge_ram + 2 * picture_size() +
+           (has_random != 0 ? sizeof(GeneratorWords) : 0);
   }
 };
 
@@ -100,7 +101,8 @@ void check(const Prefix& prefix, std::size_t size, const Environment& environmen
     refuse("the state's pictures have " + std::to_string(prefix.height) +
            " rows; those of the console that runs have " + std::to_string(environment.height()));
   }
-  if (prefix.has_random > 1 || size != prefix.size_of_rest()) refuse("the state's size contradicts its header");
+  if (prefix.has_random > 1 || size != prefix.size_of_rest())
+    refuse("the state's size contradicts its header");
 }
 
 void append_pixels(std::vector<std::uint8_t>& bytes, const FrameBuffer& picture, std::size_t size) {

@@ -46,8 +46,8 @@ class Branching {
   BranchEnd end_;
 };
 
-// All at once: ends[i] is what sequences[i] led to; there are as many of both. Afterwards, and after a throw, the
-// environment is as it was.
+// All at once: ends[i] is what sequences[i] led to; there are as many of both. Afterwards, and after a throw,
+// the environment is as it was.
 void branch(Environment& environment, const Environment::Saved& root,
             std::span<const std::vector<Act>> sequences, std::span<BranchEnd> ends);
 

@@ -16,8 +16,8 @@ void refuse_unless(bool good, const std::string& sentence) {
 const SlotSettings& checked(const SlotSettings& settings) {
   if (settings.steps == Steps::kActs) return settings;
   const Settings& machine = settings.machine;
-  refuse_unless(machine.frame_skip >= 1, "a step has " + std::to_string(machine.frame_skip) +
-                                             " frames; it must have 1 or more");
+  refuse_unless(machine.frame_skip >= 1,
+                "a step has " + std::to_string(machine.frame_skip) + " frames; it must have 1 or more");
   refuse_unless(machine.frame_skip_max <= machine.frame_skip, "a step of frames has a fixed number of them");
   refuse_unless(!machine.truncate_on_life_loss, "a step of frames knows lost lives by life_loss alone");
   refuse_unless(!machine.color_averaging, "a step of frames has no colour averaging; it takes max_pool");
@@ -137,8 +137,8 @@ void Slot::run_frames(const Act& act) {
   if (stack_) look_at_end_of_step(left);
 }
 
-// The reference looks at the last frame but one and at the last, and not any more once the episode is over, so
-// that what it saw before takes their place. left: of the step's frames, with the one that was just run.
+// The reference looks at the last frame but one and at the last, and not any more once the episode is over,
+// so that what it saw before takes their place. left: of the step's frames, with the one that was just run.
 void Slot::look_at_end_of_step(int left) {
   if (!progress_.finished) return show(pools());
   if (left == 1 && pools()) stack_->look_at_previous(environment_);

@@ -1,5 +1,5 @@
-// One machine of a vector environment: its steps, its episodes, and the stack of screens that its agent sees. With
-// the defaults it plays as the reference's vector environment does (docs/spec/environment.md, 15).
+// One machine of a vector environment: its steps, its episodes, and the stack of screens that its agent sees.
+// With the defaults it plays as the reference's vector environment does (docs/spec/environment.md, 15).
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,8 @@ struct SlotSettings {
   // Frames, limits of rewards and of an episode's frames are those of a step. With Steps::kFrames,
   // frame_skip_max, truncate_on_life_loss and color_averaging must not be set, and no-ops at the start don't
   // count as frames of the episode.
-  Settings machine{.frame_skip = 4, .sticky = 0, .max_episode_frames = 108000, .reward_min = -1, .reward_max = 1};
+  Settings machine{
+      .frame_skip = 4, .sticky = 0, .max_episode_frames = 108000, .reward_min = -1, .reward_max = 1};
   std::optional<int> mode, difficulty;  // the game's defaults if not given
   ActionSet action_set = ActionSet::kMinimal;
 
@@ -57,7 +58,8 @@ struct SlotSettings {
   bool fire_at_reset = true;  // and with FIRE, if it is in the action set
   LifeLoss life_loss = LifeLoss::kIgnored;
   StackStart stack_start = StackStart::kZeros;
-  bool max_pool = true;  // screens of the stack are of the brighter of a step's last two frames, pixel by pixel
+  bool max_pool =
+      true;  // screens of the stack are of the brighter of a step's last two frames, pixel by pixel
 };
 
 // What acts led to: those of a step, or of a request.
@@ -87,20 +89,23 @@ class Slot {
 
   void begin_request();      // sums begin at 0
   void act(const Act& act);  // one step
-  // Begins an episode: after a life that was lost, with LifeLoss::kEnds, the next one; else a new game. With a
-  // seed, the machine is powered on anew with it, and so is the generator of no-ops. Throws InvalidInput, and what
-  // the pace throws; the slot is then as it was.
+  // Begins an episode: after a life that was lost, with LifeLoss::kEnds, the next one; else a new game. With
+  // a seed, the machine is powered on anew with it, and so is the generator of no-ops. Throws InvalidInput,
+  // and what the pace throws; the slot is then as it was.
   void reset(std::optional<std::uint32_t> seed = std::nullopt);
 
   bool finished() const;  // the episode: a step does nothing more
   const Outcome& outcome() const { return outcome_; }
   void set_outcome(const Outcome& outcome) { outcome_ = outcome; }
-  std::int64_t reset_frames() const { return reset_frames_; }  // of the longest reset so far, told by the pace
+  std::int64_t reset_frames() const {
+    return reset_frames_;
+  }  // of the longest reset so far, told by the pace
 
   // Screens that will be looked at beside the stack: it changes nothing but the speed.
   void set_drawing(Drawing drawing);
 
-  // A stack of screens from now on, beginning with what is there; without settings, none. Throws InvalidInput.
+  // A stack of screens from now on, beginning with what is there; without settings, none. Throws
+  // InvalidInput.
   void set_stack(const std::optional<StackSettings>& settings);
   const ScreenStack* stack() const { return stack_ ? &*stack_ : nullptr; }
   // Whether what is there would be seen as the brighter of two frames.
@@ -114,7 +119,7 @@ class Slot {
     bool finished = false;  // Steps::kFrames: the episode
     bool goes_on = false;   // finished by a lost life alone: the next episode goes on with the game
     bool terminated = false, truncated = false;  // Steps::kFrames: how the last step ended
-    bool blends = false;    // the last step ran two frames or more
+    bool blends = false;                         // the last step ran two frames or more
   };
 
  public:

@@ -71,7 +71,8 @@ void Slot::begin_episode() {
   if (pace_ != nullptr) reset_frames_ = std::max(reset_frames_, pace_->frames() - frames_before);
 }
 
-// The game goes on. No-ops stay where the model has them: EnvPool draws them anew, Stable-Baselines3 waits for a step.
+// The game goes on. No-ops stay where the model has them: EnvPool draws them anew, Stable-Baselines3 waits
+// for a step.
 void Slot::begin_life() {
   const int elapsed = progress_.elapsed, frames = environment_.episode_frame_number();
   const bool fire = has_fire();
@@ -106,7 +107,8 @@ void Slot::begin_stack(bool goes_on) {
   if (settings_.stack_start == StackStart::kRepeats && !keeps) stack_->repeat();
 }
 
-// Of the frames before an episode, the last is drawn if it is looked at. Acts are drawn as their client has chosen.
+// Of the frames before an episode, the last is drawn if it is looked at. Acts are drawn as their client has
+// chosen.
 void Slot::draw_nothing() {
   if (settings_.steps == Steps::kFrames) environment_.set_drawing(Drawing::kNone);
 }

@@ -159,7 +159,9 @@ void ThreadPool::help(std::size_t own) {
   }
 }
 
-ThreadPool::Queue::Queue(ThreadPool& pool, Task task) : pool_(pool), task_(std::move(task)) { pool_.add(*this); }
+ThreadPool::Queue::Queue(ThreadPool& pool, Task task) : pool_(pool), task_(std::move(task)) {
+  pool_.add(*this);
+}
 
 ThreadPool::Queue::~Queue() {
   {

@@ -43,8 +43,8 @@ class ThreadPool {
 
   // Runs task(0) ... task(count - 1) and returns when all are done. Every thread begins with a share of its
   // own, the same for the same count, so that what a task uses stays in one processor's cache. A thread that
-  // has finished helps the others. From any thread, also from several at once. Callers count among the threads
-  // that work: more threads than processors would wait for helpers that wait for a processor.
+  // has finished helps the others. From any thread, also from several at once. Callers count among the
+  // threads that work: more threads than processors would wait for helpers that wait for a processor.
   void run(std::size_t count, const Task& task);
 
   // Tasks that come one by one and are begun in that order. The pool outlives its queues.
@@ -89,7 +89,7 @@ class ThreadPool {
   std::mutex mutex_;
   std::condition_variable job_is_here_, helper_left_;
   std::vector<Job*> jobs_;
-  std::size_t working_ = 0;  // callers and helpers; under mutex_
+  std::size_t working_ = 0;                   // callers and helpers; under mutex_
   std::atomic<std::size_t> jobs_so_far_ = 0;  // counted under mutex_
   bool stopping_ = false;
   std::vector<std::jthread> threads_;

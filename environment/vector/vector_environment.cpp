@@ -28,7 +28,8 @@ VectorEnvironment::VectorEnvironment(std::span<const Cartridge> cartridges, cons
   });
 }
 
-// A failure is kept and not thrown, since tasks run on any thread. What unwinds a suspended task is no std::exception.
+// A failure is kept and not thrown, since tasks run on any thread. What unwinds a suspended task is no
+// std::exception.
 template <typename Task>
 void VectorEnvironment::run(Task task) {
   const auto guarded = [&](std::size_t number) {

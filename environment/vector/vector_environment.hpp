@@ -1,6 +1,6 @@
-// Many machines, of one game or of several, that are stepped together. Where they run, and what becomes of what they
-// show, is left to a VectorHost: a Batch runs them on threads and fills arrays (batch.hpp); the line
-// protocol's `open` runs them in slices of time and writes text (protocol/line/machines.hpp).
+// Many machines, of one game or of several, that are stepped together. Where they run, and what becomes of
+// what they show, is left to a VectorHost: a Batch runs them on threads and fills arrays (batch.hpp); the
+// line protocol's `open` runs them in slices of time and writes text (protocol/line/machines.hpp).
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,9 @@ class VectorHost {
   virtual Pace* pace(std::size_t) { return nullptr; }  // of a machine
 
   // Called from within a machine's task. Each may throw what is to become of the request.
-  virtual void opened(std::size_t number, Slot& slot) = 0;       // it is there
-  virtual void ended(std::size_t number, const Slot& slot) = 0;  // Autoreset::kSameStep: it will be reset at once
+  virtual void opened(std::size_t number, Slot& slot) = 0;  // it is there
+  virtual void ended(std::size_t number,
+                     const Slot& slot) = 0;  // Autoreset::kSameStep: it will be reset at once
   virtual void shown(std::size_t number, const Slot& slot) = 0;  // it has done what was asked
 };
 

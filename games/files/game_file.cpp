@@ -150,8 +150,9 @@ void refuse_useless_keep(const Section& section, const RuleCompiler& compiler) {
 std::optional<int> read_wraps(const Section& section) {
   const std::optional<int> modulus = section.number("wraps");
   if (modulus && *modulus < kLeastModulus)
-    section.refuse(*section.node("wraps"), "wraps",
-                   "must be at least " + std::to_string(kLeastModulus) + ": the number at which the score starts again");
+    section.refuse(
+        *section.node("wraps"), "wraps",
+        "must be at least " + std::to_string(kLeastModulus) + ": the number at which the score starts again");
   return modulus;
 }
 
@@ -190,8 +191,8 @@ Correction read_correction(const Section& section, const toml::table& table) {
   return correction;
 }
 
-void read_fixed(const TomlSource& source, const toml::table& rule, const toml::table& table, const Section* mode,
-                Game& game) {
+void read_fixed(const TomlSource& source, const toml::table& rule, const toml::table& table,
+                const Section* mode, Game& game) {
   const Section section(source, table, "fixed"), merged(source, table, "fixed", &rule);
   section.allow({"wraps", "step", "reset", "keep", "terminal", "lives", "minimal", "reference", "correction",
                  "evidence"});
@@ -216,8 +217,8 @@ Game facts_of_classic(const Section& section, const toml::table& table, Game gam
   return game;
 }
 
-void read_classic(const TomlSource& source, const toml::table& rule, const toml::table& table, const Section* mode,
-                  Game& game) {
+void read_classic(const TomlSource& source, const toml::table& rule, const toml::table& table,
+                  const Section* mode, Game& game) {
   const Section section(source, table, "classic"), merged(source, table, "classic", &rule);
   section.allow({"start", "single_mode", "step", "reset", "keep", "terminal", "lives"});
   Game ruled = game;
@@ -241,7 +242,8 @@ void read_rules(const TomlSource& source, const Section& section, Game& game) {
   if (!rule) return;
   const Section rule_section(source, *rule, "rule");
   rule_section.allow({"step", "reset", "keep", "terminal", "lives", "wraps", "source"});
-  game.rule_source = static_cast<RuleSource>(rule_section.choice("source", {"ale-0.12", "racebeam"}).value_or(0));
+  game.rule_source =
+      static_cast<RuleSource>(rule_section.choice("source", {"ale-0.12", "racebeam"}).value_or(0));
   read_rule(rule_section, source, setup ? &*setup : nullptr, game);
   if (fixed) read_fixed(source, *rule, *fixed, setup ? &*setup : nullptr, game);
   if (classic) read_classic(source, *rule, *classic, setup ? &*setup : nullptr, game);

@@ -8,7 +8,8 @@ namespace racebeam {
 namespace {
 
 // Dumps whose two banks are in the wrong order, whatever their file name (docs/spec/cartridges.md, 1).
-constexpr std::string_view kSwappedImages[] = {"bc24440b59092559a1ec26055fd1270e", "75ee371ccfc4f43e7d9b8f24e1266b55"};
+constexpr std::string_view kSwappedImages[] = {"bc24440b59092559a1ec26055fd1270e",
+                                               "75ee371ccfc4f43e7d9b8f24e1266b55"};
 
 // An entry with the image's own MD5 is preferred to one that fits any image.
 Properties entry_for(const Game& game, const std::string& md5) {

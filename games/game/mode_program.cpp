@@ -59,7 +59,7 @@ class Runner {
 
   [[noreturn]] void give_up(const std::string& why) const {
     throw InvalidInput("mode " + std::to_string(mode_) + " of " + game_.name +
-                                " could not be set up on this image: " + why);
+                       " could not be set up on this image: " + why);
   }
 
   const Game& game_;

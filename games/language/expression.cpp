@@ -46,7 +46,7 @@ constexpr std::array kFunctions = {Function{"if", 3, Op::kSelect}, Function{"min
                                    Function{"u8", 1, Op::kUnsigned8}};
 
 constexpr int kFirstRamAddress = 0x80, kLastRamAddress = 0xFF;
-constexpr int kDeepest = 500;       // levels of operators and parentheses, so that no text can exhaust the stack
+constexpr int kDeepest = 500;  // levels of operators and parentheses, so that no text can exhaust the stack
 constexpr int kMaxSumTerms = 4096;  // of one expression, in total
 
 class Compiler {
@@ -293,7 +293,8 @@ class Compiler {
 
 Register emit_wrapped(ProgramBuilder& out, Register change, std::int32_t modulus) {
   const Register turn = out.constant(modulus), far = out.constant(modulus - modulus / 10);
-  const Register down = out.emit({.op = Op::kLessEqual, .a = change, .b = out.emit({.op = Op::kNegate, .a = far})});
+  const Register down =
+      out.emit({.op = Op::kLessEqual, .a = change, .b = out.emit({.op = Op::kNegate, .a = far})});
   const Register up = out.emit({.op = Op::kGreaterEqual, .a = change, .b = far});
   const Register after_down = out.emit({.op = Op::kAdd, .a = change, .b = turn});
   const Register after_up = out.emit({.op = Op::kSubtract, .a = change, .b = turn});

@@ -11,7 +11,7 @@ namespace racebeam {
 namespace {
 
 constexpr std::array<std::string_view, 19> kReserved = {
-    "ram", "mem", "bcd", "wrap", "prev",  "if",   "min",    "max", "s8",         "u8",
+    "ram", "mem", "bcd",  "wrap",  "prev", "if",     "min", "max",        "s8",  "u8",
     "sum", "rng", "mode", "while", "else", "select", "act", "soft_reset", "fail"};
 
 bool is_name(std::string_view text) {
@@ -30,8 +30,7 @@ VariableNames::VariableNames() {
 }
 
 void VariableNames::declare(std::string_view name) {
-  if (!is_name(name))
-    throw InvalidInput(quoted(name) + " is not a name; a name has letters, digits and _");
+  if (!is_name(name)) throw InvalidInput(quoted(name) + " is not a name; a name has letters, digits and _");
   if (std::find(kReserved.begin(), kReserved.end(), name) != kReserved.end())
     throw InvalidInput(quoted(name) + " is a word of the rule language and cannot name a variable");
   if (!knows(name)) all_[std::string(name)].variable.name = name;
@@ -53,7 +52,7 @@ int VariableNames::slot(std::string_view name) {
   int& place = entry(name).slot;
   if (place < 0 && slots_ == kMaxVariables)
     throw InvalidInput("more than " + std::to_string(kMaxVariables) +
-                                " variables persist from frame to frame");
+                       " variables persist from frame to frame");
   if (place < 0) place = slots_++;
   return place;
 }

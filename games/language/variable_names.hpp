@@ -22,8 +22,7 @@ class VariableNames {
   void keep(std::string_view name);
 
   bool knows(std::string_view name) const { return all_.find(name) != all_.end(); }
-  int slot(std::string_view
-               name);  // of a known name; throws InvalidInput if there are too many
+  int slot(std::string_view name);  // of a known name; throws InvalidInput if there are too many
   std::optional<int> slot_if_used(std::string_view name) const;
   std::vector<Variable> variables() const;  // in order of slots
 

@@ -163,7 +163,7 @@ class RunWriter {
   }
 
   std::string& out_;
-  Open open_, open_above_{}, open_below_{};     // now; at the start and the end of the row that was written last
+  Open open_, open_above_{}, open_below_{};  // now; at the start and the end of the row that was written last
   std::size_t above_ = kGone, above_size_ = 0;  // that row's text
   std::size_t used_ = 0;
   std::array<char, 16384> text_;

@@ -41,7 +41,9 @@ struct CommandTable {
 
   // Finds a command by its name or an alias. Throws Refusal, with the names that exist.
   const Command& find(std::string_view name) const;
-  std::size_t row(const Command& command) const { return static_cast<std::size_t>(&command - commands.data()); }
+  std::size_t row(const Command& command) const {
+    return static_cast<std::size_t>(&command - commands.data());
+  }
 };
 
 // Throws Refusal if the number of arguments is wrong, or another command must come first.

@@ -55,7 +55,9 @@ constexpr std::array kFields = {
     FieldRow{"grey84",
              "84 x 84 grey, the brighter of the last two frames; grey84x4: a stack of 4, oldest first", false,
              nullptr, nullptr, Encoding::kZlib, Drawing::kLastTwo},
-    FieldRow{kGreyStack, "a stack of N screens, W x H, grey, each the brighter of two frames; grey84x4 is short for grey84x84x4",
+    FieldRow{kGreyStack,
+             "a stack of N screens, W x H, grey, each the brighter of two frames; grey84x4 is short for "
+             "grey84x84x4",
              false, nullptr, nullptr, Encoding::kZlib, Drawing::kLastTwo},
     FieldRow{kRgbStack, "the same, red, green and blue of each pixel, row by row", false, nullptr, nullptr,
              Encoding::kZlib, Drawing::kLastTwo},
@@ -129,7 +131,8 @@ void check(const std::vector<Field>& fields) {
       if (fields[i].row == fields[j].row)
         throw Refusal(Code::kBadArguments, std::string(fields[i].row->name) + " is asked for twice");
       if (fields[i].stack && fields[j].stack)
-        throw Refusal(Code::kBadArguments, fields[j].name + " and " + fields[i].name + " are two stacks; there can be one");
+        throw Refusal(Code::kBadArguments,
+                      fields[j].name + " and " + fields[i].name + " are two stacks; there can be one");
     }
   }
 }
@@ -167,7 +170,7 @@ std::size_t text_size(const std::vector<Field>& fields, const Environment& machi
   std::size_t size = 0;
   Scratch scratch;
   for (const Field& field : fields) {
-    const std::size_t bytes = field.stack         ? bytes_of(*field.stack)
+    const std::size_t bytes = field.stack        ? bytes_of(*field.stack)
                               : field.row->bytes ? field.row->bytes(machine, scratch).size()
                                                  : 0;
     size += field.name.size() + 2 + (field.row->number ? kNumber : text_size(field.encoding, bytes));
@@ -185,7 +188,7 @@ std::size_t View::footprint(const std::vector<Field>& fields) {
   for (const Field& field : fields) {
     if (field.row->number) continue;
     const std::size_t stack = field.stack ? 2 * bytes_of(*field.stack) : 0;  // and a copy
-    bytes += 3 * kTallScreen + stack;  // the scratch copy, at most
+    bytes += 3 * kTallScreen + stack;                                        // the scratch copy, at most
     if (field.encoding == Encoding::kZlib) bytes += kDeflater;
     if (field.encoding == Encoding::kDelta) bytes += 3 * kTallScreen + stack;
   }

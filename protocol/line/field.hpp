@@ -32,7 +32,8 @@ struct Field {
   std::string name;                    // with the stack's size
 };
 
-// Words such as lives, screen:rle, grey84x4, rgb100x50x2; `ends` is two of them, `none` is none. Throws Refusal.
+// Words such as lives, screen:rle, grey84x4, rgb100x50x2; `ends` is two of them, `none` is none. Throws
+// Refusal.
 std::vector<Field> parse_fields(Words words);
 
 // Which of an act's screens they look at, on a machine with colour averaging or without.

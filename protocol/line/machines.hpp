@@ -1,5 +1,5 @@
-// Many machines in one session: `open`, `step`, `restart`. They are a vector environment whose machines run in slices
-// of time, on the server's threads, and whose results are text.
+// Many machines in one session: `open`, `step`, `restart`. They are a vector environment whose machines run
+// in slices of time, on the server's threads, and whose results are text.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,6 @@
 #include <limits>
 #include <random>
 
-
 namespace racebeam {
 namespace {
 

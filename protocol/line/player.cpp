@@ -17,7 +17,8 @@ SlotSettings slot_settings(const PlaySettings& settings) {
 }
 
 void observe(Slot& slot, const std::vector<Field>& fields) {
-  const auto stacked = std::ranges::find_if(fields, [](const Field& field) { return field.stack.has_value(); });
+  const auto stacked =
+      std::ranges::find_if(fields, [](const Field& field) { return field.stack.has_value(); });
   slot.set_drawing(drawing_of(fields, slot.environment().settings().color_averaging));
   slot.set_stack(stacked == fields.end() ? std::nullopt : stacked->stack);
 }

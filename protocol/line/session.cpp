@@ -258,8 +258,8 @@ void Session::measure() {
 std::size_t Session::footprint() const {
   constexpr std::size_t kSession = std::size_t{48} << 10;  // with connection, fiber and buffers
   std::size_t bytes = kSession + out.capacity() + input.capacity() + states.footprint() +
-                      machines.footprint(fields) + actions.capacity() * sizeof(Action) + step_acts.capacity() * sizeof(Act) +
-                      words_.capacity() * sizeof(std::string_view);
+                      machines.footprint(fields) + actions.capacity() * sizeof(Action) +
+                      step_acts.capacity() * sizeof(Act) + words_.capacity() * sizeof(std::string_view);
   if (player) bytes += Player::footprint(fields);
   if (has_own_image) bytes += kOwnImage;
   return bytes;

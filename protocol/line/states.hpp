@@ -17,7 +17,7 @@ class States {
   const Slot::Saved* find(std::string_view name) const;  // null: there is none of this name
   bool contains(std::string_view name) const { return by_name_.contains(name); }
   void put(std::string_view name, Slot::Saved place);  // in the place of one of the same name
-  void drop(std::string_view name);              // if it is there
+  void drop(std::string_view name);                    // if it is there
   void clear();
 
   std::size_t size() const { return by_name_.size(); }

@@ -10,8 +10,8 @@
 #include <boost/asio.hpp>
 
 #include "protocol/refusal.hpp"
-#include "server/connections/lobby.hpp"
 #include "server/access/wrong_tokens.hpp"
+#include "server/connections/lobby.hpp"
 #include "server/scheduling/loops.hpp"
 
 namespace racebeam {

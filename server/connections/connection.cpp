@@ -173,7 +173,8 @@ net::awaitable<void> await_recording(Client& client) {
 
 // `piece`: everything that was received last is part of a line.
 template <typename Stream>
-net::awaitable<void> read(Stream& stream, Client& client, LineSession& session, RequestPeeker& ahead, bool piece) {
+net::awaitable<void> read(Stream& stream, Client& client, LineSession& session, RequestPeeker& ahead,
+                          bool piece) {
   if (piece) acknowledge(client.socket);
   ahead.take();
   const auto flags = ahead.flags(client.sleeps());

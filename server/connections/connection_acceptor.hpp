@@ -11,11 +11,11 @@
 
 #include <boost/asio/awaitable.hpp>
 
-#include "server/connections/lobby.hpp"
 #include "server/access/tls.hpp"
 #include "server/access/tokens.hpp"
 #include "server/access/wrong_tokens.hpp"
 #include "server/connections/listener.hpp"
+#include "server/connections/lobby.hpp"
 #include "server/connections/service.hpp"
 #include "server/connections/settings.hpp"
 

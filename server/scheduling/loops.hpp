@@ -11,8 +11,8 @@
 #include <boost/asio/io_context.hpp>
 
 #include "server/operation/metrics.hpp"
-#include "system/busy_poll.hpp"
 #include "server/scheduling/turns.hpp"
+#include "system/busy_poll.hpp"
 
 namespace racebeam {
 

@@ -83,13 +83,15 @@ struct Bench {
   void write_at(int cycle, unsigned reg, unsigned value) {
     act([=](Bench& bench) {
       bench.state.cycle = std::max(bench.state.cycle, cycle);
-      bench.board.write_device(static_cast<std::uint16_t>(reg), static_cast<std::uint8_t>(value), cycle, true);
+      bench.board.write_device(static_cast<std::uint16_t>(reg), static_cast<std::uint8_t>(value), cycle,
+                               true);
       return std::uint8_t{0};
     });
   }
   std::uint8_t read_at(int cycle, unsigned address, unsigned latch = 0) {
     return act([=](Bench& bench) {
-      return bench.board.read_device(static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch), cycle);
+      return bench.board.read_device(static_cast<std::uint16_t>(address), static_cast<std::uint8_t>(latch),
+                                     cycle);
     });
   }
   std::uint8_t read(int line, int x, unsigned address) { return read_at(line * kLineCycles + x, address); }
@@ -155,9 +157,7 @@ struct Bench {
   }
 
   // Restores a machine of another moment; the pictures stay.
-  void restore(const State& saved) {
-    board.restore(saved);
-  }
+  void restore(const State& saved) { board.restore(saved); }
 
   void run(int instructions) {
     act([=](Bench& bench) {

@@ -1,5 +1,5 @@
-// What machines allocate while they run, and what they take. All of this program's allocations are counted, so it has no
-// other tests.
+// What machines allocate while they run, and what they take. All of this program's allocations are counted,
+// so it has no other tests.
 #include <malloc.h>
 
 #include <atomic>
@@ -8,9 +8,9 @@
 #include <new>
 #include <random>
 
-#include "environment/vector/batch.hpp"
 #include "emulator/console.hpp"
 #include "emulator/translator/translator.hpp"
+#include "environment/vector/batch.hpp"
 #include "games/catalogue.hpp"
 #include "tests/support/random_image.hpp"
 
@@ -21,7 +21,8 @@ std::atomic<long> allocations = 0, bytes_in_use = 0;
 void* counted(std::size_t size, std::size_t alignment) {
   ++allocations;
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;
-  void* const memory = alignment <= alignof(std::max_align_t) ? std::malloc(size) : std::aligned_alloc(alignment, whole);
+  void* const memory =
+      alignment <= alignof(std::max_align_t) ? std::malloc(size) : std::aligned_alloc(alignment, whole);
   if (memory == nullptr) throw std::bad_alloc();
   bytes_in_use += static_cast<long>(malloc_usable_size(memory));
   return memory;
@@ -35,7 +36,9 @@ void release(void* memory) {
 }  // namespace
 
 void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, static_cast<std::size_t>(alignment)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
 void operator delete(void* memory) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
@@ -70,7 +73,8 @@ long allocated(EpisodeState& play) {
   return allocations - before;
 }
 
-// Each buffer is used for the first time, and each reset is met for the first time; then there is nothing left to allocate.
+// Each buffer is used for the first time, and each reset is met for the first time; then there is nothing
+// left to allocate.
 TEST_CASE("A batch soon allocates nothing while it runs, episodes that end and begin included") {
   for (const Autoreset autoreset : {Autoreset::kNextStep, Autoreset::kSameStep}) {
     for (const unsigned threads : {1U, 3U}) {
@@ -103,7 +107,9 @@ bool settles(Console& console, long most) {
   return quiet == 5;
 }
 
-TEST_CASE("A console soon allocates nothing while it runs, but copies of its cartridge's RAM: two a frame at most") {
+TEST_CASE(
+    "A console soon allocates nothing while it runs, but copies of its cartridge's RAM: two a frame at "
+    "most") {
   for (const std::string_view scheme : test::random_schemes()) {
     Properties properties;
     properties.scheme = scheme;
@@ -124,8 +130,8 @@ long taken(std::size_t machines) {
   return bytes_in_use - before;
 }
 
-// A machine has two pictures, the grey one of which it makes the small screen, and a stack of four of these, which
-// results have once more.
+// A machine has two pictures, the grey one of which it makes the small screen, and a stack of four of these,
+// which results have once more.
 TEST_CASE("A machine of a batch takes less than 64 KiB beside its pictures") {
   constexpr long kPictures = 3 * 210 * 160 + 2 * 4 * 84 * 84;
   taken(48);  // resets that all machines share are met for the first time

@@ -4,16 +4,19 @@
 
 #include "environment/saved/saved_state_format.hpp"
 #include "tests/support/counter_image.hpp"
-#include "tests/support/observation.hpp"
 #include "tests/support/needed_rom.hpp"
+#include "tests/support/observation.hpp"
 
 namespace racebeam {
 namespace {
 
-std::vector<std::uint8_t> bytes_of(std::span<const std::uint8_t> bytes) { return {bytes.begin(), bytes.end()}; }
+std::vector<std::uint8_t> bytes_of(std::span<const std::uint8_t> bytes) {
+  return {bytes.begin(), bytes.end()};
+}
 
 // Machines with all settings of drawing behave the same. From time to time, their pictures are compared.
-void check(const std::shared_ptr<const Image>& image, const std::shared_ptr<const Game>& game, bool averaging, int acts) {
+void check(const std::shared_ptr<const Image>& image, const std::shared_ptr<const Game>& game, bool averaging,
+           int acts) {
   Settings settings;
   settings.frame_skip = 1;
   settings.frame_skip_max = 4;
@@ -28,7 +31,8 @@ void check(const std::shared_ptr<const Image>& image, const std::shared_ptr<cons
   std::vector<std::shared_ptr<const Environment::Saved>> saved;
   for (int i = 0; i < acts; ++i) {
     const int action = legal[random() % legal.size()];
-    const bool looks = random() % 8 == 0, looks_back = random() % 8 == 0, saves = random() % 50 == 0, loads = random() % 50 == 0;
+    const bool looks = random() % 8 == 0, looks_back = random() % 8 == 0, saves = random() % 50 == 0,
+               loads = random() % 50 == 0;
     std::vector<std::vector<std::uint8_t>> seen, seen_before, states;
     for (Environment& machine : machines) {
       machine.act(action);
@@ -39,7 +43,8 @@ void check(const std::shared_ptr<const Image>& image, const std::shared_ptr<cons
       if (machine.game_over()) machine.reset_game();
     }
     if (loads && !saved.empty()) {
-      for (std::size_t m = 0; m < machines.size(); ++m) machines[m].restore(*saved[saved.size() - machines.size() + m]);
+      for (std::size_t m = 0; m < machines.size(); ++m)
+        machines[m].restore(*saved[saved.size() - machines.size() + m]);
     }
     for (const auto* list : {&seen, &seen_before, &states})
       for (const auto& one : *list) REQUIRE(one == list->front());
@@ -51,7 +56,8 @@ TEST_CASE("Which frames are drawn has no observable effect") {
 }
 
 TEST_CASE("Which frames of a commercial game are drawn has no observable effect") {
-  for (const char* name : {"seaquest", "pong", "tetris", "montezuma_revenge", "elevator_action", "journey_escape", "robotank"}) {
+  for (const char* name :
+       {"seaquest", "pong", "tetris", "montezuma_revenge", "elevator_action", "journey_escape", "robotank"}) {
     const auto game = find_game(name);
     const auto image = test::needed_rom_of(name);
     if (!image) continue;
@@ -78,7 +84,8 @@ TEST_CASE("A watcher sees each frame drawn, whatever is drawn otherwise") {
 }
 
 TEST_CASE("A state that another game's machine could not restore is not made into bytes by it") {
-  Environment one(test::counter_image(), test::game(), {}), other(test::counter_image(), test::game(test::kSteeredGame, "other"), {});
+  Environment one(test::counter_image(), test::game(), {}),
+      other(test::counter_image(), test::game(test::kSteeredGame, "other"), {});
   CHECK_THROWS_WITH(to_bytes(*one.save(), other), Catch::Contains("the state is of the game steered"));
 }
 

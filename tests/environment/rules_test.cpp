@@ -102,7 +102,8 @@ TEST_CASE("Klax counts across the wrap of a score in the cartridge's memory") {
     return at >= 0 && at < 3 ? bytes[static_cast<std::size_t>(at)] : std::uint8_t{0};
   };
   Rule before(*reference), after(*reference->fixed);
-  for (const std::array<std::uint8_t, 3> shown : {std::array<std::uint8_t, 3>{0, 0, 0x50}, {0x99, 0x99, 0x99}, {4, 0, 0}}) {
+  for (const std::array<std::uint8_t, 3> shown :
+       {std::array<std::uint8_t, 3>{0, 0, 0x50}, {0x99, 0x99, 0x99}, {4, 0, 0}}) {
     digits = shown;
     before.step({ram.data(), peek, &digits});
     after.step({ram.data(), peek, &digits});
@@ -175,7 +176,9 @@ TEST_CASE("Combat ends when its time is up, with the points of both on the scree
   const Total total = play(environment, kTank, 15, 9000);
   CHECK(total.over);
   CHECK((total.frames > 8000 && total.frames < 8300));
-  const auto decimal = [&](int address) { return test::at(environment, address) / 16 * 10 + test::at(environment, address) % 16; };
+  const auto decimal = [&](int address) {
+    return test::at(environment, address) / 16 * 10 + test::at(environment, address) % 16;
+  };
   CHECK(decimal(0xA1) + decimal(0xA2) > 0);
   CHECK(total.a == decimal(0xA1) - decimal(0xA2));
   CHECK(total.b == -total.a);
@@ -240,7 +243,8 @@ bool b_plays(Environment& environment, int right = 21, int left = 22) {
 TEST_CASE("corrected lives begin with what a loss of life is measured against") {
   Settings settings = with(Rules::kFixed);
   settings.truncate_on_life_loss = true;
-  for (const char* name : {"adventure", "bank_heist", "donkey_kong", "entombed", "frogger", "kaboom", "qbert"}) {
+  for (const char* name :
+       {"adventure", "bank_heist", "donkey_kong", "entombed", "frogger", "kaboom", "qbert"}) {
     const auto image = test::needed_rom_of(name);
     if (!image) continue;
     INFO(name);

@@ -18,12 +18,9 @@ struct Run {
 };
 
 constexpr Run kRuns[] = {
-    {"backgammon", 0x4676FA89, 0x9DAE6AE8, 0},
-    {"blackjack", 0xEFFA6594, 0xDD0C7004, -17},
-    {"breakout", 0x5453C175, 0x7EE9CF0C, 8},
-    {"casino", 0x5562E426, 0x4C171BAC, -1030},
-    {"kaboom", 0x68B4AB89, 0xAF56BE10, 20},
-    {"pong", 0x156C3E2D, 0x841B3190, -19},
+    {"backgammon", 0x4676FA89, 0x9DAE6AE8, 0}, {"blackjack", 0xEFFA6594, 0xDD0C7004, -17},
+    {"breakout", 0x5453C175, 0x7EE9CF0C, 8},   {"casino", 0x5562E426, 0x4C171BAC, -1030},
+    {"kaboom", 0x68B4AB89, 0xAF56BE10, 20},    {"pong", 0x156C3E2D, 0x841B3190, -19},
 };
 
 constexpr int kActs = 4000, kHeld = 5;

@@ -130,7 +130,7 @@ const OtherScore kOtherScores[] = {
 
 // Games with corrections other than a wrap; each has a test case below. Klax has its score in the cartridge's
 // memory: environment/rules_test.cpp.
-const std::set<std::string> kOthers = {"adventure", "backgammon", "blackjack", "casino",
+const std::set<std::string> kOthers = {"adventure", "backgammon", "blackjack",  "casino",
                                        "kaboom",    "klax",       "word_zapper"};
 
 struct Frames {
@@ -257,10 +257,12 @@ struct Lives {
 
 TEST_CASE("corrected lives count the present one, and are 0 at the end only") {
   const Lives kLives[] = {
-      {"kaboom", {{0xA1, 2}}, 1, 2},     {"kaboom", {{0xA1, 0}}, 0, 0},       {"entombed", {{0xC7, 2}}, 1, 2},
-      {"entombed", {{0xC7, 0}}, 0, 0},   {"bank_heist", {{0xD5, 0}}, 0, 1},   {"bank_heist", {{0xD5, 4}}, 4, 5},
-      {"bank_heist", {{0xCE, 1}}, 0, 0}, {"donkey_kong", {{0xA3, 0}}, 0, 1},  {"frogger", {{0xD0, 0}}, 0, 1},
-      {"frogger", {{0xD0, 0xFF}}, 0, 0}, {"qbert", {{0x88, 0}}, 4, 4},        {"qbert", {{0x88, 0xFE}}, 0, 0},
+      {"kaboom", {{0xA1, 2}}, 1, 2},     {"kaboom", {{0xA1, 0}}, 0, 0},
+      {"entombed", {{0xC7, 2}}, 1, 2},   {"entombed", {{0xC7, 0}}, 0, 0},
+      {"bank_heist", {{0xD5, 0}}, 0, 1}, {"bank_heist", {{0xD5, 4}}, 4, 5},
+      {"bank_heist", {{0xCE, 1}}, 0, 0}, {"donkey_kong", {{0xA3, 0}}, 0, 1},
+      {"frogger", {{0xD0, 0}}, 0, 1},    {"frogger", {{0xD0, 0xFF}}, 0, 0},
+      {"qbert", {{0x88, 0}}, 4, 4},      {"qbert", {{0x88, 0xFE}}, 0, 0},
       {"adventure", {{0xE0, 2}}, 1, 0},  {"adventure", {{0xE0, 0}}, 1, 1},
   };
   for (const Lives& row : kLives) {

@@ -147,7 +147,8 @@ TEST_CASE("rules that cannot work are refused") {
   CHECK_THAT(error_in("[rule]\nreset = { score = 3000000000 }\n" + kStep), Contains("32 bits"));
   CHECK_THAT(error_in("[rule]\nreset = 3\n" + kStep), Contains("rule.reset: must be a table"));
   CHECK_THAT(error_in("[rule]\nkeep = [3]\n" + kStep), Contains("my.toml:3: rule.keep: '' is not a name"));
-  CHECK_THAT(error_in("[rule]\nkeep = ['scroe']\n" + kStep), Contains("my.toml:3: rule.keep: the step never reads"));
+  CHECK_THAT(error_in("[rule]\nkeep = ['scroe']\n" + kStep),
+             Contains("my.toml:3: rule.keep: the step never reads"));
   CHECK_THAT(error_in("[mode]\nsetup = 'soft_reset'"), Contains("mode: a mode program requires a [rule]"));
   std::string many = "[rule]\nstep = '''\nscore = 0\nterminal = 0\n";
   for (int i = 0; i < 20; ++i)
@@ -189,7 +190,8 @@ TEST_CASE("a game file that cannot be read is refused") {
   CHECK_THROWS_WITH(load_game_file(scratch.path("none.toml")),
                     Contains("none.toml") && Contains("no such file"));
   CHECK_THROWS_WITH(load_game_file(scratch.path("")), Contains("directory"));
-  CHECK_THROWS_WITH(load_game_file(scratch.write("big.toml", std::string(2 << 20, '#'))), Contains("larger than 1048576 bytes"));
+  CHECK_THROWS_WITH(load_game_file(scratch.write("big.toml", std::string(2 << 20, '#'))),
+                    Contains("larger than 1048576 bytes"));
   const std::string broken = scratch.write("broken.toml", "title = 'T'\nmodes = 3\n");
   CHECK_THROWS_WITH(load_game_file(broken), Contains(broken + ":2: modes:"));
   CHECK(load_game_file(scratch.write("fine.toml", "title = 'T'\n"))->name == "fine");
@@ -229,7 +231,8 @@ TEST_CASE("[fixed] replaces keys of [rule] and keeps the others") {
   CHECK_FALSE(game_with("[rule]\n" + kStep).fixed);
 }
 
-TEST_CASE("[classic] replaces keys of [rule], starting actions and modes, and leaves corrections to [fixed]") {
+TEST_CASE(
+    "[classic] replaces keys of [rule], starting actions and modes, and leaves corrections to [fixed]") {
   const Game game = game_with("modes = [5, 2]\nstart = ['FIRE']\n[rule]\nlives = '7'\n" + kStep +
                               "[fixed]\nlives = '9'\nreference = 'r'\ncorrection = 'c'\nevidence = 'e'\n"
                               "[classic]\nsingle_mode = true\nstart = ['NOOP 2']\nlives = '8'\n"
@@ -259,15 +262,16 @@ TEST_CASE("modes for two players are offered beside the others") {
 
 TEST_CASE("mistakes in corrections, sources and wraps are named with their line") {
   const std::string rule = "[rule]\n" + kStep;  // lines 2 to 6
-  CHECK_THAT(error_in(rule + "[fixed]\nlives = '1'\n"),
-             Equals("my.toml:7: fixed.reference: a correction that has more than 'wraps' must have this key"));
+  CHECK_THAT(
+      error_in(rule + "[fixed]\nlives = '1'\n"),
+      Equals("my.toml:7: fixed.reference: a correction that has more than 'wraps' must have this key"));
   CHECK_THAT(error_in(rule + "[fixed]\nwraps = 9\n"),
              Contains("my.toml:8: fixed.wraps: must be at least 10"));
-  CHECK_THAT(error_in(rule + "[fixed]\nmodes = [1]\n"),
-             Contains("my.toml:8: fixed.modes: unknown key"));
+  CHECK_THAT(error_in(rule + "[fixed]\nmodes = [1]\n"), Contains("my.toml:8: fixed.modes: unknown key"));
   CHECK_THAT(error_in(rule + "[fixed]\nstep = \"score = x\\nterminal = 0\"\n"),
              Contains("my.toml:8: fixed.step: nothing assigns 'x'"));
-  CHECK_THAT(error_in("[fixed]\nwraps = 100\n"), Contains("my.toml:2: fixed: a correction requires a [rule]"));
+  CHECK_THAT(error_in("[fixed]\nwraps = 100\n"),
+             Contains("my.toml:2: fixed: a correction requires a [rule]"));
   CHECK_THAT(error_in(rule + "[classic]\nmodes = [1]\n"), Contains("my.toml:8: classic.modes: unknown key"));
   CHECK_THAT(error_in("[classic]\nsingle_mode = true\n"),
              Contains("my.toml:2: classic: a classic rule requires a [rule]"));

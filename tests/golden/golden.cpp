@@ -22,7 +22,8 @@ std::string report(const std::vector<Work>& works, bool states = false) {
 
 std::string golden_text(const std::string& game) {
   return "# What builtin:" + game +
-         " shows, folded line by line. scripts/check/golden compares, scripts/check/golden --rebaseline writes.\n" +
+         " shows, folded line by line. scripts/check/golden compares, scripts/check/golden --rebaseline "
+         "writes.\n" +
          report(works_of(game));
 }
 
@@ -30,7 +31,8 @@ std::string file_of(const std::string& game) { return RACEBEAM_SOURCE_DIR "/test
 
 std::string read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read " + path + "; scripts/check/golden --rebaseline writes it");
+  if (!file)
+    throw std::runtime_error("cannot read " + path + "; scripts/check/golden --rebaseline writes it");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -71,8 +73,7 @@ struct SignatureOptions {
   int at_once = 1;
 };
 
-std::vector<Work> works_of_signature(const std::vector<std::string>& games,
-                                     const SignatureOptions& options) {
+std::vector<Work> works_of_signature(const std::vector<std::string>& games, const SignatureOptions& options) {
   std::vector<Work> all = works_of_programs();
   const auto add = [&all](std::vector<Work> works) { all.insert(all.end(), works.begin(), works.end()); };
   for (const std::string& game : games) add(works_of(game));
@@ -120,7 +121,8 @@ int run(int argc, char** argv) {
   with_signature(app.add_flag("--states", options.states, "Include the bytes of each final state"));
   with_signature(app.add_option("--cpu", options.cpu, "How instructions are executed")
                      ->transform(CLI::CheckedTransformer(cpus)));
-  with_signature(app.add_option("--at-once", options.at_once, "Number of threads that do the work at once, and must agree")
+  with_signature(app.add_option("--at-once", options.at_once,
+                                "Number of threads that do the work at once, and must agree")
                      ->check(CLI::Range(1, 64)));
   CLI11_PARSE(app, argc, argv);
   if (signature) {

@@ -58,8 +58,8 @@ std::shared_ptr<const Game> program_game(std::string_view scheme, int number) {
 
 Work program(const std::string& name, std::shared_ptr<const Image> image, std::string_view scheme,
              int number) {
-  return {name, std::move(image), program_game(scheme, number), settings(0, 1), 0, 0, kProgramActs,
-          kProgramActs};
+  return {name,         std::move(image), program_game(scheme, number), settings(0, 1), 0, 0,
+          kProgramActs, kProgramActs};
 }
 
 }  // namespace

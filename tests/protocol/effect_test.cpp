@@ -110,12 +110,13 @@ const std::string kAlternating = "act RIGHT NOOP RIGHT NOOP RIGHT NOOP RIGHT NOO
                   kThreeSteps = "step NOOP\nstep NOOP\nstep NOOP",
                   kOpen = "open 2\nobserve episode_frame\nstep NOOP";
 
-const std::string kOtherSticky = "load duel seed=8 sticky=0.5",
-                  kManySticky = "load duel seed=8 sticky=0.5 frame_skip=20\nopen 9\n",
-                  kFrames = "load beamfall seed=7 sticky=0 frame_skip=4 noop_max=30\nobserve ram\n",
-                  kLongSteps = "load beamfall seed=7 sticky=0 frame_skip=900\nobserve ends lives episode_frame\n",
-                  kStart = "open 1 steps=frames start=", kLives = "open 1 steps=frames lives=",
-                  kStacked = "load beamfall seed=7 sticky=0 frame_skip=4\nobserve grey84x3:hex\nopen 1 steps=frames ";
+const std::string
+    kOtherSticky = "load duel seed=8 sticky=0.5",
+    kManySticky = "load duel seed=8 sticky=0.5 frame_skip=20\nopen 9\n",
+    kFrames = "load beamfall seed=7 sticky=0 frame_skip=4 noop_max=30\nobserve ram\n",
+    kLongSteps = "load beamfall seed=7 sticky=0 frame_skip=900\nobserve ends lives episode_frame\n",
+    kStart = "open 1 steps=frames start=", kLives = "open 1 steps=frames lives=",
+    kStacked = "load beamfall seed=7 sticky=0 frame_skip=4\nobserve grey84x3:hex\nopen 1 steps=frames ";
 
 const std::string kUneven = "load duel seed=7 sticky=0 frame_skip=1-9\nopen 2\n",
                   kFourSteps = "step NOOP\nstep NOOP\nstep NOOP\nstep NOOP\nrecord stop";

@@ -94,7 +94,8 @@ TEST_CASE("help explains each name of each table, on one line") {
 TEST_CASE("help says what it has help on") {
   LineClient client;
   const std::string reply = client.ask("help");
-  for (const HelpTopic& topic : help_topics()) CHECK_THAT(reply, Contains(std::string(" ").append(topic.name)));
+  for (const HelpTopic& topic : help_topics())
+    CHECK_THAT(reply, Contains(std::string(" ").append(topic.name)));
   CHECK_THAT(client.ask("help stiky"),
              StartsWith("error bad-arguments there is no help on 'stiky'; did you mean sticky?"));
   CHECK_THAT(client.ask("help xyzzy"), EndsWith("; help without a word says what there is"));

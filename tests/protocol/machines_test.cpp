@@ -1,4 +1,5 @@
-// `open` with steps=frames and a Batch are the same vector environment: what they show is compared, byte for byte.
+// `open` with steps=frames and a Batch are the same vector environment: what they show is compared, byte for
+// byte.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -25,7 +26,9 @@ class Pair {
  public:
   explicit Pair(const Case& one) : batch_(machines(), settings(one)), results_(batch_.make_results()) {
     REQUIRE(client_.ask("load beamfall seed=5 action_set=minimal " + one.load).starts_with("ok"));
-    REQUIRE(client_.ask("observe reward raw_reward ends game_over lives frame episode_frame ram " + stack() + ":base64")
+    REQUIRE(client_
+                .ask("observe reward raw_reward ends game_over lives frame episode_frame ram " + stack() +
+                     ":base64")
                 .starts_with("ok"));
     batch_.show(results_.arrays());
     compare(client_.ask("open " + std::to_string(kMachines) + " steps=frames " + one.open));
@@ -52,7 +55,9 @@ class Pair {
   std::size_t actions() const { return batch_.actions(0).size(); }
 
  private:
-  static std::vector<Cartridge> machines() { return {kMachines, {load_image("builtin:beamfall"), find_game("beamfall")}}; }
+  static std::vector<Cartridge> machines() {
+    return {kMachines, {load_image("builtin:beamfall"), find_game("beamfall")}};
+  }
   BatchSettings settings(const Case& one) {
     BatchSettings settings;
     settings.slot.machine.random_seed = 5;
@@ -62,8 +67,8 @@ class Pair {
     return settings;
   }
   std::string stack() const {
-    return (stack_.rgb ? "rgb" : "grey") + std::to_string(stack_.width) + 'x' + std::to_string(stack_.height) + 'x' +
-           std::to_string(stack_.depth);
+    return (stack_.rgb ? "rgb" : "grey") + std::to_string(stack_.width) + 'x' +
+           std::to_string(stack_.height) + 'x' + std::to_string(stack_.depth);
   }
 
   void compare(const std::string& reply) {
@@ -106,7 +111,8 @@ TEST_CASE("Machines of open whose steps are frames show what a batch shows") {
   const std::vector<Case> cases = {
       {"sticky=0.25 frame_skip=4 noop_max=30 reward_min=-1 reward_max=1", "",
        [](BatchSettings& s) { s.slot.machine.sticky = 0.25F; }},
-      {"sticky=0 frame_skip=7 noop_max=5 max_episode_frames=100", "autoreset=same-step lives=end start=noops-fire pool=0",
+      {"sticky=0 frame_skip=7 noop_max=5 max_episode_frames=100",
+       "autoreset=same-step lives=end start=noops-fire pool=0",
        [](BatchSettings& s) {
          s.slot.machine.frame_skip = 7;
          s.slot.machine.max_episode_frames = 100;
@@ -141,7 +147,8 @@ TEST_CASE("Machines of open whose steps are frames show what a batch shows") {
       for (int& action : actions) action = int(random() % pair.actions());
       pair.step(actions);
       ended += pair.ended();
-      if (step % 20 == 19) pair.restart({1, 0, 1}, step == 39 ? std::optional<std::int64_t>(70) : std::nullopt);
+      if (step % 20 == 19)
+        pair.restart({1, 0, 1}, step == 39 ? std::optional<std::int64_t>(70) : std::nullopt);
     }
   }
   CHECK(ended > 20);
@@ -187,10 +194,14 @@ TEST_CASE("Stacks of any size are observed, one at a time") {
   };
   CHECK(size("grey100x50x1") == 100 * 50);
   CHECK(size("rgb100x50x1") == 100 * 50 * 3);
-  CHECK(value(client.ask("look grey160x210x1:hex"), "grey160x210x1") == value(client.ask("look grey:hex"), "grey"));
-  CHECK(value(client.ask("look rgb160x210x1:hex"), "rgb160x210x1") == value(client.ask("look rgb:hex"), "rgb"));
-  CHECK(value(client.ask("look grey84x84x1:hex"), "grey84x84x1") == value(client.ask("look grey84:hex"), "grey84"));
-  for (const std::string field : {"grey84x", "grey84x4x", "grey10", "rgb84", "rgb84x4", "grey1x2x3x4", "greyWxHxN"})
+  CHECK(value(client.ask("look grey160x210x1:hex"), "grey160x210x1") ==
+        value(client.ask("look grey:hex"), "grey"));
+  CHECK(value(client.ask("look rgb160x210x1:hex"), "rgb160x210x1") ==
+        value(client.ask("look rgb:hex"), "rgb"));
+  CHECK(value(client.ask("look grey84x84x1:hex"), "grey84x84x1") ==
+        value(client.ask("look grey84:hex"), "grey84"));
+  for (const std::string field :
+       {"grey84x", "grey84x4x", "grey10", "rgb84", "rgb84x4", "grey1x2x3x4", "greyWxHxN"})
     CHECK(code(client.ask("observe " + field)) != "");
   CHECK(client.ask("observe grey84x4 rgb20x20x1") ==
         "error bad-arguments grey84x4 and rgb20x20x1 are two stacks; there can be one");

@@ -151,7 +151,8 @@ TEST_CASE("An invalid recording is refused, with what is accepted") {
   }
   CHECK(code(studio.ask("record gif a machine=0")) == "no-machines");
   studio.ask("open 2");
-  CHECK_THAT(studio.ask("record gif a machine=2"), Contains("bad-value machine is '2'; it takes a whole number from 0 to 1"));
+  CHECK_THAT(studio.ask("record gif a machine=2"),
+             Contains("bad-value machine is '2'; it takes a whole number from 0 to 1"));
   CHECK(code(studio.ask("record gif ../a")) == "bad-value");
   CHECK(code(studio.ask("record stop")) == "recording");
   CHECK(test::files_in(studio.folder.path("")) == 0);

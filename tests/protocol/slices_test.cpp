@@ -96,7 +96,7 @@ TEST_CASE("A line of many words is read in slices") {
 
 TEST_CASE("A pause in the middle of a request takes nothing that it needs") {
   for (const std::string& request : {"act" + many(" LEFT*40 FIRE*30 RIGHT"),
-                                    "branch root" + many(" LEFT*40 FIRE*30"), "step" + many(" LEFT FIRE")}) {
+                                     "branch root" + many(" LEFT*40 FIRE*30"), "step" + many(" LEFT FIRE")}) {
     LineClient whole, resting;
     for (LineClient* const client : {&whole, &resting}) {
       for (const std::string line :

@@ -133,7 +133,8 @@ Pixels random_rows(std::mt19937& random) {
   std::vector<Pixels> kinds;
   for (int kind = 0; kind < 6; ++kind) {
     Pixels row;
-    while (row.size() < 160) row.insert(row.end(), 1 + random() % (1U << random() % 9), std::uint8_t(random() % 3));
+    while (row.size() < 160)
+      row.insert(row.end(), 1 + random() % (1U << random() % 9), std::uint8_t(random() % 3));
     row.resize(160);
     kinds.push_back(row);
   }

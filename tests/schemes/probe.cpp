@@ -16,7 +16,8 @@ namespace {
 
 void poke(racebeam::Environment& environment, const std::string& line) {
   std::istringstream words(line);
-  for (int index = 0, value = 0; words >> index >> value;) environment.set_ram(index, static_cast<std::uint8_t>(value));
+  for (int index = 0, value = 0; words >> index >> value;)
+    environment.set_ram(index, static_cast<std::uint8_t>(value));
 }
 
 void answer(const racebeam::Environment& environment) {

@@ -1,11 +1,12 @@
 // What programs cost translated, beside what they cost interpreted, from power-on, start included.
 //
 //   translator_costs random FIRST COUNT [STEPS]   of random programs, from seed FIRST on
-//   translator_costs hostile [STEPS] [WORDS]      of the hostile ones (with these words in their name), undrawn
+//   translator_costs hostile [STEPS] [WORDS]      of the hostile ones (with these words in their name),
+//   undrawn
 //                                                 and drawn
 //
-// Both print the distribution of the ratio and the worst, and end with 1 if one is above 1.5, or above what the
-// variable RACEBEAM_COST_BOUND says.
+// Both print the distribution of the ratio and the worst, and end with 1 if one is above 1.5, or above what
+// the variable RACEBEAM_COST_BOUND says.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -28,7 +28,8 @@ std::shared_ptr<const Rom> load(const char* path) {
 void list(const translator::Block& block, const translator::Assembler& as) {
   for (const translator::Instruction& instruction : block.instructions) {
     std::printf("%04X ", instruction.pc);
-    for (unsigned i = 0; i < instruction.length; ++i) std::printf(" %02X", as.byte_at(static_cast<std::uint16_t>(instruction.pc + i)));
+    for (unsigned i = 0; i < instruction.length; ++i)
+      std::printf(" %02X", as.byte_at(static_cast<std::uint16_t>(instruction.pc + i)));
     std::printf("%*s%s\n", 3 * (4 - static_cast<int>(instruction.length)), "",
                 kNames[as.byte_at(instruction.pc)]);
   }
@@ -41,14 +42,16 @@ void show(const char* image, std::uint16_t pc, const char* path) {
   const CodeWindow code = board->map.window_around(pc);
   const translator::Layout layout(*board);
   const std::vector<const void*> entries(code.span);
-  const translator::Window window{{board->plain_registers(), board->slot.scheme.port_reader}, code, entries.data()};
+  const translator::Window window{
+      {board->plain_registers(), board->slot.scheme.port_reader}, code, entries.data()};
   std::vector<std::uint8_t> memory(65536);
   translator::Assembler as(memory.data(), memory.size(), layout, window, memory.data());
   for (const translator::Block& block : translator::discover(code, pc, std::vector<bool>(code.span))) {
     if (block.pc != pc) continue;
     list(block, as);
     translator::BlockEmitter(as, block).emit();
-    std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(memory.data()), static_cast<std::streamsize>(as.getSize()));
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(memory.data()), static_cast<std::streamsize>(as.getSize()));
   }
 }
 

@@ -24,7 +24,8 @@ Properties properties_for(const Program& program) {
 }
 
 struct Machine {
-  Machine(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties, std::uint32_t seed, CpuKind cpu)
+  Machine(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Properties& properties,
+          std::uint32_t seed, CpuKind cpu)
       : power_on(seed), console(std::move(rom), properties, power_on, cpu) {}
 
   SystemGenerator power_on;
@@ -36,7 +37,8 @@ std::string first_difference(const char* what, const Range& a, const Range& b) {
   if (std::equal(a.begin(), a.end(), b.begin(), b.end())) return {};  // compares many bytes at a time
   const auto [at, other] = std::mismatch(a.begin(), a.end(), b.begin());
   std::ostringstream text;
-  text << what << ", byte " << at - a.begin() << ": " << int{*at} << " interpreted, " << int{*other} << " translated";
+  text << what << ", byte " << at - a.begin() << ": " << int{*at} << " interpreted, " << int{*other}
+       << " translated";
   return text.str();
 }
 
@@ -56,9 +58,12 @@ std::string difference(Console& interpreted, Console& translated) {
     return all;
   };
   std::string found = first_difference("state", bytes(interpreted), bytes(translated));
-  if (found.empty()) found = first_difference("cartridge RAM", interpreted.cartridge_ram(), translated.cartridge_ram());
+  if (found.empty())
+    found = first_difference("cartridge RAM", interpreted.cartridge_ram(), translated.cartridge_ram());
   if (found.empty()) found = first_difference("picture", interpreted.picture(), translated.picture());
-  if (found.empty()) found = first_difference("previous picture", interpreted.previous_picture(), translated.previous_picture());
+  if (found.empty())
+    found =
+        first_difference("previous picture", interpreted.previous_picture(), translated.previous_picture());
   if (found.empty()) found = first_difference("sound", samples_of(interpreted), samples_of(translated));
   return found;
 }
@@ -79,7 +84,8 @@ std::string difference_in_program(std::uint32_t seed, int steps, CpuKind cpu) {
     }
     const std::string found = difference(*both[0], *both[1]);
     if (found.empty()) continue;
-    return "seed " + std::to_string(seed) + " (" + std::string(program.scheme) + "), step " + std::to_string(step) + ": " + found;
+    return "seed " + std::to_string(seed) + " (" + std::string(program.scheme) + "), step " +
+           std::to_string(step) + ": " + found;
   }
   return {};
 }

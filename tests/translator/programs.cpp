@@ -25,7 +25,8 @@ int main(int argc, char** argv) {
   unsigned different = 0;
   for (std::uint32_t seed = first; seed != first + count; ++seed) {
     std::string found = racebeam::test::difference_in_program(seed, steps);
-    if (found.empty() && seed % kSeldom == 0) found = racebeam::test::difference_in_program(seed, kLong, racebeam::CpuKind::kAuto);
+    if (found.empty() && seed % kSeldom == 0)
+      found = racebeam::test::difference_in_program(seed, kLong, racebeam::CpuKind::kAuto);
     if (found.empty()) continue;
     ++different;
     std::puts(found.c_str());

@@ -11,7 +11,9 @@ namespace racebeam::atari {
 constexpr unsigned kBankSize = 4096;
 constexpr unsigned kHotPage = kBankSize - MemoryMap::kPageSize;
 
-inline const std::uint8_t* bank(const CartridgeSlot& slot) { return slot.rom.data() + kBankSize * slot.state.bank[0]; }
+inline const std::uint8_t* bank(const CartridgeSlot& slot) {
+  return slot.rom.data() + kBankSize * slot.state.bank[0];
+}
 
 inline void reset(CartridgeSlot& slot) { slot.state.bank[0] = slot.scheme.initial; }
 

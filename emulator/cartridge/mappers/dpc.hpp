@@ -3,7 +3,8 @@
 // bottom: a mask for graphics. Three of the fetchers can make music instead, counting at 15750 Hz by
 // themselves. A random number generator is clocked by accesses.
 //
-//   $1000-$103F read: function (address >> 3 & 7) of fetcher (address & 7); $1040-$107F written: its registers
+//   $1000-$103F read: function (address >> 3 & 7) of fetcher (address & 7); $1040-$107F written: its
+//   registers
 //
 // (docs/spec/cartridges.md, 8)
 #pragma once
@@ -39,7 +40,9 @@ struct Chip {
 static_assert(sizeof(Chip) <= kRamInState && std::is_trivially_copyable_v<Chip>);
 static_assert(alignof(Chip) <= alignof(CartridgeState));
 
-inline Chip& chip_of(CartridgeSlot& slot) { return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data())); }
+inline Chip& chip_of(CartridgeSlot& slot) {
+  return *std::launder(reinterpret_cast<Chip*>(slot.state.ram.data()));
+}
 
 // Only at power-on: a reset does not change the fetchers.
 inline void power_on(CartridgeSlot& slot) {
@@ -77,7 +80,8 @@ inline void clock_random(Chip& chip) { chip.random = kNextRandom[chip.random]; }
 // A music fetcher wraps from 0 to its top. Its output is high from the top down to the bottom.
 inline void count_down(Fetcher& fetcher, int clocks) {
   const int period = fetcher.top + 1;
-  if (clocks >= period) [[unlikely]] clocks %= period;  // slow: a division
+  if (clocks >= period) [[unlikely]]
+    clocks %= period;  // slow: a division
   int low = fetcher.top == 0 ? 0 : fetcher.low() - clocks;
   if (low < 0) low += period;
   fetcher.set_low(static_cast<unsigned>(low));
@@ -90,7 +94,8 @@ constexpr double divided_clocks(std::int32_t cycles) { return 15750.0 * cycles /
 
 constexpr std::array<double, 256> kClocks = [] {
   std::array<double, 256> clocks{};
-  for (std::int32_t cycles = 0; cycles < 256; ++cycles) clocks[static_cast<std::size_t>(cycles)] = divided_clocks(cycles);
+  for (std::int32_t cycles = 0; cycles < 256; ++cycles)
+    clocks[static_cast<std::size_t>(cycles)] = divided_clocks(cycles);
   return clocks;
 }();
 
@@ -100,7 +105,8 @@ inline double clocks_in(std::int32_t cycles) {
 }
 
 inline void run_music(CartridgeSlot& slot, Chip& chip, std::int32_t cycle) {
-  const auto passed = static_cast<std::int32_t>(static_cast<std::uint32_t>(cycle) - slot.machine.frame.cartridge_clock);
+  const auto passed =
+      static_cast<std::int32_t>(static_cast<std::uint32_t>(cycle) - slot.machine.frame.cartridge_clock);
   slot.machine.frame.cartridge_clock = static_cast<std::uint32_t>(cycle);
   const double clocks = clocks_in(passed) + chip.fraction;
   const int whole = static_cast<int>(clocks);
@@ -128,8 +134,10 @@ std::uint8_t fetch(CartridgeSlot& slot, std::uint16_t address, std::int32_t cycl
   clock_random(chip);
   const unsigned number = address & 7;
   Fetcher& fetcher = chip.fetcher[number];
-  if (fetcher.low() == fetcher.top) fetcher.flag = 0xFF;
-  else if (fetcher.low() == fetcher.bottom) fetcher.flag = 0x00;
+  if (fetcher.low() == fetcher.top)
+    fetcher.flag = 0xFF;
+  else if (fetcher.low() == fetcher.bottom)
+    fetcher.flag = 0x00;
 
   const auto displayed = [&] { return slot.rom[kDisplay + kDisplaySize - 1 - fetcher.counter]; };
   std::uint8_t result = 0;
@@ -156,7 +164,8 @@ inline std::uint8_t read_image(CartridgeSlot& slot, std::uint16_t address, std::
 }
 
 inline PortReader port_reader(std::uint16_t address) {
-  static constexpr PortReader kReaders[8] = {fetch<0>, fetch<1>, fetch<2>, fetch<3>, fetch<4>, fetch<5>, fetch<6>, fetch<7>};
+  static constexpr PortReader kReaders[8] = {fetch<0>, fetch<1>, fetch<2>, fetch<3>,
+                                             fetch<4>, fetch<5>, fetch<6>, fetch<7>};
   const unsigned offset = address & 0xFFF;
   if (offset < kReadPort) return kReaders[offset >> 3];
   return offset < kPorts ? read_image : nullptr;

@@ -41,8 +41,10 @@ inline void map_window(CartridgeSlot& slot, unsigned window) {
   const unsigned first = kWindow * window, number = block(slot, window);
   slot.map.hide(first, kWindow);
   if (locked(slot) && window != kWindows - 1) return;
-  if (number & kRomFlag) slot.map.show(first, rom_block(slot, number), kWindow);
-  else slot.map.show(first + kRamBlock, &ram_byte(slot, number, 0), kRamBlock);
+  if (number & kRomFlag)
+    slot.map.show(first, rom_block(slot, number), kWindow);
+  else
+    slot.map.show(first + kRamBlock, &ram_byte(slot, number, 0), kRamBlock);
 }
 
 inline void map(CartridgeSlot& slot) {
@@ -59,8 +61,10 @@ inline void lock(CartridgeSlot& slot, bool on) {
 
 inline void touch(CartridgeSlot& slot, std::uint16_t address) {
   const unsigned place = address & 0x1FFF;
-  if (place == 0x1FFC || place == 0x1FFD) lock(slot, true);
-  else if (place >= 0x1000 && place < 0x1C00) lock(slot, false);
+  if (place == 0x1FFC || place == 0x1FFD)
+    lock(slot, true);
+  else if (place >= 0x1000 && place < 0x1C00)
+    lock(slot, false);
 }
 
 inline bool admits(const CartridgeSlot&, const CartridgeState& state) {

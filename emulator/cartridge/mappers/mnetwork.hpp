@@ -11,11 +11,15 @@ namespace racebeam::mnetwork {
 constexpr unsigned kSlice = 2048, kLastSlice = 7;
 constexpr unsigned kLowRam = 1024, kHighRam = 256, kHighRamBanks = 4;
 
-inline const std::uint8_t* slice(const CartridgeSlot& slot, unsigned number) { return slot.rom.data() + kSlice * number; }
+inline const std::uint8_t* slice(const CartridgeSlot& slot, unsigned number) {
+  return slot.rom.data() + kSlice * number;
+}
 
 inline bool low_ram_shows(const CartridgeSlot& slot) { return slot.state.bank[0] == kLastSlice; }
 
-inline std::uint8_t* high_ram(const CartridgeSlot& slot) { return slot.ram.data() + kLowRam + kHighRam * slot.state.bank[1]; }
+inline std::uint8_t* high_ram(const CartridgeSlot& slot) {
+  return slot.ram.data() + kLowRam + kHighRam * slot.state.bank[1];
+}
 
 inline void reset(CartridgeSlot& slot) { slot.state.bank = {}; }
 

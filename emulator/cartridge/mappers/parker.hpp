@@ -15,7 +15,8 @@ inline const std::uint8_t* slice(const CartridgeSlot& slot, unsigned window) {
 }
 
 inline void reset(CartridgeSlot& slot) {
-  for (unsigned window = 0; window < 4; ++window) slot.state.bank[window] = static_cast<std::uint8_t>(4 + window);
+  for (unsigned window = 0; window < 4; ++window)
+    slot.state.bank[window] = static_cast<std::uint8_t>(4 + window);
 }
 
 inline void map(CartridgeSlot& slot) {

@@ -28,7 +28,9 @@ std::uint8_t no_hidden_page(CartridgeSlot&, std::uint16_t, std::int32_t) { retur
 bool no_banks(const CartridgeSlot&, const CartridgeState& state) { return banks_unused(state, 0); }
 
 // F4SC's hot spots react to reads only.
-Delivery write_f4sc(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) { return atari::write_ram(slot, address, value); }
+Delivery write_f4sc(CartridgeSlot& slot, std::uint16_t address, std::uint8_t value) {
+  return atari::write_ram(slot, address, value);
+}
 
 // clang-format off
 constexpr Delivery (*kIgnore)(CartridgeSlot&, std::uint16_t, std::uint8_t) = atari::ignore_write;
@@ -89,7 +91,8 @@ using Signature = std::initializer_list<std::uint8_t>;
 bool contains(const Rom& rom, Signature signature, int hits = 1) {
   const std::size_t length = signature.size();
   for (std::size_t i = 0; i + length + 1 <= rom.size(); ++i) {
-    if (!std::equal(signature.begin(), signature.end(), rom.begin() + static_cast<std::ptrdiff_t>(i))) continue;
+    if (!std::equal(signature.begin(), signature.end(), rom.begin() + static_cast<std::ptrdiff_t>(i)))
+      continue;
     if (--hits == 0) return true;
     i += length;
   }
@@ -97,7 +100,8 @@ bool contains(const Rom& rom, Signature signature, int hits = 1) {
 }
 
 bool contains_any(const Rom& rom, std::initializer_list<Signature> signatures) {
-  return std::any_of(signatures.begin(), signatures.end(), [&](const Signature& s) { return contains(rom, s); });
+  return std::any_of(signatures.begin(), signatures.end(),
+                     [&](const Signature& s) { return contains(rom, s); });
 }
 
 bool all_equal(std::span<const std::uint8_t> bytes) {
@@ -123,19 +127,26 @@ bool is_3f(const Rom& rom) { return contains(rom, {0x85, 0x3F}, 2); }
 bool is_ua(const Rom& rom) { return contains(rom, {0x8D, 0x40, 0x02}); }
 
 bool is_e0(const Rom& rom) {
-  return contains_any(rom, {{0x8D, 0xE0, 0x1F}, {0x8D, 0xE0, 0x5F}, {0x8D, 0xE9, 0xFF},
-                            {0xAD, 0xE9, 0xFF}, {0xAD, 0xED, 0xFF}, {0xAD, 0xF3, 0xBF}});
+  return contains_any(rom, {{0x8D, 0xE0, 0x1F},
+                            {0x8D, 0xE0, 0x5F},
+                            {0x8D, 0xE9, 0xFF},
+                            {0xAD, 0xE9, 0xFF},
+                            {0xAD, 0xED, 0xFF},
+                            {0xAD, 0xF3, 0xBF}});
 }
 
 bool is_fe(const Rom& rom) {
-  return contains_any(rom, {{0x20, 0x00, 0xD0, 0xC6, 0xC5}, {0x20, 0xC3, 0xF8, 0xA5, 0x82},
-                            {0xD0, 0xFB, 0x20, 0x73, 0xFE}, {0x20, 0x00, 0xF0, 0x84, 0xD6}});
+  return contains_any(rom, {{0x20, 0x00, 0xD0, 0xC6, 0xC5},
+                            {0x20, 0xC3, 0xF8, 0xA5, 0x82},
+                            {0xD0, 0xFB, 0x20, 0x73, 0xFE},
+                            {0x20, 0x00, 0xF0, 0x84, 0xD6}});
 }
 
 bool is_e7(const Rom& rom) {
   const auto differs = [&](std::size_t from) {
     return std::any_of(rom.begin() + static_cast<std::ptrdiff_t>(from),
-                       rom.begin() + static_cast<std::ptrdiff_t>(from + 32), [&](std::uint8_t b) { return b != rom[0x3800]; });
+                       rom.begin() + static_cast<std::ptrdiff_t>(from + 32),
+                       [&](std::uint8_t b) { return b != rom[0x3800]; });
   };
   return all_equal(std::span(rom).subspan(0x3800, 0x200)) && (differs(0x37E0) || differs(0x3A00));
 }
@@ -171,7 +182,9 @@ std::string_view scheme_name(const Rom& rom) {
     case 2048: return is_cv(rom) ? "CV" : "2K";
     case 4096: return is_cv(rom) ? "CV 4K" : halves_equal(rom) ? "2K" : "4K";
     case 8192: return name_8k(rom);
-    case 10240: case 10495: case 10496: return "DPC";
+    case 10240:
+    case 10495:
+    case 10496: return "DPC";
     case 12288: return "FASC";
     case 16384: return name_16k(rom);
     case 32768: return is_sc(rom) ? "F4SC" : name_large(rom, "F4");
@@ -186,13 +199,13 @@ const Scheme& scheme_of(const Rom& rom, std::string_view asked_for) {
   const std::string size = std::to_string(rom.size()) + " bytes";
   if (name.empty()) {
     throw InvalidInput("no cartridge scheme fits an image of " + size +
-                                "; usual sizes are 2048, 4096, 8192, 16384 and 32768 bytes");
+                       "; usual sizes are 2048, 4096, 8192, 16384 and 32768 bytes");
   }
   const auto scheme = std::ranges::find(kSchemes, name, &Scheme::name);
   if (scheme == std::end(kSchemes)) throw InvalidInput("there is no cartridge scheme " + std::string(name));
   if (rom.size() < scheme->image) {
     throw InvalidInput("the cartridge scheme " + std::string(name) + " needs an image of at least " +
-                                std::to_string(scheme->image) + " bytes; this one has " + size);
+                       std::to_string(scheme->image) + " bytes; this one has " + size);
   }
   return *scheme;
 }

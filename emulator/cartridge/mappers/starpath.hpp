@@ -50,7 +50,8 @@ inline constexpr std::array<std::uint8_t, kBank> kBiosRom = [] {
 enum Register { kConfiguration, kNoted, kPending };  // among the state's banks
 
 inline unsigned bank_shown(const CartridgeSlot& slot, bool upper) {
-  static constexpr std::uint8_t kBanks[8][2] = {{2, 3}, {0, 3}, {2, 0}, {0, 2}, {2, 3}, {1, 3}, {2, 1}, {1, 2}};
+  static constexpr std::uint8_t kBanks[8][2] = {{2, 3}, {0, 3}, {2, 0}, {0, 2},
+                                                {2, 3}, {1, 3}, {2, 1}, {1, 2}};
   return kBanks[slot.state.bank[kConfiguration] >> 2 & 7][upper];
 }
 
@@ -85,7 +86,8 @@ inline void load(CartridgeSlot& slot) {
   const unsigned pages = std::min<unsigned>(header[3], kHeader / kPage);
   for (unsigned page = 0; page < pages; ++page) {
     const unsigned bank = header[16 + page] & 3, place = header[16 + page] >> 2 & 7;
-    if (bank != kBios) std::copy_n(from + kPage * page, kPage, slot.ram.begin() + kBank * bank + kPage * place);
+    if (bank != kBios)
+      std::copy_n(from + kPage * page, kPage, slot.ram.begin() + kBank * bank + kPage * place);
   }
   auto& ram = slot.machine.riot.ram;
   ram[0x7E] = header[0];

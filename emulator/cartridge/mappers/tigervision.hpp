@@ -14,7 +14,9 @@ namespace racebeam::tigervision {
 constexpr unsigned kBankSize = 2048;
 constexpr unsigned kRamBankSize = 1024, kRamBanks = 32;
 
-inline unsigned banks(const CartridgeSlot& slot) { return static_cast<unsigned>(slot.rom.size()) / kBankSize; }
+inline unsigned banks(const CartridgeSlot& slot) {
+  return static_cast<unsigned>(slot.rom.size()) / kBankSize;
+}
 
 inline void reset(CartridgeSlot& slot) { slot.state.bank[0] = 0; }
 
@@ -43,7 +45,9 @@ inline Delivery write(CartridgeSlot& slot, std::uint16_t address, std::uint8_t v
 // 3E: bank 0 of the state is the ROM's. If bank 2 is not 0, $1000 shows the RAM's bank 1 instead.
 inline bool ram_selected(const CartridgeSlot& slot) { return slot.state.bank[2] != 0; }
 
-inline std::uint8_t* ram_bank(const CartridgeSlot& slot) { return slot.ram.data() + kRamBankSize * slot.state.bank[1]; }
+inline std::uint8_t* ram_bank(const CartridgeSlot& slot) {
+  return slot.ram.data() + kRamBankSize * slot.state.bank[1];
+}
 
 inline void reset_3e(CartridgeSlot& slot) { slot.state.bank = {}; }
 

@@ -32,7 +32,9 @@ constexpr Collisions kAllPairs = 0xEFFF;  // D6 of CXBLPF is unused
 std::uint8_t objects_of(Collisions pairs);
 
 // Whether any pair of these objects (bit n: Object n) may meet that is not `known` to.
-inline bool can_meet(std::uint8_t objects, Collisions known) { return (kPossibleMeetings[objects] & ~known) != 0; }
+inline bool can_meet(std::uint8_t objects, Collisions known) {
+  return (kPossibleMeetings[objects] & ~known) != 0;
+}
 
 // The pairs that meet in these pixels. Those in `known` are not computed.
 Collisions meetings(const Line& line, int first, int last, Collisions known);

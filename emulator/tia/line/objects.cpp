@@ -98,7 +98,9 @@ void draw_playfield(PixelMask& mask, const TiaState& tia) {
     mask.word[2] = low >> 48 | high << 16;
     return;
   }
-  const auto mirror = [](std::uint32_t part) { return std::uint64_t{kTables.four_times[kTables.reverse[part & 0xFF]]}; };
+  const auto mirror = [](std::uint32_t part) {
+    return std::uint64_t{kTables.four_times[kTables.reverse[part & 0xFF]]};
+  };
   // Right half: bits 19 to 0. As bytes of eight bits from the left: 19-12, 11-4, 3-0.
   const std::uint64_t right = mirror(bits >> 12) | mirror(bits >> 4) << 32;
   const std::uint64_t last = mirror(bits << 4) & 0xFFFF;

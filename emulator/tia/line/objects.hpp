@@ -24,14 +24,17 @@ inline std::uint8_t shown_graphics(const PlayerState& player) {  // before REFPx
 inline bool missile_enabled(const MissileState& missile) { return missile.enabled && !missile.locked; }
 inline bool ball_enabled(const BallState& ball) { return (ball.vdel ? ball.old_enabled : ball.enabled) != 0; }
 
-inline bool playfield_enabled(const TiaRegisters& tia) { return ((tia.pf[0] & 0xF0) | tia.pf[1] | tia.pf[2]) != 0; }
+inline bool playfield_enabled(const TiaRegisters& tia) {
+  return ((tia.pf[0] & 0xF0) | tia.pf[1] | tia.pf[2]) != 0;
+}
 
 // The pixels of PF0, PF1 or PF2 in each half of a line: [first, end).
 struct PlayfieldPart {
   int left, left_end, right, right_end;
 };
-constexpr PlayfieldPart kPlayfieldParts[2][3] = {{{0, 16, 80, 96}, {16, 48, 96, 128}, {48, 80, 128, 160}},
-                                                 {{0, 16, 144, 160}, {16, 48, 112, 144}, {48, 80, 80, 112}}};  // reflected
+constexpr PlayfieldPart kPlayfieldParts[2][3] = {
+    {{0, 16, 80, 96}, {16, 48, 96, 128}, {48, 80, 128, 160}},
+    {{0, 16, 144, 160}, {16, 48, 112, 144}, {48, 80, 80, 112}}};  // reflected
 
 // Those of `objects` that are enabled.
 RACEBEAM_INLINE std::uint8_t enabled_among(const TiaRegisters& tia, unsigned objects) {

@@ -28,13 +28,16 @@ struct PixelMask {
 
   // The pixels in [first, last).
   static PixelMask range(int first, int last) {
-    const PixelMask &to_last = kBelow[static_cast<std::size_t>(last)], &to_first = kBelow[static_cast<std::size_t>(first)];
+    const PixelMask &to_last = kBelow[static_cast<std::size_t>(last)],
+                    &to_first = kBelow[static_cast<std::size_t>(first)];
     return {{to_last.word[0] & ~to_first.word[0], to_last.word[1] & ~to_first.word[1],
              to_last.word[2] & ~to_first.word[2]}};
   }
 
   // Eight pixels, from pixel 8 * `group` on.
-  std::uint8_t byte(std::size_t group) const { return static_cast<std::uint8_t>(word[group / 8] >> (8 * (group % 8))); }
+  std::uint8_t byte(std::size_t group) const {
+    return static_cast<std::uint8_t>(word[group / 8] >> (8 * (group % 8)));
+  }
 
   bool any() const { return (word[0] | word[1] | word[2]) != 0; }
   bool meets(const PixelMask& other) const {

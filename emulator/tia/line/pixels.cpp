@@ -23,7 +23,8 @@ enum class Order { kPlayersInFront, kPlayfieldInFront, kScore };
 
 RACEBEAM_INLINE Order order_of(const TiaRegisters& tia) {
   const bool in_front = (tia.ctrlpf & kPriorityMode) != 0;
-  if ((tia.ctrlpf & kScoreMode) != 0 && (!in_front || tia.enabled == object_bit(kPlayfield))) return Order::kScore;
+  if ((tia.ctrlpf & kScoreMode) != 0 && (!in_front || tia.enabled == object_bit(kPlayfield)))
+    return Order::kScore;
   return in_front ? Order::kPlayfieldInFront : Order::kPlayersInFront;
 }
 
@@ -38,11 +39,11 @@ RACEBEAM_INLINE Layers layers_at(const Line& line, Order order, std::size_t word
   const std::uint64_t playfield = object(kPlayfield), ball = object(kBall);
   switch (order) {
     case Order::kScore:
-      return {ball, player1 | (playfield & kRightHalf.word[word]), player0 | (playfield & kLeftHalf.word[word])};
+      return {ball, player1 | (playfield & kRightHalf.word[word]),
+              player0 | (playfield & kLeftHalf.word[word])};
     case Order::kPlayfieldInFront:
       return {playfield | ball, player1 & ~(playfield | ball), player0 & ~(playfield | ball)};
-    default:
-      return {playfield | ball, player1, player0};
+    default: return {playfield | ball, player1, player0};
   }
 }
 
@@ -94,9 +95,12 @@ void draw_wide(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int
 void draw_narrow(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first, int last) {
   const PixelMask inside = PixelMask::range(first, last);
   const Order order = order_of(tia);
-  for (auto group = static_cast<std::size_t>(first) / 8; group <= static_cast<std::size_t>(last - 1) / 8; ++group) {
+  for (auto group = static_cast<std::size_t>(first) / 8; group <= static_cast<std::size_t>(last - 1) / 8;
+       ++group) {
     const auto [colupf, colup1, colup0] = layers_at(line, order, group / 8);
-    const auto bits = [group](std::uint64_t word) { return static_cast<std::uint8_t>(word >> (8 * (group % 8))); };
+    const auto bits = [group](std::uint64_t word) {
+      return static_cast<std::uint8_t>(word >> (8 * (group % 8)));
+    };
     std::uint64_t pixels = tia.color[kColubk] * kOnes, old;
     pixels = painted(pixels, bits(colupf), tia.color[kColupf] * kOnes);
     pixels = painted(pixels, bits(colup1), tia.color[kColup1] * kOnes);
@@ -108,8 +112,10 @@ void draw_narrow(const Line& line, const TiaRegisters& tia, std::uint8_t* row, i
 }
 
 void draw_plain(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first, int last) {
-  if (last - first > kNarrow) draw_wide(line, tia, row, first, last);
-  else draw_narrow(line, tia, row, first, last);
+  if (last - first > kNarrow)
+    draw_wide(line, tia, row, first, last);
+  else
+    draw_narrow(line, tia, row, first, last);
 }
 
 #if RACEBEAM_HAS_AVX
@@ -119,7 +125,8 @@ void draw_plain(const Line& line, const TiaRegisters& tia, std::uint8_t* row, in
 
 // 32 pixels, as bytes of ones where they are covered.
 RACEBEAM_AVX2 inline __m256i bytes_of(std::uint32_t covered) {
-  const __m256i byte_of_each = _mm256_setr_epi64x(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303);
+  const __m256i byte_of_each =
+      _mm256_setr_epi64x(0, 0x0101010101010101, 0x0202020202020202, 0x0303030303030303);
   const __m256i bit_of_each = _mm256_set1_epi64x(static_cast<long long>(0x8040201008040201));
   const __m256i spread = _mm256_shuffle_epi8(_mm256_set1_epi32(static_cast<int>(covered)), byte_of_each);
   return _mm256_cmpeq_epi8(_mm256_and_si256(spread, bit_of_each), bit_of_each);
@@ -129,7 +136,8 @@ RACEBEAM_AVX2 inline __m256i painted_avx2(__m256i pixels, std::uint32_t covered,
   return _mm256_blendv_epi8(pixels, _mm256_set1_epi8(static_cast<char>(ink)), bytes_of(covered));
 }
 
-RACEBEAM_AVX2 void draw_avx2(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first, int last) {
+RACEBEAM_AVX2 void draw_avx2(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first,
+                             int last) {
   const PixelMask inside = PixelMask::range(first, last);
   const Order order = order_of(tia);
   for (auto word = static_cast<std::size_t>(first) / 64; 64 * word < static_cast<std::size_t>(last); ++word) {
@@ -142,7 +150,8 @@ RACEBEAM_AVX2 void draw_avx2(const Line& line, const TiaRegisters& tia, std::uin
         pixels = painted_avx2(pixels, static_cast<std::uint32_t>(colup1), tia.color[kColup1]);
         pixels = painted_avx2(pixels, static_cast<std::uint32_t>(colup0), tia.color[kColup0]);
         auto* const place = reinterpret_cast<__m256i*>(at);
-        if (bits != ~std::uint32_t{0}) pixels = _mm256_blendv_epi8(_mm256_load_si256(place), pixels, bytes_of(bits));
+        if (bits != ~std::uint32_t{0})
+          pixels = _mm256_blendv_epi8(_mm256_load_si256(place), pixels, bytes_of(bits));
         _mm256_store_si256(place, pixels);
       }
       shown >>= 32, colupf >>= 32, colup1 >>= 32, colup0 >>= 32;
@@ -154,7 +163,8 @@ RACEBEAM_AVX512 inline __m512i painted_avx512(__m512i pixels, std::uint64_t cove
   return _mm512_mask_set1_epi8(pixels, covered, static_cast<char>(ink));
 }
 
-RACEBEAM_AVX512 void draw_avx512(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first, int last) {
+RACEBEAM_AVX512 void draw_avx512(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first,
+                                 int last) {
   const PixelMask inside = PixelMask::range(first, last);
   const Order order = order_of(tia);
   for (auto word = static_cast<std::size_t>(first) / 64; 64 * word < static_cast<std::size_t>(last); ++word) {

@@ -10,7 +10,8 @@
 namespace racebeam {
 
 // Writes pixels [first, last) of a row, and no other byte. The row must be aligned to 32 bytes.
-using DrawPixels = void (*)(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first, int last);
+using DrawPixels = void (*)(const Line& line, const TiaRegisters& tia, std::uint8_t* row, int first,
+                            int last);
 
 DrawPixels pixel_drawer(Simd simd);  // `simd` must be supported by the processor
 

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::uint8_t bit(unsigned object) { return static_cast<std::uint8_t>(1U << object); }
 
-// The bytes that decide whether an object is enabled, and for kPlaceOfP0 and kPlaceOfP1 those that place its copies.
+// The bytes that decide whether an object is enabled, and for kPlaceOfP0 and kPlaceOfP1 those that place its
+// copies.
 constexpr TiaRegisters control_bytes(unsigned which) {
   switch (which) {
     case bit(kP0): return RACEBEAM_TIA_BYTES((p0.grp, p0.old_grp, p0.vdel));
@@ -30,17 +31,17 @@ constexpr TiaRegisters control_bytes(unsigned which) {
 // The largest cycle of a line at which a write still takes effect on it, whatever its delay.
 constexpr int last_cycle(unsigned reg) { return (228 - std::max(kRegisters[reg].delay, 1)) / 3; }
 
-// The first cycle in which a write belongs to the next line. Cycle 76 is clock 228: the line is drawn, but its
-// end, which may undo the write, is not processed. A write there is like one in the next line, where the row of
-// the register says so.
+// The first cycle in which a write belongs to the next line. Cycle 76 is clock 228: the line is drawn, but
+// its end, which may undo the write, is not processed. A write there is like one in the next line, where the
+// row of the register says so.
 constexpr std::int8_t first_late(unsigned reg) {
   const bool never = reg == kNone || kRegisters[reg].late == WhenLate::kOwn;
   return static_cast<std::int8_t>(never ? 127 : last_cycle(reg) + 1);
 }
 
-// A write affects the control of the objects whose control bytes it sets. RESPx and RESMPx read the positions of
-// a player's copies. VBLANK is part of every key. The effect of CTRLPF on the playfield's colours is recorded when
-// it is drawn.
+// A write affects the control of the objects whose control bytes it sets. RESPx and RESMPx read the positions
+// of a player's copies. VBLANK is part of every key. The effect of CTRLPF on the playfield's colours is
+// recorded when it is drawn.
 constexpr std::uint8_t control_of(unsigned reg) {
   const RegisterBytes& bytes = kRegisterBytes[reg];
   unsigned control = 0;
@@ -55,7 +56,8 @@ constexpr std::array<LineEffect, 64> make_effects() {
   std::array<LineEffect, 64> table{};
   for (unsigned reg = 0; reg < 64; ++reg) {
     const std::uint16_t seen = reg == HMOVE ? kMoves : reg == CXCLR ? kClears : 0;
-    const std::uint32_t last = reg == kNone ? 0 : TiaWrite(kEarliestWrite + last_cycle(reg), 0x3F, 0xFF).packed();
+    const std::uint32_t last =
+        reg == kNone ? 0 : TiaWrite(kEarliestWrite + last_cycle(reg), 0x3F, 0xFF).packed();
     table[reg] = {last, first_late(reg), control_of(reg), seen};
   }
   return table;

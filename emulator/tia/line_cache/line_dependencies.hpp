@@ -39,14 +39,16 @@ constexpr int kEarliestWrite = 4;
 
 // The possible effect of a write to a register on the line of its cycle.
 struct LineEffect {
-  std::uint32_t last;            // the largest LineWrite::counted_up() that takes effect on this line
-  std::int8_t first_late_cycle;  // from this cycle on, it affects the next line alone, as if it were written there
-  std::uint8_t control;          // see LineDependencies; for RESPx only if a write follows at once
-  std::uint16_t seen;            // kMoves, kClears or 0
+  std::uint32_t last;  // the largest LineWrite::counted_up() that takes effect on this line
+  std::int8_t
+      first_late_cycle;  // from this cycle on, it affects the next line alone, as if it were written there
+  std::uint8_t control;  // see LineDependencies; for RESPx only if a write follows at once
+  std::uint16_t seen;    // kMoves, kClears or 0
 };
 extern const std::array<LineEffect, 64> kLineEffects;
 
-extern const std::array<TiaRegisters, 512> kSeenBytes;     // $FF for each byte that counts, by LineDependencies::seen without kClears
+extern const std::array<TiaRegisters, 512>
+    kSeenBytes;  // $FF for each byte that counts, by LineDependencies::seen without kClears
 extern const std::array<TiaRegisters, 256> kControlBytes;  // and by LineDependencies::control
 
 }  // namespace racebeam

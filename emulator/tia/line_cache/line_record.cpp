@@ -28,14 +28,16 @@ void clear_but(TiaRegisters& registers, const RegisterVectors& mask) {
 
 // The motions as far as they affect positions, by Object. HMP0 to HMBL are in that order, too.
 std::array<std::uint8_t, 5> motions_of(const TiaRegisters& tia) {
-  return {tia.player[0].motion, tia.player[1].motion, tia.missile[0].motion, tia.missile[1].motion, tia.ball.motion};
+  return {tia.player[0].motion, tia.player[1].motion, tia.missile[0].motion, tia.missile[1].motion,
+          tia.ball.motion};
 }
 
 // The objects that an HMOVE in this cycle moves.
 unsigned moved_objects(int cycle, const std::array<std::uint8_t, 5>& motion) {
   const auto& movement = kMovement[static_cast<std::size_t>(cycle + kLineCycles) % kLineCycles];
   unsigned moved = 0;
-  for (unsigned object = 0; object < motion.size(); ++object) moved |= (movement[motion[object]] != 0 ? 1U : 0U) << object;
+  for (unsigned object = 0; object < motion.size(); ++object)
+    moved |= (movement[motion[object]] != 0 ? 1U : 0U) << object;
   return moved;
 }
 

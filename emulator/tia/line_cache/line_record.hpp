@@ -48,24 +48,28 @@ constexpr LineNumber kNoLine = 0, kAnyLine = 1;  // of a record without a line; 
 struct alignas(64) LineRecord {
   static constexpr std::size_t kMostEvents = 16;
 
-  TiaRegisters start;   // at the line's first clock
-  TiaRegisters end;     // when the line is over
-  const LineMask* mask = nullptr;  // set by summarize(): then `start` and `end` are 0 except for the bytes that count, or are set
-  Collisions meetings;  // pairs that met on the line, after the last CXCLR
-  LineDependencies view;        // why bytes count
+  TiaRegisters start;              // at the line's first clock
+  TiaRegisters end;                // when the line is over
+  const LineMask* mask = nullptr;  // set by summarize(): then `start` and `end` are 0 except for the bytes
+                                   // that count, or are set
+  Collisions meetings;             // pairs that met on the line, after the last CXCLR
+  LineDependencies view;           // why bytes count
   LineNumber number = kNoLine;
   std::uint8_t fruitless = 0;  // how many lines drawn here have not recurred
-  std::uint8_t count;        // of events
-  std::int8_t hmove_cycle;   // of the last HMOVE, if the line kMoves
-  std::array<std::uint8_t, 2> hashes{};  // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp)
+  std::uint8_t count;          // of events
+  std::int8_t hmove_cycle;     // of the last HMOVE, if the line kMoves
+  std::array<std::uint8_t, 2>
+      hashes{};  // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp)
   alignas(16) std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
 
   // Whether the next line drawn here is to be recorded. After some frames without a recurrence, only a few
   // are.
   bool is_worthwhile() {
     constexpr std::uint8_t kPatience = 16, kRest = 40;
-    if (number != kNoLine && mask != nullptr) fruitless = 0;
-    else fruitless = fruitless < kRest ? static_cast<std::uint8_t>(fruitless + 1) : kPatience;
+    if (number != kNoLine && mask != nullptr)
+      fruitless = 0;
+    else
+      fruitless = fruitless < kRest ? static_cast<std::uint8_t>(fruitless + 1) : kPatience;
     return fruitless <= kPatience;
   }
 
@@ -84,7 +88,8 @@ struct alignas(64) LineRecord {
   RACEBEAM_INLINE bool starts_with(const RegisterVectors& registers) const {
     TwoWords difference{};
     for (std::size_t i = 0; i < 3; ++i)
-      difference |= (registers.part[i] & RegisterVectors::of(mask->counts, i)) ^ RegisterVectors::of(start, i);
+      difference |=
+          (registers.part[i] & RegisterVectors::of(mask->counts, i)) ^ RegisterVectors::of(start, i);
     return is_zero(difference);
   }
 
@@ -99,7 +104,8 @@ struct alignas(64) LineRecord {
   // Replaces the registers at the line's start by those at its end.
   RACEBEAM_INLINE void pass(RegisterVectors& registers) const {
     for (std::size_t i = 0; i < 3; ++i)
-      registers.part[i] = (registers.part[i] & ~RegisterVectors::of(mask->sets, i)) | RegisterVectors::of(end, i);
+      registers.part[i] =
+          (registers.part[i] & ~RegisterVectors::of(mask->sets, i)) | RegisterVectors::of(end, i);
   }
 
  private:

@@ -32,7 +32,8 @@ struct RegisterVectors {
 
   // Of a mask of whole bytes: a bit for each.
   RACEBEAM_INLINE std::uint64_t bytes_set() const {
-    return top_bits(part[0]) | std::uint64_t{top_bits(part[1])} << 16 | std::uint64_t{top_bits(part[2])} << 32;
+    return top_bits(part[0]) | std::uint64_t{top_bits(part[1])} << 16 |
+           std::uint64_t{top_bits(part[2])} << 32;
   }
 
   // A part of what lies in memory.

@@ -9,7 +9,8 @@
 
 namespace racebeam {
 
-// A write in one word: cycle (18 bits, from the log's base on), register (6), value (8). Later writes are larger words.
+// A write in one word: cycle (18 bits, from the log's base on), register (6), value (8). Later writes are
+// larger words.
 class TiaWrite {
  public:
   static constexpr unsigned kCycleShift = 14;
@@ -27,19 +28,22 @@ class TiaWrite {
   std::uint32_t packed_;
 };
 
-// What of its writes a step has not played yet, for one machine at a time: a scratch list that machines share.
-// Of writes that repeat what the register holds nothing is kept, nor of reads: where they can be seen, the step is run
-// again, access by access (Board::end_step, Console::Impl::run_step). Translated code appends as
-// append_change() does, and finds the members at fixed places.
+// What of its writes a step has not played yet, for one machine at a time: a scratch list that machines
+// share. Of writes that repeat what the register holds nothing is kept, nor of reads: where they can be seen,
+// the step is run again, access by access (Board::end_step, Console::Impl::run_step). Translated code appends
+// as append_change() does, and finds the members at fixed places.
 struct WriteLog {
-  // No step has more instructions than half of this; a plain store is one entry, and whoever appends more, or waits,
-  // asks is_short_of_room() first. So neither the list nor the cycle's 18 bits can overflow, whatever the program does.
+  // No step has more instructions than half of this; a plain store is one entry, and whoever appends more, or
+  // waits, asks is_short_of_room() first. So neither the list nor the cycle's 18 bits can overflow, whatever
+  // the program does.
   static constexpr std::size_t kCapacity = 65536;
-  static constexpr std::int32_t kLongestSpan = 50000;  // cycles; 25000 instructions of 8 cycles still fit after it
-  static constexpr std::size_t kPadding = 32;          // entries that may be read beyond the last
+  static constexpr std::int32_t kLongestSpan =
+      50000;                                   // cycles; 25000 instructions of 8 cycles still fit after it
+  static constexpr std::size_t kPadding = 32;  // entries that may be read beyond the last
 
   static constexpr std::uint16_t kUnknown = 0x100;
-  static constexpr std::uint16_t kUnsettled = 0x200;  // the value is known, but writing it again does something
+  static constexpr std::uint16_t kUnsettled =
+      0x200;  // the value is known, but writing it again does something
 
   // kUnknown for the registers whose repeated writes act.
   static constexpr std::array<std::uint16_t, 64> kOnRepeat = [] {
@@ -49,9 +53,9 @@ struct WriteLog {
     return table;
   }();
 
-  std::uint32_t* next = nullptr;              // where the next write goes
-  std::int32_t base = 0;                      // the cycle that the entries' cycles count from
-  std::array<std::uint16_t, 64> written{};    // each register's last value, with the marks above
+  std::uint32_t* next = nullptr;            // where the next write goes
+  std::int32_t base = 0;                    // the cycle that the entries' cycles count from
+  std::array<std::uint16_t, 64> written{};  // each register's last value, with the marks above
   std::array<std::uint32_t, kCapacity + kPadding> entry;
 
   WriteLog() { begin(0); }
@@ -70,14 +74,17 @@ struct WriteLog {
   }
 
   std::size_t size() const { return static_cast<std::size_t>(next - entry.data()); }
-  bool is_short_of_room(std::int32_t cycle) const { return size() > kCapacity / 2 || cycle - base > kLongestSpan; }
+  bool is_short_of_room(std::int32_t cycle) const {
+    return size() > kCapacity / 2 || cycle - base > kLongestSpan;
+  }
 
   // A write that may change the picture, whatever was written before.
   void append(std::int32_t cycle, unsigned reg, std::uint8_t value) {
     *next++ = TiaWrite(cycle - base, reg, value).packed();
     written[reg] = kUnknown;
     written[kRegisters[reg].renews] |= kUnsettled;
-    if (reg == HMCLR) written[HMP0] = written[HMP1] = written[HMM0] = written[HMM1] = written[HMBL] = kUnknown;
+    if (reg == HMCLR)
+      written[HMP0] = written[HMP1] = written[HMM0] = written[HMM1] = written[HMBL] = kUnknown;
   }
 
   // The same, unless it repeats the last one and the register only holds what is written.

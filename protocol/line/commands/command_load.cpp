@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::string_view kInline = "inline";
 
-// Never 0. Not of std::random_device, which needs a C library of 2022 when it is linked statically, as in a wheel.
+// Never 0. Not of std::random_device, which needs a C library of 2022 when it is linked statically, as in a
+// wheel.
 std::uint32_t fresh_seed() {
   std::uint32_t seed = 0;
   if (getentropy(&seed, sizeof seed) != 0)
@@ -163,7 +164,8 @@ void run_load(Session& session, Words arguments) {
   std::unique_ptr<Player> player;
   try {
     session.allow_resets(1);
-    session.memory.check(Player::footprint(session.fields) + (arguments[0] == kInline ? kOwnImage : 0), "a machine");
+    session.memory.check(Player::footprint(session.fields) + (arguments[0] == kInline ? kOwnImage : 0),
+                         "a machine");
     player = std::make_unique<Player>(cartridge, settings, session.fields, session.pacer);
   } catch (const InvalidInput& error) {
     const bool sent = arguments[0] == kInline && !settings.mode && !settings.difficulty;

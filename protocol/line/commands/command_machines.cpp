@@ -23,18 +23,28 @@ struct OpenRow {
 // Values count as their enumerations do.
 const std::vector<OpenRow>& open_rows() {
   static const std::vector<OpenRow> rows = {
-      {"autoreset", {autoresets().begin(), autoresets().end()}, false,
+      {"autoreset",
+       {autoresets().begin(), autoresets().end()},
+       false,
        [](OpenSettings& s, std::size_t value) { s.autoreset = static_cast<Autoreset>(value); }},
-      {"steps", {"frames", "acts"}, false,
+      {"steps",
+       {"frames", "acts"},
+       false,
        [](OpenSettings& s, std::size_t value) { s.slot.steps = static_cast<Steps>(value); }},
-      {"start", {"fire-noops", "noops-fire", "baselines", "noops"}, true,
+      {"start",
+       {"fire-noops", "noops-fire", "baselines", "noops"},
+       true,
        [](OpenSettings& s, std::size_t value) {
          s.slot.fire_at_reset = value < 3;
          if (value < 3) s.slot.reset_order = static_cast<ResetOrder>(value);
        }},
-      {"lives", {"ignored", "told", "end", "restart"}, true,
+      {"lives",
+       {"ignored", "told", "end", "restart"},
+       true,
        [](OpenSettings& s, std::size_t value) { s.slot.life_loss = static_cast<LifeLoss>(value); }},
-      {"stack", {"zeros", "repeats"}, true,
+      {"stack",
+       {"zeros", "repeats"},
+       true,
        [](OpenSettings& s, std::size_t value) { s.slot.stack_start = static_cast<StackStart>(value); }},
       {"pool", {"0", "1"}, true, [](OpenSettings& s, std::size_t value) { s.slot.max_pool = value == 1; }},
   };
@@ -63,7 +73,8 @@ OpenSettings read_open_settings(const Session& session, Words words) {
   }
   if (settings.slot.steps == Steps::kActs && !of_frames.empty())
     throw Refusal(Code::kBadArguments, std::string(of_frames) + "= goes with steps=frames");
-  if (std::ranges::find(given, "start") == given.end()) settings.slot.fire_at_reset = settings.slot.steps == Steps::kFrames;
+  if (std::ranges::find(given, "start") == given.end())
+    settings.slot.fire_at_reset = settings.slot.steps == Steps::kFrames;
   return settings;
 }
 

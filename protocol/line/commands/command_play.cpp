@@ -84,7 +84,8 @@ void run_look(Session& session, Words arguments) {
   std::vector<Field> fields = parse_fields(arguments);
   check_sound(session, fields);
   check_look(fields);
-  session.memory.check(View::footprint(fields) + text_size(fields, player.machine()), "a look at these fields");
+  session.memory.check(View::footprint(fields) + text_size(fields, player.machine()),
+                       "a look at these fields");
   const auto stack = stack_of(fields, player.slot());
   session.out += "ok";
   View(std::move(fields))

@@ -36,7 +36,10 @@ const std::vector<Case> kCases = {
     {"CV", 2048, make<ModelCv>, {{0x1000, 0x800}}},
     {"CV 4K", 4096, make<ModelCv>, {{0x1000, 0x800}}},
     {"MB", 65536, make<ModelMb>, {{0x1FF0, 1}}},
-    {"MC", 131072, make<ModelMc>, {{0x003C, 4}, {0x0000, 0x40}, {0x1000, 0x800}, {0x1FFC, 2}, {0x1C00, 0x400}}},
+    {"MC",
+     131072,
+     make<ModelMc>,
+     {{0x003C, 4}, {0x0000, 0x40}, {0x1000, 0x800}, {0x1FFC, 2}, {0x1C00, 0x400}}},
     {"AR", 8448, make<ModelAr>, {{0x1000, 0x100}, {0x1FF8, 1}}},
     {"DPC", 10495, make<ModelDpc>, {{0x1000, 0x40}, {0x1000, 8}, {0x1040, 0x40}, {0x1058, 8}, {0x1FF8, 2}}},
 };
@@ -50,7 +53,11 @@ Properties asking_for(const char* scheme) {
 class Trial {
  public:
   Trial(const Case& of, std::uint32_t seed)
-      : case_(of), random_(seed), rom_(random_bytes()), bench_(rom_, asking_for(of.name)), model_(of.model(rom_)) {
+      : case_(of),
+        random_(seed),
+        rom_(random_bytes()),
+        bench_(rom_, asking_for(of.name)),
+        model_(of.model(rom_)) {
     forget_vector();
     keep();
   }
@@ -58,10 +65,14 @@ class Trial {
   void run(int accesses) {
     for (int i = 0; i < accesses; ++i) {
       const int what = below(100);
-      if (what == 0) keep();
-      else if (what == 1) go_back();
-      else if (what < 50) write(address(), static_cast<unsigned>(below(256)));
-      else read(address());
+      if (what == 0)
+        keep();
+      else if (what == 1)
+        go_back();
+      else if (what < 50)
+        write(address(), static_cast<unsigned>(below(256)));
+      else
+        read(address());
       cycle_ += below(60);
     }
   }
@@ -102,9 +113,7 @@ class Trial {
     bench_.write_at(cycle_, a, value);
   }
 
-  void keep() {
-    kept_ = {bench_.state, bench_.board.cartridge_ram, model_->copy(), cycle_};
-  }
+  void keep() { kept_ = {bench_.state, bench_.board.cartridge_ram, model_->copy(), cycle_}; }
 
   // Rebuilds the map from the state; it must not change.
   void go_back() {

@@ -69,7 +69,9 @@ TEST_CASE("DPC: music follows the cycle counter, across frames, and a reset keep
   bench.write_at(0, 0x104D, 4);
   bench.write_at(0, 0x105D, 0x10);
   bench.write_at(0, 0x1055, 0);  // starts at the top
-  const auto clock_cycle = [](int clocks) { return static_cast<int>(clocks * 1193191.66666667 / 15750.0) + 1; };
+  const auto clock_cycle = [](int clocks) {
+    return static_cast<int>(clocks * 1193191.66666667 / 15750.0) + 1;
+  };
   for (int clocks = 1; clocks < 40; ++clocks) {
     INFO(clocks);
     const int low = 9 - clocks % 10;
@@ -105,8 +107,10 @@ TEST_CASE("UA selects at $0220 and $0240, which are the TIA's too") {
     for (const bool by_write : {false, true})
       for (const unsigned bank : {1U, 0U}) {
         const unsigned address = (bank ? 0x0240 : 0x0220) + high;
-        if (by_write) bench.write_at(3, address, 0x1E);
-        else bench.see(address);
+        if (by_write)
+          bench.write_at(3, address, 0x1E);
+        else
+          bench.see(address);
         expect(bench, 0x1005, 16 * bank + 5);
       }
   for (const unsigned beside : {0x0221U, 0x0241U, 0x0020U, 0x0040U, 0x0260U, 0x1240U}) {
@@ -196,8 +200,8 @@ struct RamScheme {
 };
 
 TEST_CASE("A reset fills a cartridge's RAM, one draw a byte; CV with contents takes none") {
-  constexpr RamScheme kRamSchemes[] = {{"FASC", 12288, 256}, {"E7", 16384, 2048}, {"3E", 8192, 32768},
-                                       {"CV", 2048, 1024},   {"CV 4K", 4096, 0},  {"AR", 8448, 6144},
+  constexpr RamScheme kRamSchemes[] = {{"FASC", 12288, 256},  {"E7", 16384, 2048}, {"3E", 8192, 32768},
+                                       {"CV", 2048, 1024},    {"CV 4K", 4096, 0},  {"AR", 8448, 6144},
                                        {"MC", 131072, 32768}, {"DPC", 10240, 0}};
   for (const RamScheme& scheme : kRamSchemes) {
     INFO(scheme.name);
@@ -230,9 +234,12 @@ TEST_CASE("Code runs from RAM on the cartridge, and sees what it writes there") 
     std::size_t size;
     unsigned select, write_port, read_port;
   };
-  for (const Place& place : {Place{"E7", 16384, 0x1FE7, 0x1000, 0x1400}, {"E7", 16384, 0x1FE9, 0x1800, 0x1900},
-                             {"3E", 8192, 0x3E, 0x1400, 0x1000}, {"CV", 2048, 0x1FFF, 0x1400, 0x1000},
-                             {"FASC", 12288, 0x1FF9, 0x1000, 0x1100}, {"MC", 131072, 0x3C, 0x1000, 0x1200}}) {
+  for (const Place& place : {Place{"E7", 16384, 0x1FE7, 0x1000, 0x1400},
+                             {"E7", 16384, 0x1FE9, 0x1800, 0x1900},
+                             {"3E", 8192, 0x3E, 0x1400, 0x1000},
+                             {"CV", 2048, 0x1FFF, 0x1400, 0x1000},
+                             {"FASC", 12288, 0x1FF9, 0x1000, 0x1100},
+                             {"MC", 131072, 0x3C, 0x1000, 0x1200}}) {
     INFO(place.name);
     Bench bench(Rom(place.size), asking_for(place.name));
     bench.write_at(0, place.select, 2);

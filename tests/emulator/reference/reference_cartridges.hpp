@@ -205,8 +205,10 @@ struct ModelDpc : Copyable<ModelDpc> {
         if (low < 0) low += static_cast<int>(top[i]) + 1;
       }
       set_low(i, static_cast<unsigned>(low));
-      if (low <= static_cast<int>(bottom[i])) flag[i] = 0;
-      else if (low <= static_cast<int>(top[i])) flag[i] = 0xFF;
+      if (low <= static_cast<int>(bottom[i]))
+        flag[i] = 0;
+      else if (low <= static_cast<int>(top[i]))
+        flag[i] = 0xFF;
     }
   }
 
@@ -228,8 +230,10 @@ struct ModelDpc : Copyable<ModelDpc> {
     access(a, false);
     if (a >= 0x1040) return image[bank * 4096 + (a & 0xFFF)];
     const unsigned i = a & 7, f = a >> 3 & 7;
-    if ((counter[i] & 0xFF) == top[i]) flag[i] = 0xFF;
-    else if ((counter[i] & 0xFF) == bottom[i]) flag[i] = 0;
+    if ((counter[i] & 0xFF) == top[i])
+      flag[i] = 0xFF;
+    else if ((counter[i] & 0xFF) == bottom[i])
+      flag[i] = 0;
     const unsigned value = result(i, f, cycle);
     if (!(i >= 5 && music[i])) counter[i] = (counter[i] + 2047) % 2048;
     return value;

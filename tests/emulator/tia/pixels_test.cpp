@@ -17,7 +17,8 @@ bool covers(const PixelMask& mask, int pixel) {
 PixelMask random_mask(std::mt19937_64& random) {
   PixelMask mask;
   const auto density = random() % 4;
-  for (std::uint64_t& word : mask.word) word = density == 0 ? 0 : density == 1 ? random() & random() & random() & random() : random();
+  for (std::uint64_t& word : mask.word)
+    word = density == 0 ? 0 : density == 1 ? random() & random() & random() & random() : random();
   mask.word[2] &= 0xFFFFFFFF;
   return mask;
 }

@@ -214,7 +214,8 @@ void play_repeats(unsigned seed, int frames) {
   // With few registers in the lines, the effect of the others is most visible.
   if (random.percent(60)) std::shuffle(style.registers.begin(), style.registers.end(), random.engine());
   const std::vector<unsigned> family = style.registers;
-  if (random.percent(60)) style.registers.resize(std::min<std::size_t>(style.registers.size(), 1 + random.byte() % 3));
+  if (random.percent(60))
+    style.registers.resize(std::min<std::size_t>(style.registers.size(), 1 + random.byte() % 3));
   Script lines = random_script(random, style, cycles - blank);
   if (random.percent(15)) add_cosmic(random, lines, cycles - blank);
   lines = shifted(lines, blank);

@@ -81,7 +81,9 @@ struct Machine {
   Console console;
 };
 
-bool same(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) { return std::ranges::equal(a, b); }
+bool same(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+  return std::ranges::equal(a, b);
+}
 
 // States are read in this many of a hundred frames. The others need not be computed.
 void compare(Console& drawn, Console& other, Random& random, int looks) {
@@ -112,7 +114,8 @@ void play(unsigned seed, int frames) {
   Machine drawn(rom, properties), other(rom, properties);
   std::vector<std::pair<Snapshot, Snapshot>> saved;
   const bool follows = random.percent(80);
-  const int often = random.percent(30) ? 0 : random.below(101), looks = random.percent(30) ? 100 : random.below(40);
+  const int often = random.percent(30) ? 0 : random.below(101),
+            looks = random.percent(30) ? 100 : random.below(40);
   for (int frame = 0; frame < frames; ++frame) {
     INFO("frame " << frame);
     drawn.console.step();
@@ -121,7 +124,8 @@ void play(unsigned seed, int frames) {
     if (random.percent(5)) other.console.rest();
     if (random.percent(looks / 8)) saved.emplace_back(drawn.console, other.console);
     if (!saved.empty() && random.percent(10)) {
-      const auto& [of_drawn, of_other] = saved[static_cast<std::size_t>(random.below(static_cast<int>(saved.size())))];
+      const auto& [of_drawn, of_other] =
+          saved[static_cast<std::size_t>(random.below(static_cast<int>(saved.size())))];
       of_drawn.restore_to(drawn.console);
       of_other.restore_to(other.console);
       compare(drawn.console, other.console, random, looks);
@@ -136,12 +140,12 @@ void play(unsigned seed, int frames) {
 
 // Only in frame 10, the program reads whether player 0 and the playfield collided in the previous frame.
 std::vector<std::uint8_t> late_reader() {
-  std::vector<std::uint8_t> code = {
-      0xA9, 0x02, 0x85, VSYNC, 0x85, WSYNC, 0x85, WSYNC, 0x85, WSYNC, 0xA9, 0x00, 0x85, VSYNC,
-      0xE6, 0x90, 0xA5, 0x90, 0xC9, 0x0A, 0xD0, 0x0A, 0xA5, 0x02, 0x85, 0x98,  // CXP0FB
-      0x30, 0x04, 0xA9, 0x0F, 0x85, AUDV0,  // a tone if they did not
-      0x85, CXCLR, 0xA9, 0xFF, 0x85, GRP0, 0x85, PF0, 0x85, PF1, 0x85, PF2,
-      0xA2, 0xFA, 0x85, WSYNC, 0xCA, 0xD0, 0xFB, 0x4C, 0x00, 0xF0};
+  std::vector<std::uint8_t> code = {0xA9, 0x02,  0x85,  VSYNC, 0x85,  WSYNC, 0x85, WSYNC, 0x85, WSYNC, 0xA9,
+                                    0x00, 0x85,  VSYNC, 0xE6,  0x90,  0xA5,  0x90, 0xC9,  0x0A, 0xD0,  0x0A,
+                                    0xA5, 0x02,  0x85,  0x98,                 // CXP0FB
+                                    0x30, 0x04,  0xA9,  0x0F,  0x85,  AUDV0,  // a tone if they did not
+                                    0x85, CXCLR, 0xA9,  0xFF,  0x85,  GRP0,  0x85, PF0,   0x85, PF1,   0x85,
+                                    PF2,  0xA2,  0xFA,  0x85,  WSYNC, 0xCA,  0xD0, 0xFB,  0x4C, 0x00,  0xF0};
   code.resize(4096);
   code[0xFFD] = 0xF0;
   return code;

@@ -3,9 +3,9 @@
 #include <random>
 #include <vector>
 
-#include "environment/input/sticky_actions.hpp"
 #include "emulator/state/power_on.hpp"
 #include "environment/input/legal_actions.hpp"
+#include "environment/input/sticky_actions.hpp"
 #include "games/game/actions.hpp"
 #include "tests/support/crc.hpp"
 

@@ -138,7 +138,8 @@ TEST_CASE("A stack can be filled with its newest screen, and refuses sizes that 
   stack.repeat();
   const Bytes shown = stack.bytes();
   for (std::size_t age = 0; age < 3; ++age)
-    CHECK(std::ranges::equal(std::span(shown).subspan(age * kSmallSize, kSmallSize), std::span(before).last(kSmallSize)));
+    CHECK(std::ranges::equal(std::span(shown).subspan(age * kSmallSize, kSmallSize),
+                             std::span(before).last(kSmallSize)));
   CHECK_THROWS_WITH(ScreenStack({.depth = 1, .width = 161}, environment),
                     "the width of an observation is 161; it takes 1 to 160, or 0 for the screen's own");
   CHECK_THROWS_WITH(ScreenStack({.depth = 1, .height = 8}, environment),

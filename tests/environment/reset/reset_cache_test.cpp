@@ -32,7 +32,8 @@ void require_same(const Environment& one, const Environment& other) {
 }
 
 // Plays both machines in the same way, alters RAM, resets, and compares; then again.
-void check_resets(const std::shared_ptr<const Image>& image, const std::shared_ptr<const Game>& game, int resets) {
+void check_resets(const std::shared_ptr<const Image>& image, const std::shared_ptr<const Game>& game,
+                  int resets) {
   INFO(game->name);
   Environment copied(image, game, with_copies(true)), run(image, game, with_copies(false));
   std::mt19937 random(5);
@@ -54,7 +55,9 @@ void check_resets(const std::shared_ptr<const Image>& image, const std::shared_p
     require_same(copied, run);
   }
   for (int frame = 0; frame < 60; ++frame) {
-    both([&](Environment& e) { e.act(game->legal_actions[static_cast<std::size_t>(frame) % game->legal_actions.size()]); });
+    both([&](Environment& e) {
+      e.act(game->legal_actions[static_cast<std::size_t>(frame) % game->legal_actions.size()]);
+    });
     require_same(copied, run);
   }
 }

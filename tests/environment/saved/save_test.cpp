@@ -5,8 +5,8 @@
 #include "environment/saved/saved_state_format.hpp"
 #include "environment/saved_state.hpp"
 #include "tests/support/counter_image.hpp"
-#include "tests/support/observation.hpp"
 #include "tests/support/needed_rom.hpp"
+#include "tests/support/observation.hpp"
 
 namespace racebeam {
 namespace {

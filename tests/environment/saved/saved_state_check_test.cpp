@@ -84,10 +84,10 @@ struct Most {
 
 constexpr std::uint8_t kAny = 255;
 const std::vector<Most> kMost = {
-    {"F8", 0, 1},    {"F8 swapped", 0, 1}, {"F8SC", 0, 1}, {"F6", 0, 3},   {"F6SC", 0, 3}, {"F4", 0, 7},
-    {"F4SC", 0, 7},  {"FASC", 0, 2},       {"E0", 0, 7},   {"E0", 1, 7},   {"E0", 2, 7},   {"E0", 3, 7},
-    {"E7", 0, 7},    {"E7", 1, 3},         {"DPC", 0, 1},  {"3F", 0, 3},   {"3E", 0, 7},   {"3E", 1, 31},
-    {"3E", 2, 1},    {"UA", 0, 1},         {"AR", 0, kAny}, {"AR", 1, kAny}, {"AR", 2, 1}, {"MB", 0, 15},
+    {"F8", 0, 1},    {"F8 swapped", 0, 1}, {"F8SC", 0, 1},  {"F6", 0, 3},    {"F6SC", 0, 3}, {"F4", 0, 7},
+    {"F4SC", 0, 7},  {"FASC", 0, 2},       {"E0", 0, 7},    {"E0", 1, 7},    {"E0", 2, 7},   {"E0", 3, 7},
+    {"E7", 0, 7},    {"E7", 1, 3},         {"DPC", 0, 1},   {"3F", 0, 3},    {"3E", 0, 7},   {"3E", 1, 31},
+    {"3E", 2, 1},    {"UA", 0, 1},         {"AR", 0, kAny}, {"AR", 1, kAny}, {"AR", 2, 1},   {"MB", 0, 15},
     {"MC", 0, kAny}, {"MC", 1, kAny},      {"MC", 2, kAny}, {"MC", 3, kAny}, {"MC", 4, 1}};
 
 std::uint8_t most_of(std::string_view scheme, std::size_t index) {
@@ -164,7 +164,8 @@ TEST_CASE("Cartridge RAM of another size is refused") {
   for (const int size : {0, 1024, 2047, 2049, 32768}) {
     Environment::Saved saved = *environment.save(true);
     saved.cartridge_ram.resize(static_cast<std::size_t>(size));
-    CHECK_THROWS_WITH(from_bytes(to_bytes(saved, environment), environment), Catch::Contains("bytes of cartridge RAM"));
+    CHECK_THROWS_WITH(from_bytes(to_bytes(saved, environment), environment),
+                      Catch::Contains("bytes of cartridge RAM"));
   }
 }
 
@@ -175,7 +176,8 @@ TEST_CASE("An impossible generator is refused") {
   for (int i = 0; i < 624; ++i) zeros << "0 ";
   zeros << 7;
   zeros >> *saved.random;
-  CHECK_THROWS_WITH(from_bytes(to_bytes(saved, environment), environment), Catch::Contains("generator are all 0"));
+  CHECK_THROWS_WITH(from_bytes(to_bytes(saved, environment), environment),
+                    Catch::Contains("generator are all 0"));
 }
 
 }  // namespace

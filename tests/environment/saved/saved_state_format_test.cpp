@@ -1,7 +1,7 @@
 // A state as bytes: it is restored exactly, and other bytes are refused.
+#include <zlib.h>
 #include <catch2/catch.hpp>
 #include <cstring>
-#include <zlib.h>
 
 #include "environment/saved/saved_state_format.hpp"
 #include "environment/saved_state.hpp"
@@ -50,9 +50,10 @@ TEST_CASE("A state carries its generator through bytes") {
 std::shared_ptr<const Image> image_with_ram() {
   std::vector<std::uint8_t> bytes(4096, 0xEA);
   bytes[0] = 100;  // first contents of the RAM
-  const std::uint8_t code[] = {0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0xA9, 0x00, 0x85, 0x00,  // VSYNC
-                               0xAE, 0x00, 0xF0, 0xE8, 0x8E, 0x00, 0xF4, 0x86, 0x80,                    // count
-                               0x4C, 0x00, 0xF8, 0x9D, 0xFF, 0xF3};                                     // again; signature
+  const std::uint8_t code[] = {0xA9, 0x02, 0x85, 0x00, 0x85, 0x02, 0x85, 0x02, 0xA9,
+                               0x00, 0x85, 0x00,                                      // VSYNC
+                               0xAE, 0x00, 0xF0, 0xE8, 0x8E, 0x00, 0xF4, 0x86, 0x80,  // count
+                               0x4C, 0x00, 0xF8, 0x9D, 0xFF, 0xF3};                   // again; signature
   std::ranges::copy(code, bytes.begin() + 2048);
   bytes[4093] = bytes[4095] = 0xF8;
   bytes[4092] = bytes[4094] = 0x00;
@@ -120,8 +121,9 @@ TEST_CASE("A state of another format is refused by its number") {
   Bytes bytes = some_state();
   const std::uint32_t version = 77;
   std::memcpy(&bytes[8], &version, sizeof version);
-  CHECK_THROWS_WITH(from_bytes(bytes, counter()),
-                    Catch::Contains("format 77") && Catch::Contains("reads format " + std::to_string(kSnapshotVersion)));
+  CHECK_THROWS_WITH(
+      from_bytes(bytes, counter()),
+      Catch::Contains("format 77") && Catch::Contains("reads format " + std::to_string(kSnapshotVersion)));
 }
 
 TEST_CASE("The image and the game that a state names are printable text") {
@@ -129,9 +131,11 @@ TEST_CASE("The image and the game that a state names are printable text") {
   const std::size_t name = 24 + sizeof(Identity::md5);
   bytes[name] = '\x1B';
   bytes[name + 1] = '\n';
-  const auto sum = static_cast<std::uint32_t>(crc32(0, bytes.data() + 24, static_cast<uInt>(bytes.size() - 24)));
+  const auto sum =
+      static_cast<std::uint32_t>(crc32(0, bytes.data() + 24, static_cast<uInt>(bytes.size() - 24)));
   std::memcpy(bytes.data() + 20, &sum, sizeof sum);
-  CHECK_THROWS_WITH(from_bytes(bytes, counter()), Catch::Contains("the game \\x1b\\x0aeered; the one that runs is steered"));
+  CHECK_THROWS_WITH(from_bytes(bytes, counter()),
+                    Catch::Contains("the game \\x1b\\x0aeered; the one that runs is steered"));
 }
 
 TEST_CASE("A state of another game or image is refused") {

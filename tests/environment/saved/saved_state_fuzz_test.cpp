@@ -11,8 +11,8 @@
 #include "environment/saved/saved_state_format.hpp"
 #include "environment/saved_state.hpp"
 #include "tests/support/counter_image.hpp"
-#include "tests/support/random_image.hpp"
 #include "tests/support/needed_rom.hpp"
+#include "tests/support/random_image.hpp"
 
 namespace racebeam {
 namespace {

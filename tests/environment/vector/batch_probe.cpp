@@ -1,8 +1,8 @@
 // A Batch at the other end of a pipe, for test_batch.py: batch_probe IMAGE[,IMAGE...] [setting=number]...
 // The batch has a machine for each image. Standard input: for each step, an action a machine, 32-bit numbers.
-// With reset=SEED in place of the seed, the machines are reset with it once they are there. With continuous=1, an action is
-// three floating-point numbers: radius, angle, fire.
-// Standard output: after the resets and after each step arrays of BatchResults, one after the other.
+// With reset=SEED in place of the seed, the machines are reset with it once they are there. With
+// continuous=1, an action is three floating-point numbers: radius, angle, fire. Standard output: after the
+// resets and after each step arrays of BatchResults, one after the other.
 #include <cstdio>
 #include <functional>
 #include <iostream>
@@ -24,14 +24,28 @@ const Setters& setters() {
       {"seed", [](auto& s, double v) { s.slot.machine.random_seed = static_cast<std::uint32_t>(v); }},
       {"sticky", [](auto& s, double v) { s.slot.machine.sticky = static_cast<float>(v); }},
       {"frame_skip", [](auto& s, double v) { s.slot.machine.frame_skip = static_cast<int>(v); }},
-      {"max_episode_frames", [](auto& s, double v) { s.slot.machine.max_episode_frames = static_cast<int>(v); }},
+      {"max_episode_frames",
+       [](auto& s, double v) { s.slot.machine.max_episode_frames = static_cast<int>(v); }},
       {"noop_max", [](auto& s, double v) { s.slot.noop_max = static_cast<int>(v); }},
       {"fire", [](auto& s, double v) { s.slot.fire_at_reset = v != 0; }},
-      {"clip", [](auto& s, double v) { if (v == 0) s.slot.machine.reward_min = -(s.slot.machine.reward_max = 1 << 30); }},
-      {"life_loss_ends", [](auto& s, double v) { if (v != 0) s.slot.life_loss = LifeLoss::kResets; }},
-      {"life_loss_is_told", [](auto& s, double v) { if (v != 0) s.slot.life_loss = LifeLoss::kTold; }},
-      {"all_legal_actions", [](auto& s, double v) { if (v != 0) s.slot.action_set = ActionSet::kLegal; }},
-      {"same_step", [](auto& s, double v) { s.autoreset = v != 0 ? Autoreset::kSameStep : Autoreset::kNextStep; }},
+      {"clip",
+       [](auto& s, double v) {
+         if (v == 0) s.slot.machine.reward_min = -(s.slot.machine.reward_max = 1 << 30);
+       }},
+      {"life_loss_ends",
+       [](auto& s, double v) {
+         if (v != 0) s.slot.life_loss = LifeLoss::kResets;
+       }},
+      {"life_loss_is_told",
+       [](auto& s, double v) {
+         if (v != 0) s.slot.life_loss = LifeLoss::kTold;
+       }},
+      {"all_legal_actions",
+       [](auto& s, double v) {
+         if (v != 0) s.slot.action_set = ActionSet::kLegal;
+       }},
+      {"same_step",
+       [](auto& s, double v) { s.autoreset = v != 0 ? Autoreset::kSameStep : Autoreset::kNextStep; }},
       {"stack", [](auto& s, double v) { s.stack.depth = static_cast<int>(v); }},
       {"width", [](auto& s, double v) { s.stack.width = static_cast<int>(v); }},
       {"height", [](auto& s, double v) { s.stack.height = static_cast<int>(v); }},
@@ -72,7 +86,8 @@ bool read_acts(const Batch& batch, std::vector<Act>& acts) {
   acts.clear();
   std::vector<float> parts(3 * batch.size());
   if (std::fread(parts.data(), sizeof(float), parts.size(), stdin) != parts.size()) return false;
-  for (std::size_t i = 0; i < parts.size(); i += 3) acts.push_back(act_of(parts[i], parts[i + 1], parts[i + 2], 0.5F));
+  for (std::size_t i = 0; i < parts.size(); i += 3)
+    acts.push_back(act_of(parts[i], parts[i + 1], parts[i + 2], 0.5F));
   return true;
 }
 

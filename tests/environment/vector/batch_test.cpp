@@ -2,8 +2,8 @@
 #include "environment/vector/batch.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "environment/observe/area_resize.hpp"
@@ -147,7 +147,8 @@ TEST_CASE("Rewards are told clipped and unclipped, and ends of lives beside ends
 template <typename T>
 std::vector<T> part(const std::vector<T>& array, std::size_t machine, std::size_t machines) {
   const std::size_t size = array.size() / machines;
-  return {array.begin() + std::ptrdiff_t(machine * size), array.begin() + std::ptrdiff_t((machine + 1) * size)};
+  return {array.begin() + std::ptrdiff_t(machine * size),
+          array.begin() + std::ptrdiff_t((machine + 1) * size)};
 }
 
 TEST_CASE("Machines that are sent and received in any order play as they do together") {
@@ -196,15 +197,18 @@ TEST_CASE("A batch that sends says what can't be sent or received") {
   settings.batch_size = 2;
   Batch batch(copies(3), settings);
   BatchResults results = batch.make_results();
-  CHECK_THROWS_WITH(batch.receive(results.arrays()), "0 machines play, and a receive takes 2; send some first");
+  CHECK_THROWS_WITH(batch.receive(results.arrays()),
+                    "0 machines play, and a receive takes 2; send some first");
   CHECK_THROWS_WITH(batch.send(std::vector{0}, std::vector{3}), "there is no machine 3; there are 0 to 2");
   CHECK_THROWS_WITH(batch.send(std::vector{0, 0}, std::vector{1, 1}),
                     "machine 1 plays already; receive it first");
   CHECK_THROWS_WITH(batch.send(std::vector{0}, std::vector{1, 2}), "there are 1 actions for 2 machines");
   batch.send_resets();
-  CHECK_THROWS_WITH(batch.step(std::vector{0, 0, 0}, results.arrays()), "3 machines play; receive them first");
+  CHECK_THROWS_WITH(batch.step(std::vector{0, 0, 0}, results.arrays()),
+                    "3 machines play; receive them first");
   batch.receive(results.arrays());
-  CHECK_THROWS_WITH(batch.receive(results.arrays()), "1 machines play, and a receive takes 2; send some first");
+  CHECK_THROWS_WITH(batch.receive(results.arrays()),
+                    "1 machines play, and a receive takes 2; send some first");
   batch.send(std::vector{0}, std::span(results.numbers).first(1));
   batch.receive(results.arrays());
 }
@@ -256,7 +260,9 @@ step = "score = 0; terminal = 0"
   batch.step(std::vector{0, 0}, results.arrays());
   const Bytes observation = part(results.observations, 1, 2), screen = part(results.screens, 1, 2);
   const std::size_t rows = std::size_t(batch.height() - low);
-  const auto zeros = [](std::span<const std::uint8_t> bytes) { return std::ranges::count(bytes, 0) == std::ssize(bytes); };
+  const auto zeros = [](std::span<const std::uint8_t> bytes) {
+    return std::ranges::count(bytes, 0) == std::ssize(bytes);
+  };
   CHECK(zeros(std::span(observation).last(rows * 160 * 3)));
   CHECK(zeros(std::span(screen).last(rows * 160)));
   CHECK(std::ranges::count(observation, 77) < 1000);
@@ -293,7 +299,8 @@ TEST_CASE("A batch says what it can't do, and goes on") {
   refuses([](auto& s) { s.stack.depth = -1; }, "the stack has -1 screens");
   refuses([](auto& s) { s.stack.width = 200; }, "the width of an observation is 200; it takes 1 to 160");
   CHECK_THROWS_WITH(Batch({}, short_episodes()), "there are 0 machines; there must be 1 or more");
-  CHECK_THROWS_WITH(Batch(copies(100'000'000), short_episodes()), Catch::Contains("100000000 machines take about"));
+  CHECK_THROWS_WITH(Batch(copies(100'000'000), short_episodes()),
+                    Catch::Contains("100000000 machines take about"));
 }
 
 // Rows that repeat, and noise.
@@ -310,8 +317,8 @@ Bytes picture(std::mt19937& random, std::size_t width, std::size_t height) {
 
 TEST_CASE("Every form of the area average gives the same bytes") {
   std::mt19937 random(8);
-  const int sizes[][4] = {{160, 210, 84, 84}, {160, 250, 84, 84}, {160, 230, 84, 84}, {160, 210, 100, 50},
-                          {160, 210, 160, 210}, {160, 210, 21, 8}, {17, 9, 16, 5}, {7, 9, 3, 2}};
+  const int sizes[][4] = {{160, 210, 84, 84},   {160, 250, 84, 84}, {160, 230, 84, 84}, {160, 210, 100, 50},
+                          {160, 210, 160, 210}, {160, 210, 21, 8},  {17, 9, 16, 5},     {7, 9, 3, 2}};
   for (const auto& [width, height, to_width, to_height] : sizes) {
     const Bytes in = picture(random, std::size_t(width), std::size_t(height));
     Bytes best(std::size_t(to_width * to_height)), plain(best.size());

@@ -46,7 +46,8 @@ TEST_CASE("Branches lead where the same acts lead by themselves, and disturb not
   const auto start = environment.save(true);
   const auto before = observe(environment);
 
-  const std::vector<Sequence> sequences = {Sequence(3, {.a = 1}), {}, Sequence(100, {.a = 5}), Sequence(3, {.a = 1})};
+  const std::vector<Sequence> sequences = {
+      Sequence(3, {.a = 1}), {}, Sequence(100, {.a = 5}), Sequence(3, {.a = 1})};
   std::vector<BranchEnd> ends(sequences.size());
   branch(environment, *root, sequences, ends);
   for (std::size_t i = 0; i < sequences.size(); ++i) {

@@ -23,7 +23,8 @@ SlotSettings no_noops() {
 std::string pressed_at_reset(Slot& slot) {
   std::string pressed;
   slot.environment().watch([&] {
-    const bool fire = test::at(slot.environment(), 0x83) < 0x80, up = (test::at(slot.environment(), 0x81) & 0x10) == 0;
+    const bool fire = test::at(slot.environment(), 0x83) < 0x80,
+               up = (test::at(slot.environment(), 0x81) & 0x10) == 0;
     pressed += fire ? 'F' : up ? 'U' : '-';
   });
   slot.reset();
@@ -55,7 +56,8 @@ TEST_CASE("An episode begins with FIRE and no-ops, in the order that was chosen"
   CHECK(pressed(ResetOrder::kNoopsFire, 0, false) == "-");
   CHECK(pressed(ResetOrder::kBaselines, 0) == "FFFUUU");
   CHECK(pressed(ResetOrder::kBaselines, 1) == "-FFFUUU");
-  const std::string fire_first = pressed(ResetOrder::kFireNoops, 30), noops_first = pressed(ResetOrder::kNoopsFire, 30);
+  const std::string fire_first = pressed(ResetOrder::kFireNoops, 30),
+                    noops_first = pressed(ResetOrder::kNoopsFire, 30);
   REQUIRE(fire_first.size() > 2);
   const std::string noops(fire_first.size() - 1, '-');
   CHECK(fire_first == std::string("F").append(noops));
@@ -86,7 +88,9 @@ TEST_CASE("A lost life does to the episode what was chosen") {
   }
 }
 
-TEST_CASE("An episode that goes on with the next life ends with the game's limit of frames, and a seed begins a new game") {
+TEST_CASE(
+    "An episode that goes on with the next life ends with the game's limit of frames, and a seed begins a "
+    "new game") {
   SlotSettings settings = no_noops();
   settings.life_loss = LifeLoss::kEnds;
   settings.machine.max_episode_frames = 6;
@@ -185,13 +189,17 @@ TEST_CASE("A step of frames refuses what it does not know") {
     CHECK_THROWS_WITH(Slot(cartridge(), settings), sentence);
   };
   refuses([](auto& s) { s.machine.frame_skip_max = 5; }, "a step of frames has a fixed number of them");
-  refuses([](auto& s) { s.machine.truncate_on_life_loss = true; }, "a step of frames knows lost lives by life_loss alone");
-  refuses([](auto& s) { s.machine.color_averaging = true; }, "a step of frames has no colour averaging; it takes max_pool");
+  refuses([](auto& s) { s.machine.truncate_on_life_loss = true; },
+          "a step of frames knows lost lives by life_loss alone");
+  refuses([](auto& s) { s.machine.color_averaging = true; },
+          "a step of frames has no colour averaging; it takes max_pool");
 }
 
 TEST_CASE("A joystick that is turned and tilted gives one of the 18 actions") {
   using std::numbers::pi_v;
-  const auto action = [](float radius, float angle, float fire) { return act_of(radius, angle, fire, 0.5F).a; };
+  const auto action = [](float radius, float angle, float fire) {
+    return act_of(radius, angle, fire, 0.5F).a;
+  };
   const std::vector<int> around = {3, 6, 2, 7, 4, 9, 5, 8}, with_fire = {11, 14, 10, 15, 12, 17, 13, 16};
   for (std::size_t eighth = 0; eighth < 8; ++eighth) {
     const float angle = static_cast<float>(eighth) * pi_v<float> / 4;

@@ -56,7 +56,8 @@ nlohmann::ordered_json measure(const std::vector<Measurement>& all) {
     return values[kRounds / 2];
   };
   for (std::size_t i = 0; i < all.size(); ++i)
-    figures[all[i].first] = {{"rate", median(rates[i])}, {"rates", rates[i]}, {"microseconds", median(times[i])}};
+    figures[all[i].first] = {
+        {"rate", median(rates[i])}, {"rates", rates[i]}, {"microseconds", median(times[i])}};
   return figures;
 }
 
