@@ -70,10 +70,10 @@ class Environment {
   // of an agent that chooses its number of frames each time.
   int act_for(int frames, int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
 
-  // Says which screens will be looked at. It changes nothing but the speed: one that was not drawn is drawn
-  // when it is asked for, which costs more. kLast unless told; kLastTwo with colour averaging, kEvery while
-  // somebody watches. Who takes previous_screen() as well wants kLastTwo, who takes rewards and RAM alone
-  // wants kNone.
+  // Says which screens the caller will read. It changes only the speed: a screen that was not drawn is drawn
+  // when it is read, which costs more. The default is kLast; it is kLastTwo with colour averaging, and kEvery
+  // while watch() has a function. kLastTwo suits a caller that reads previous_screen() too, and kNone a
+  // caller that reads only rewards and RAM.
   void set_drawing(Drawing drawing);
   Drawing drawing() const;
 
@@ -126,7 +126,7 @@ class Environment {
   std::shared_ptr<const FrameBuffer> drawn(const std::shared_ptr<FrameBuffer>& picture) const;
   void restore(const Saved& saved);
 
-  // For planners, who meet the same state by different ways: two environments of the same image, game and
+  // For planners, which reach the same state in different ways: two environments of the same image, game and
   // settings that are in the same state, and are given the same actions, show the same for ever, unless an
   // episode's limit of frames comes between. Looked at are the machine with the cartridge's RAM, paddles,
   // mode, difficulty, the actions held and the rule's variables; left out are what tells of the way and not

@@ -45,7 +45,7 @@ struct Environment::Impl {
   std::optional<BootFacts> boot_facts;  // of the image; studied at the first reset
   RawRewards raw_rewards;
   bool drew_at_reset = false;        // the generator took part in the last one
-  std::function<void()> each_frame;  // empty: nobody watches
+  std::function<void()> each_frame;  // empty: no watcher
   Drawing drawing;
 
   // With colour averaging, the screen is made when it is first asked for.

@@ -1,7 +1,7 @@
-// Who sleeps is woken up late: on a virtual machine that takes several times as long as an act. A client that
-// asked again at once the last time is therefore waited for awake, for a while; who thinks for longer, or is
-// idle, costs nothing. Where that is often in vain, because others need the processors, it is tried ever more
-// seldom.
+// Busy polling. Waking a thread that sleeps takes several times as long as an act on a virtual machine. After
+// a client that has sent its next request at once, the server therefore polls for a while before it sleeps. A
+// client that takes longer, or is idle, costs nothing. Where polling is often in vain, because other threads
+// need the processors, the server backs off.
 #pragma once
 
 #include <algorithm>

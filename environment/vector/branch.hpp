@@ -42,7 +42,7 @@ class Branching {
  private:
   Environment& environment_;
   std::shared_ptr<const Environment::Saved> undisturbed_;
-  Drawing drawing_;  // before; nobody looks at what a branch shows
+  Drawing drawing_;  // before; the screens of a branch are not read
   BranchEnd end_;
 };
 

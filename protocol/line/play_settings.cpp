@@ -183,7 +183,7 @@ const SettingRow& setting_row(std::string_view name, Words other_keys) {
 
 }  // namespace
 
-// An episode that never ends is of no use to anybody, so that there is a limit: Gymnasium's.
+// Episodes have a limit, since one that never ends is useless. It is Gymnasium's.
 PlaySettings::PlaySettings() { machine.max_episode_frames = 108000; }
 
 std::span<const SettingRow> setting_rows() { return kSettings; }

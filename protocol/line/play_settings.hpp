@@ -20,7 +20,7 @@ struct PlaySettings {
   std::optional<int> mode, difficulty;  // the game's defaults if not given
   ActionSet action_set = ActionSet::kFull;
   bool autoreset = false;  // an act after the end of an episode is a reset
-  int noop_max = 0;        // an episode begins with 0 to noop_max - 1 frames in which nobody acts
+  int noop_max = 0;        // an episode begins with 0 to noop_max - 1 frames of NOOP
   std::string_view preset = "none";
 };
 

@@ -25,7 +25,7 @@ constexpr std::size_t kBytesOfWord =
 
 const LineLimits& limits(const LineService& service) { return service.limits; }
 
-// Who has not given a token yet has little to say.
+// The most bytes of a line. A client without a token needs only short ones.
 std::size_t longest_line(const LineService& service, bool admitted) {
   constexpr std::size_t kLongestBefore = 4096;
   return admitted ? limits(service).line : std::min(kLongestBefore, limits(service).line);
@@ -183,7 +183,7 @@ void Session::guarded(Step step) {
   }
 }
 
-// Not the client's doing, so that those who run the server are told.
+// An error of the server itself: it is logged, too.
 void Session::refuse_fault(const std::string& what) {
   refuse(Code::kInternal, what);
   const std::string name(command_ < table_.commands.size() ? table_.commands[command_].name : "a request");

@@ -114,7 +114,7 @@ class Session {
   Clock::time_point looked_;  // at the clock, the last time
   Clock::duration worked_{};  // in the last run()
 
-  // For those who watch the server; null: nobody does.
+  // The server's metrics of this session; null: none.
   Meter* meter_;
   std::size_t command_ = 0;  // of the request: its row in the table
   bool refused_ = false;

@@ -34,7 +34,8 @@ class BlockingPair {
   BlockingPair& operator=(const BlockingPair&) = delete;
 
   void use(int in, int out);
-  // Each waits for somebody to open a pipe's other end. False: told to halt. Throws std::runtime_error.
+  // Open a named pipe, and wait until the client opens its other end. False if told to halt. Throw
+  // std::runtime_error.
   bool open_out(const std::string& path, int flags);
   bool open_in(const std::string& path);
 

@@ -1,5 +1,5 @@
-// A pool of threads, each with an event loop of its own. A session stays on one of them, so that nothing is
-// locked and nobody is woken up between two of its lines; one loop for all threads cost four futex calls a
+// A pool of threads, each with an event loop of its own. A session stays on one of them, so that no lock is
+// taken and no thread is woken between two of its lines. One loop for all threads cost four futex calls a
 // line.
 #pragma once
 

@@ -17,7 +17,7 @@ int looks(BusyPoll& busy) {
 
 }  // namespace
 
-TEST_CASE("Nobody is waited for awake until it is said so, and not for longer than told") {
+TEST_CASE("A busy poll begins only when asked, and lasts no longer than told") {
   BusyPoll busy(20ms);
   CHECK_FALSE(busy.again());
   const auto begin = BusyPoll::Clock::now();

@@ -1,4 +1,4 @@
-// TIA writes as data: the CPU appends, the TIA plays them when somebody looks (design: nothing ticks).
+// TIA writes as data: the CPU appends them, and the TIA plays them when the picture or a collision is read.
 #pragma once
 
 #include <array>
@@ -28,14 +28,14 @@ class TiaWrite {
   std::uint32_t packed_;
 };
 
-// What of its writes a step has not played yet, for one machine at a time: a scratch list that machines
-// share. Of writes that repeat what the register holds nothing is kept, nor of reads: where they can be seen,
-// the step is run again, access by access (Board::end_step, Console::Impl::run_step). Translated code appends
-// as append_change() does, and finds the members at fixed places.
+// The writes of a step that have not been played yet. Machines of a thread share one log, one machine at a
+// time. A write that repeats the register's value is left out, and so are reads. Where their order can be
+// observed, the step is run again, access by access (Board::end_step, Console::Impl::run_step). Translated
+// code appends as append_change() does, and expects the members at fixed offsets.
 struct WriteLog {
-  // No step has more instructions than half of this; a plain store is one entry, and whoever appends more, or
-  // waits, asks is_short_of_room() first. So neither the list nor the cycle's 18 bits can overflow, whatever
-  // the program does.
+  // A step has at most half as many instructions, and a plain store is one entry. A caller that appends more,
+  // or waits, calls is_short_of_room() first. So no program can make the list or the cycle's 18 bits
+  // overflow.
   static constexpr std::size_t kCapacity = 65536;
   static constexpr std::int32_t kLongestSpan =
       50000;                                   // cycles; 25000 instructions of 8 cycles still fit after it

@@ -49,7 +49,7 @@ namespace {
 
 // name, arguments, summary, hint, example, least and most arguments, what it needs, handler
 constexpr std::array kCommands = {
-    Command{"hello", "[token=TOKEN]", "who the server is, and what it allows", "", "hello", 0, 1,
+    Command{"hello", "[token=TOKEN]", "the server's name, version and limits", "", "hello", 0, 1,
             Needs::kNothing, run_hello},
     Command{"help", "[COMMAND|KEY|settings|presets|fields|encodings|errors|states]", "explain", "",
             "help act", 0, 1, Needs::kNothing, run_help},
