@@ -17,6 +17,7 @@ server that has gone is a ConnectionError, and one that does not answer in time 
 from __future__ import annotations
 
 import base64
+import re
 import shutil
 import socket
 import ssl
@@ -29,6 +30,8 @@ PROTOCOL = 1  # the version that this client speaks
 
 # What bytes are written in when `observe` does not say.
 USUAL_ENCODING = {"ram": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
+
+STACK = re.compile(r"(?:grey|rgb)(\d+)x(\d+)x(\d+)")  # fields such as grey100x50x4
 
 Texts = dict[str, str]
 Values = dict[str, Any]
@@ -311,9 +314,12 @@ class Session:
         return self._shaped(field, bytes(array))
 
     def _shape(self, field: str) -> tuple[int, ...]:
-        if field.startswith("grey84"):
+        if field.startswith("grey84") and field.count("x") < 2:
             depth = field.partition("x")[2]
             return (int(depth), 84, 84) if depth else (84, 84)
+        if stack := STACK.fullmatch(field):
+            width, height, depth = map(int, stack.groups())
+            return (depth, height, width, 3) if field.startswith("rgb") else (depth, height, width)
         return {"ram": (128,), "palette": (256, 3), "audio": (512,), "screen": (self.height, 160), "grey": (self.height, 160),
                 "rgb": (self.height, 160, 3)}[field]
 
@@ -330,8 +336,8 @@ class Session:
 
         return numpy.frombuffer(data, numpy.uint8).reshape(self._shape(field))
 
-    def _shown(self, *words: object) -> Values:
-        return self.decoded(self.ask(*words)[0])
+    def _shown(self, *words: object, **settings: object) -> Values:
+        return self.decoded(self.ask(*words, **settings)[0])
 
     def _machines(self, *words: object, **settings: object) -> list[Values]:
         return [self.decoded(texts, machine) for machine, texts in enumerate(self.ask(*words, **settings)[1:], 1)]
@@ -339,7 +345,10 @@ class Session:
     @staticmethod
     def _encodings(fields: Iterable[str]) -> dict[str, str]:
         pairs = [field.partition(":") for field in fields]
-        usual = {name: USUAL_ENCODING.get(name, "zlib" if name.startswith("grey84") else "") for name, _, _ in pairs}
+        usual = {
+            name: USUAL_ENCODING.get(name, "zlib" if name.startswith("grey84") or STACK.fullmatch(name) else "")
+            for name, _, _ in pairs
+        }
         return {name: encoding or usual[name] for name, _, encoding in pairs if encoding or usual[name]}
 
     # Commands
@@ -408,8 +417,8 @@ class Session:
     def act(self, *actions: object) -> Values:
         return self._shown("act", *actions)
 
-    def reset(self) -> Values:
-        return self._shown("reset")
+    def reset(self, seed: int | None = None) -> Values:
+        return self._shown("reset", **({} if seed is None else {"seed": seed}))
 
     def peek(self, index: int, count: int = 1) -> bytes:
         return bytes.fromhex(self.ask("peek", index, count)[0]["bytes"])
@@ -443,15 +452,15 @@ class Session:
         return [{key: decode_rewards(text) if key.startswith("rewards") else number(text) for key, text in texts.items()}
                 for texts in self.ask("branch", name, *words)[1:]]
 
-    def open(self, count: int, autoreset: str = "next-step") -> list[Values]:
+    def open(self, count: int, autoreset: str = "next-step", **settings: object) -> list[Values]:
         self.arrays.clear()
-        return self._machines("open", count, autoreset=autoreset)
+        return self._machines("open", count, autoreset=autoreset, **settings)
 
     def step(self, *actions: object) -> list[Values]:
         return self._machines("step", *actions)
 
-    def restart(self, *mask: str) -> list[Values]:
-        return self._machines("restart", *mask)
+    def restart(self, *mask: str, seed: int | None = None) -> list[Values]:
+        return self._machines("restart", *mask, **({} if seed is None else {"seed": seed}))
 
     def close(self) -> None:
         """Gives the machines of open() back."""
