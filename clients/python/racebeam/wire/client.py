@@ -315,8 +315,8 @@ class Session:
 
     def _shape(self, field: str) -> tuple[int, ...]:
         if field.startswith("grey84") and field.count("x") < 2:
-            depth = field.partition("x")[2]
-            return (int(depth), 84, 84) if depth else (84, 84)
+            screens = field.partition("x")[2]
+            return (int(screens), 84, 84) if screens else (84, 84)
         if stack := STACK.fullmatch(field):
             width, height, depth = map(int, stack.groups())
             return (depth, height, width, 3) if field.startswith("rgb") else (depth, height, width)
