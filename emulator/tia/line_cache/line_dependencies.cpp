@@ -86,24 +86,26 @@ constexpr TiaRegisters make_seen(unsigned seen) {
   return mask;
 }
 
-constexpr TiaRegisters make_control(unsigned control) {
-  TiaRegisters mask{};
-  for (unsigned which = 1; which <= kPlaceOfP1; which <<= 1)
-    if (control & which) mask = mask | control_bytes(which);
-  return mask;
+constexpr std::array<TiaRegisters, 512> make_all_seen() {
+  std::array<TiaRegisters, 512> table{};
+  for (unsigned seen = 0; seen < table.size(); ++seen) table[seen] = make_seen(seen);
+  return table;
 }
 
-template <std::size_t kSize>
-constexpr std::array<TiaRegisters, kSize> make_bytes(TiaRegisters make(unsigned)) {
-  std::array<TiaRegisters, kSize> table{};
-  for (unsigned i = 0; i < kSize; ++i) table[i] = make(i);
+// Each row has one bit more than an earlier one.
+constexpr std::array<TiaRegisters, 256> make_all_control() {
+  std::array<TiaRegisters, 256> table{};
+  for (unsigned control = 1; control < table.size(); ++control) {
+    const unsigned fewer = control & (control - 1);
+    table[control] = table[fewer] | control_bytes(control - fewer);
+  }
   return table;
 }
 
 }  // namespace
 
 constinit const std::array<LineEffect, 64> kLineEffects = make_effects();
-constinit const std::array<TiaRegisters, 512> kSeenBytes = make_bytes<512>(make_seen);
-constinit const std::array<TiaRegisters, 256> kControlBytes = make_bytes<256>(make_control);
+constinit const std::array<TiaRegisters, 512> kSeenBytes = make_all_seen();
+constinit const std::array<TiaRegisters, 256> kControlBytes = make_all_control();
 
 }  // namespace racebeam
