@@ -24,22 +24,12 @@ RACEBEAM_INLINE Address pointer(Core& cpu, std::uint8_t p) {
 }
 
 // These have no address. opcodes.inc needs their names.
-template <bool>
-RACEBEAM_INLINE Address implied(Core&) {
-  return 0;
-}
-template <bool>
-RACEBEAM_INLINE Address accumulator(Core&) {
-  return 0;
-}
-template <bool>
-RACEBEAM_INLINE Address relative(Core&) {
-  return 0;
-}
-template <bool>
-RACEBEAM_INLINE Address immediate(Core&) {
-  return 0;
-}
+// clang-format off
+template <bool> RACEBEAM_INLINE Address implied(Core&) { return 0; }
+template <bool> RACEBEAM_INLINE Address accumulator(Core&) { return 0; }
+template <bool> RACEBEAM_INLINE Address relative(Core&) { return 0; }
+template <bool> RACEBEAM_INLINE Address immediate(Core&) { return 0; }
+// clang-format on
 
 template <bool>
 RACEBEAM_INLINE ZeroPage zero_page(Core& cpu) {
