@@ -152,6 +152,7 @@ class Slot {
   void begin_stack(bool goes_on);
   void draw_nothing();
   void run_noops(int frames);
+  void run_noops_and_fire(bool fire);  // EnvPool's order; one no-op more where there is no FIRE
   void press_fire();
   void press_as_baselines();
   bool has_fire() const;

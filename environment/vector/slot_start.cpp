@@ -55,10 +55,7 @@ void Slot::begin_episode() {
       if (fire) press_fire();
       run_noops(noops_.draw() - fire);
       break;
-    case ResetOrder::kNoopsFire:
-      run_noops(noops_.draw() + 1 - fire);
-      if (fire) press_fire();
-      break;
+    case ResetOrder::kNoopsFire: run_noops_and_fire(fire); break;
     case ResetOrder::kBaselines:
       run_noops(settings_.noop_max > 0 ? noops_.draw() + 1 : 0);
       if (fire) press_as_baselines();
@@ -81,10 +78,7 @@ void Slot::begin_life() {
     case ResetOrder::kFireNoops:
       if (fire) press_fire();
       break;
-    case ResetOrder::kNoopsFire:
-      run_noops(noops_.draw() + 1 - fire);
-      if (fire) press_fire();
-      break;
+    case ResetOrder::kNoopsFire: run_noops_and_fire(fire); break;
     case ResetOrder::kBaselines:
       run_noops(settings_.machine.frame_skip);
       if (fire) press_as_baselines();
@@ -122,6 +116,11 @@ void Slot::run_noops(int frames) {
     environment_.act_for(1, kNoop);
     if (environment_.game_over()) environment_.reset_game();
   }
+}
+
+void Slot::run_noops_and_fire(bool fire) {
+  run_noops(noops_.draw() + 1 - fire);
+  if (fire) press_fire();
 }
 
 void Slot::press_fire() { environment_.act_for(1, kFire); }
