@@ -8,6 +8,7 @@ import subprocess
 
 import bench_picture
 import cartridges
+import processor
 from bench_settings import SETTINGS
 
 PAGE = cartridges.ROOT / "docs/performance.md"
@@ -18,9 +19,8 @@ HEADINGS = {name: setting.heading for name, setting in SETTINGS.items()}
 
 
 def machine():
-    models = re.findall(r"^model name\s*: (.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.M)
     system = platform.freedesktop_os_release().get("PRETTY_NAME", platform.system())
-    return {"processor": models[0] if models else platform.machine(), "processors": os.cpu_count(), "system": system}
+    return {"processor": processor.name(), "processors": os.cpu_count(), "system": system}
 
 
 def output(*command):

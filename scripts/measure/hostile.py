@@ -18,6 +18,8 @@ import tempfile
 import threading
 import time
 
+import processor
+
 SESSIONS, THREADS, GRACE, MEMORY = 64, 2, 2, 512
 TOKEN = b"the-token-of-the-hostile-load"
 GOALS = {"bystander p99": 20, "/healthz p99": 50, "memory": MEMORY, "SIGTERM": GRACE + 1}  # ms, ms, MiB, s
@@ -340,11 +342,6 @@ def peak_memory(server):
         return next(int(line.split()[1]) for line in status if line.startswith("VmHWM")) / 1024
 
 
-def processor():
-    with open("/proc/cpuinfo") as facts:
-        return next((line.split(":", 1)[1].strip() for line in facts if line.startswith("model name")), "unknown")
-
-
 def percentile(waits, share):
     return sorted(waits)[min(int(len(waits) * share), len(waits) - 1)]
 
@@ -383,7 +380,7 @@ def measure(server, port, http, records, seconds):
 
 def run(build, seconds):
     """Returns the exit status."""
-    print(f"{SESSIONS} attackers, {THREADS} threads, {os.cpu_count()} processors ({processor()}), {seconds:g} seconds")
+    print(f"{SESSIONS} attackers, {THREADS} threads, {os.cpu_count()} processors ({processor.name()}), {seconds:g} seconds")
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         server, port, http, records, limited = start_server(build, folder)
         try:
