@@ -88,7 +88,6 @@ class Beam {
   bool has_record() const { return row() < lines_.rows(); }
   int rows_to_end_of_records() const { return static_cast<int>(lines_.rows() - row()); }
   LineRecord& record() { return lines_.row(row()); }
-  bool is_worthwhile() { return lines_.is_worthwhile(record()); }
   void forget_lines() { lines_.drop(); }
 
   // For the cursor's row and those after it.

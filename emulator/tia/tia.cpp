@@ -246,7 +246,7 @@ void Tia::play_recalled(const std::uint32_t* next, LineRecord& record) {
 // Draws the cursor's line up to the last write, or to its end if the next write lies after it. Returns true
 // in the second case.
 bool Tia::draw_line(std::uint32_t origin) {
-  if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr && beam_.is_worthwhile()) {
+  if (beam_.at_line_start() && beam_.has_record() && recorded_ == nullptr) {
     recorded_ = &beam_.record();
     recorded_->open(tia_.registers());
     beam_.look_afresh();

@@ -22,9 +22,6 @@ class LineCache {
   std::size_t rows() const { return set_->size(); }
   LineRecord& row(std::size_t row) { return (*set_)[row]; }
 
-  // Whether the line that is about to be drawn on the record's row is to be recorded.
-  bool is_worthwhile(LineRecord& record) const { return flicker_.counts() || record.is_worthwhile(); }
-
   // Numbers the line that has been drawn and recorded. Returns the number.
   LineNumber add(LineRecord& record) {
     if ((next_number_ & (kNumbers - 1)) == 0) [[unlikely]]

@@ -55,23 +55,11 @@ struct alignas(64) LineRecord {
   Collisions meetings;             // pairs that met on the line, after the last CXCLR
   LineDependencies view;           // why bytes count
   LineNumber number = kNoLine;
-  std::uint8_t fruitless = 0;  // how many lines drawn here have not recurred
   std::uint8_t count;          // of events
   std::int8_t hmove_cycle;     // of the last HMOVE, if the line kMoves
   std::array<std::uint8_t, 2>
       hashes{};  // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp)
   alignas(16) std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()
-
-  // Whether the next line drawn here is to be recorded. After some frames without a recurrence, only a few
-  // are.
-  bool is_worthwhile() {
-    constexpr std::uint8_t kPatience = 16, kRest = 40;
-    if (number != kNoLine && mask != nullptr)
-      fruitless = 0;
-    else
-      fruitless = fruitless < kRest ? static_cast<std::uint8_t>(fruitless + 1) : kPatience;
-    return fruitless <= kPatience;
-  }
 
   void open(const TiaRegisters& registers);
 
