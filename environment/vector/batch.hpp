@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "environment/vector/batch_results.hpp"
 #include "environment/vector/vector_environment.hpp"
 
 namespace racebeam {
@@ -23,35 +24,6 @@ struct BatchSettings {
   unsigned threads = 0;      // 0: one for each processor that the process may use
   int first_processor = -1;  // ThreadPool's
   std::chrono::microseconds busy_poll{50};
-};
-
-// Where results go, the machines one after the other: memory of the caller. An empty array is not written.
-struct BatchArrays {
-  std::span<std::uint8_t> observations;  // machines x stack x height x width [x 3], oldest first
-  // The same of the episodes that ended, with Autoreset::kSameStep; the other machines' parts are not
-  // written.
-  std::span<std::uint8_t> final_observations;
-  std::span<std::int32_t> final_lives, final_frames, final_episode_frames;  // the same
-  std::span<std::uint8_t> screens;  // machines x tallest height x 160 palette indices
-  std::span<std::uint8_t> ram;      // machines x 128
-  std::span<std::int32_t> rewards, rewards_b, raw_rewards, raw_rewards_b;  // of players A and B
-  std::span<std::uint8_t> terminated, truncated;
-  std::span<std::uint8_t> finished;                       // the episode is over: what Autoreset goes by
-  std::span<std::uint8_t> game_over;                      // the game is, whatever lives and limits say
-  std::span<std::int32_t> lives, frames, episode_frames;  // as Environment counts them
-  std::span<std::int32_t> numbers;                        // of the machines
-};
-
-// Memory for all of them.
-struct BatchResults {
-  std::vector<std::uint8_t> observations, final_observations;
-  std::vector<std::int32_t> final_lives, final_frames, final_episode_frames;
-  std::vector<std::uint8_t> screens, ram;
-  std::vector<std::int32_t> rewards, rewards_b, raw_rewards, raw_rewards_b;
-  std::vector<std::uint8_t> terminated, truncated, finished, game_over;
-  std::vector<std::int32_t> lives, frames, episode_frames, numbers;
-
-  BatchArrays arrays();
 };
 
 class Batch {
