@@ -14,7 +14,7 @@ void put(std::span<char> field, const std::string& text) {
   std::copy_n(text.begin(), std::min(text.size(), field.size()), field.begin());
 }
 
-// A state may come from anywhere.
+// Replaces control bytes, since the state may come from an untrusted source.
 std::string text_of(std::span<const char> field) {
   return printable({field.begin(), std::ranges::find(field, '\0')});
 }
@@ -70,7 +70,7 @@ void Environment::Impl::restore(const Saved& saved) {
   blend_is_due = true;
 }
 
-// A game of the same name can come from another file.
+// Two game files can have the same name and different properties.
 void Environment::Impl::check(const Saved& saved) const {
   check_identity(saved.identity, identity);
   if (saved.properties == properties && saved.height == console.height()) return;
@@ -86,8 +86,8 @@ void Environment::Impl::check_values(const Saved& saved) const {
   check_sound(values.sound);
 }
 
-// The reference copies RAM after frames only, and keeps pictures, sound and sticky actions out of its states;
-// in 0.6 also how far the present frame has come.
+// The reference copies RAM only after a frame. Its states do not contain pictures, sound and sticky actions;
+// in 0.6, nor how far the current frame has come.
 void Environment::Impl::restore_classic(const Saved& saved) {
   check(saved);
   EpisodeState restored = saved.values.play;

@@ -16,7 +16,7 @@
 namespace racebeam {
 namespace {
 
-// The sentence is made only if it is needed: a step allocates nothing.
+// `sentence` is a function, so that a step without an error allocates no text.
 template <class Sentence>
 void refuse_unless(bool good, const Sentence& sentence) {
   if (!good) throw InvalidInput(sentence());
@@ -41,10 +41,11 @@ void check_act(const Act& act) {
                 [&] { return "the strength of a paddle is not a number"; });
 }
 
-// Bytes of a machine that has played, beside its stack and results; measured (docs/performance.md).
+// Bytes of a machine that has played, without its stack and results; measured (docs/performance.md).
 constexpr std::size_t kMachine = std::size_t{240} << 10;
 
-// Before any memory is taken: a system that promises more than it has ends the process later.
+// Returns the batch size. Checks before it allocates, since a system that overcommits memory kills the
+// process only later.
 std::size_t checked_size(std::size_t machines, const BatchSettings& settings) {
   refuse_unless(machines > 0, [&] { return "there are 0 machines; there must be 1 or more"; });
   refuse_unless(settings.batch_size <= machines, [&] {
@@ -113,7 +114,7 @@ struct Batch::Impl final : VectorHost {
     std::exception_ptr failure;
   };
 
-  // Sets where results go while a request runs.
+  // Directs results into `arrays` for as long as it lives.
   struct Output {
     Output(Impl& of, const BatchArrays& arrays) : impl(of) { impl.out = &arrays; }
     ~Output() { impl.out = nullptr; }
@@ -123,19 +124,19 @@ struct Batch::Impl final : VectorHost {
   const BatchSettings settings;
   const std::size_t batch_size;
   ThreadPool pool;
-  const BatchArrays* out = nullptr;  // null: nowhere
+  const BatchArrays* out = nullptr;  // of the request that runs; null between send() and receive()
   ResultLayout layout;
   std::vector<FinalResult> finals;  // by machine, from the episode's end to receive()
   VectorEnvironment vector;
 
-  std::vector<Act> acts;              // of a request; kept for their memory
+  std::vector<Act> acts;              // of a request; a member to reuse its memory
   std::vector<std::uint8_t> playing;  // by machine: from send() to receive()
   std::vector<Job> jobs;
   std::vector<std::size_t> received;
   std::mutex mutex;
   std::condition_variable one_is_done;
   std::vector<std::size_t> done;  // under the mutex
-  ThreadPool::Queue queue;        // the last, so that it goes first
+  ThreadPool::Queue queue;        // the last member, so that it is destroyed first
 };
 
 std::span<const Act> Batch::Impl::acts_of(std::span<const int> actions, auto machine_of) {
@@ -177,7 +178,7 @@ void Batch::Impl::begin(std::span<const std::size_t> numbers) {
   queue.push(numbers);
 }
 
-// On any thread.
+// Runs on any thread.
 void Batch::Impl::play(std::size_t number) {
   Job& job = jobs[number];
   try {
@@ -192,7 +193,7 @@ void Batch::Impl::play(std::size_t number) {
   one_is_done.notify_one();
 }
 
-// The caller's thread helps.
+// Waits for a batch; meanwhile the caller's thread runs machines, too.
 std::span<const std::size_t> Batch::Impl::await_batch() {
   const auto busy = static_cast<std::size_t>(std::ranges::count(playing, 1));
   refuse_unless(busy >= batch_size, [&] {

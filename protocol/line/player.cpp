@@ -30,7 +30,7 @@ Player::Player(const Cartridge& cartridge, const PlaySettings& settings, std::ve
   observe(std::move(fields));
 }
 
-// Measured: 190 to 240 KiB, and 80 more where objects flicker (docs/performance.md).
+// Measured: a machine takes 190 to 240 KiB, and 80 KiB more if objects flicker (docs/performance.md).
 std::size_t Player::footprint(const std::vector<Field>& fields) {
   constexpr std::size_t kMachine = std::size_t{384} << 10;
   return kMachine + View::footprint(fields);

@@ -11,21 +11,22 @@
 namespace racebeam {
 namespace {
 
-// Waking a client that sleeps takes the time of a step, sending that of some more: the replies of requests
-// that were sent ahead go out together, when kLastRequests are left, which are answered while the client
-// reads and sends the next. No more of them wait than this.
+// Waking a sleeping client takes as long as a step, and sending takes longer still. The replies to requests
+// that were sent ahead are therefore sent together, when kLastRequests requests are left. The session answers
+// those while the client reads. The other constants limit how many replies wait.
 constexpr std::size_t kLastRequests = 3;
 constexpr int kFewReplies = 4;
-constexpr int kFramesOfReplies = 64;              // some hundred microseconds
-constexpr std::size_t kBytesOfReplies = 1 << 16;  // some twenty with a screen
+constexpr int kFramesOfReplies = 64;              // take some hundred microseconds
+constexpr std::size_t kBytesOfReplies = 1 << 16;  // about twenty screens
 
 constexpr std::size_t kShortLine = 4096;
-constexpr std::size_t kBytesOfWord =
-    48;  // that each word of a request may take, an action and its reward; two bytes at least
+// Memory that a word of a request may take, as an action and as its reward. A word has at least two bytes,
+// with the space.
+constexpr std::size_t kBytesOfWord = 48;
 
 const LineLimits& limits(const LineService& service) { return service.limits; }
 
-// The most bytes of a line. A client without a token needs only short ones.
+// Returns how many bytes a line may have. A client without a token needs only short lines.
 std::size_t longest_line(const LineService& service, bool admitted) {
   constexpr std::size_t kLongestBefore = 4096;
   return admitted ? limits(service).line : std::min(kLongestBefore, limits(service).line);
@@ -36,7 +37,7 @@ std::size_t first_unprintable(std::string_view line) {
   return static_cast<std::size_t>(bad - line.begin());
 }
 
-// A sentence can quote what came as base64, and that may be any bytes.
+// A sentence may quote text that the client sent as base64, and that may be any bytes.
 void append_printable(std::string& out, std::string_view sentence) {
   for (const char c : sentence) out += c < ' ' || c > '~' ? '?' : c;
 }
@@ -63,7 +64,7 @@ Session::Session(const LineService& with, const CommandTable& table, Meter* coun
   memory.set(footprint());
 }
 
-// Before what they use.
+// The fiber and the recording use the other members, so they go first.
 Session::~Session() {
   pacer.cancel();
   recording.reset();
@@ -123,7 +124,7 @@ bool Session::run(std::chrono::microseconds slice) {
   return more && !done_;
 }
 
-// A reader that is slow holds up its own requests only.
+// Whether enough output waits to be sent. A client that reads slowly thus delays only its own requests.
 bool Session::has_enough() const {
   return pacer.frames() - sent_frames_ >= kFramesOfReplies ||
          out.size() >= std::min(kBytesOfReplies, limits(service).output);
@@ -141,7 +142,7 @@ bool Session::wants_more() const {
 
 bool Session::waits() const { return pacer.in_progress() && recording && recording->is_behind(); }
 
-// A request, or a part of one; false when there is nothing to do before something comes in.
+// Works on a request until `end`. Returns false if there is nothing to do before more input comes.
 bool Session::go_on(Clock::time_point end) {
   if (pacer.in_progress()) {
     pacer.go_on(end);
@@ -183,7 +184,7 @@ void Session::guarded(Step step) {
   }
 }
 
-// An error of the server itself: it is logged, too.
+// Reports an internal error of the server, and logs it.
 void Session::refuse_fault(const std::string& what) {
   refuse(Code::kInternal, what);
   const std::string name(command_ < table_.commands.size() ? table_.commands[command_].name : "a request");
@@ -198,12 +199,12 @@ void Session::begin_request() {
   refused_ = false;
 }
 
-// A comment: it has no reply.
+// Whether the line is a comment, which gets no reply.
 bool Session::ignores(const LineReader::Line& line) {
   const std::size_t first = line.text.find_first_not_of(' ');
   if (first == std::string_view::npos || line.text[first] != '#') return false;
   statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
-  began_ = looked_ = Clock::now();  // of the next request
+  began_ = looked_ = Clock::now();  // when the next request begins
   return true;
 }
 
@@ -228,7 +229,7 @@ void Session::execute(std::string_view line) {
   command.run(*this, arguments);
 }
 
-// A line may have half a million.
+// Splits the line into words_. There may be half a million.
 void Session::read_words(std::string_view line) {
   constexpr std::size_t kWordsBetweenLooks = 1024;
   words_.clear();
@@ -245,7 +246,7 @@ void Session::finish_reply() {
   done_ = quitting || refused();
   memory.set(footprint());
   if (meter_) measure();
-  began_ = looked_;  // the next, if it is there
+  began_ = looked_;  // when the next request begins, if it is here
 }
 
 void Session::measure() {
@@ -254,7 +255,7 @@ void Session::measure() {
   metered_frames_ = statistics.frames;
 }
 
-// Bytes, about. Of what changes within a request, what is large is checked before it is taken.
+// Estimates the bytes of memory that the session holds. A request checks large allocations by itself.
 std::size_t Session::footprint() const {
   constexpr std::size_t kSession = std::size_t{48} << 10;  // with connection, fiber and buffers
   std::size_t bytes = kSession + out.capacity() + input.capacity() + states.footprint() +
@@ -265,7 +266,7 @@ std::size_t Session::footprint() const {
   return bytes;
 }
 
-// A line that there is no memory for is too long.
+// If there is no memory for a longer line, the line is treated as too long.
 std::span<char> Session::space() {
   if (const std::size_t growth = input.growth(); growth > 0 && !memory.grow(growth)) input.cut_line();
   return input.space();
@@ -291,7 +292,7 @@ void Session::cancel() {
 }
 
 void Session::rest() {
-  if (pacer.in_progress()) return;  // a request waits for a reader that is slow; its words are in use
+  if (pacer.in_progress()) return;  // the request, whose words are in use, waits for its client to read
   if (player) player->machine().rest();
   machines.rest();
   if (out.empty()) out.shrink_to_fit();
