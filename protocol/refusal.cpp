@@ -27,7 +27,8 @@ constexpr std::array kCodes = {
     CodeRow{Code::kBusy, "busy", "the server has reached its limit of sessions; it closes this one"},
     CodeRow{Code::kIdle, "idle", "nothing was received or sent for too long; the server closes the session"},
     CodeRow{Code::kStopping, "stopping", "the server is stopping; it closes the session"},
-    CodeRow{Code::kInternal, "internal", "a fault of the server; the request may be partly executed"},
+    CodeRow{Code::kInternal, "internal",
+            "an internal error of the server; the request may be partly executed"},
 };
 
 }  // namespace

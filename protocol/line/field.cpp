@@ -24,17 +24,18 @@ constexpr int kDeepest = 16;
   }
 
 constexpr std::array kFields = {
-    NUMBER("reward", true, o.reward, "sum over the acts of the request; each act's is limited as loaded"),
+    NUMBER("reward", true, o.reward,
+           "sum over the acts of the request; each act's reward is clamped as loaded"),
     NUMBER("reward_b", true, o.reward_b, "the same for player B"),
-    NUMBER("raw_reward", true, o.raw_reward, "reward before it was limited"),
+    NUMBER("raw_reward", true, o.raw_reward, "the same before clamping"),
     NUMBER("raw_reward_b", true, o.raw_reward_b, "the same for player B"),
     NUMBER("terminated", true, o.terminated, "1: the game is over"),
     NUMBER("truncated", true, o.truncated, "1: the episode was cut short, by frames or by a lost life"),
-    NUMBER("game_over", true, o.game_over, "1: the game is over, whatever lives and limits say"),
-    NUMBER("lives", false, e.lives(), "lives that are left; 0 in games without"),
+    NUMBER("game_over", true, o.game_over, "1: the game itself is over; lost lives and limits do not count"),
+    NUMBER("lives", false, e.lives(), "remaining lives; 0 in games without lives"),
     NUMBER("frame", false, e.frame_number(), "frames since the game was loaded"),
     NUMBER("episode_frame", false, e.episode_frame_number(), "frames since the episode began"),
-    NUMBER("acts", true, o.acts, "acts that were carried out; fewer than asked for when the episode ended"),
+    NUMBER("acts", true, o.acts, "acts that were played; fewer than requested if the episode ended"),
     NUMBER("frames", true, o.frames, "frames that the request ran"),
     FieldRow{"ram", "128 bytes", false, nullptr,
              [](const Environment& e, Scratch&) -> Bytes { return e.ram(); }, Encoding::kHex},
@@ -59,7 +60,7 @@ constexpr std::array kFields = {
              "a stack of N screens, W x H, grey, each the brighter of two frames; grey84x4 is short for "
              "grey84x84x4",
              false, nullptr, nullptr, Encoding::kZlib, Drawing::kLastTwo},
-    FieldRow{kRgbStack, "the same, red, green and blue of each pixel, row by row", false, nullptr, nullptr,
+    FieldRow{kRgbStack, "the same in colour: red, green and blue of each pixel", false, nullptr, nullptr,
              Encoding::kZlib, Drawing::kLastTwo},
     FieldRow{"palette", "256 x 3: red, green, blue of each value of screen", false, nullptr,
              [](const Environment& e, Scratch& scratch) -> Bytes {
@@ -78,9 +79,10 @@ int size_within(std::string_view text, std::string_view what, int least, int mos
   return static_cast<int>(number_within(text, what, least, most));
 }
 
-// grey84, grey84xN, greyWxHxN and rgbWxHxN, whose name then is that of their row; nothing for other fields.
+// Parses grey84, grey84xN, greyWxHxN and rgbWxHxN, and sets `name` to the name of their row. Returns nothing
+// for other fields.
 std::optional<StackSettings> parse_stack(std::string_view& name) {
-  constexpr int kLeastHeight = 9, kMostHeight = 300;  // a machine's screen may be lower: ScreenStack looks
+  constexpr int kLeastHeight = 9, kMostHeight = 300;  // ScreenStack checks against the machine's screen
   const bool rgb = name.starts_with("rgb");
   if (!rgb && !name.starts_with("grey")) return std::nullopt;
   std::string_view width = name.substr(rgb ? 3 : 4);
@@ -187,8 +189,8 @@ std::size_t View::footprint(const std::vector<Field>& fields) {
   std::size_t bytes = 0;
   for (const Field& field : fields) {
     if (field.row->number) continue;
-    const std::size_t stack = field.stack ? 2 * bytes_of(*field.stack) : 0;  // and a copy
-    bytes += 3 * kTallScreen + stack;                                        // the scratch copy, at most
+    const std::size_t stack = field.stack ? 2 * bytes_of(*field.stack) : 0;  // with a copy
+    bytes += 3 * kTallScreen + stack;                                        // for scratch_, at most
     if (field.encoding == Encoding::kZlib) bytes += kDeflater;
     if (field.encoding == Encoding::kDelta) bytes += 3 * kTallScreen + stack;
   }
