@@ -84,7 +84,7 @@ struct Environment::Impl {
   void restore(const Saved& saved);
   void restore_classic(const Saved& saved);
 
-  StateParts parts() const { return {console.state(), play, rule.tally(), console.cartridge_ram()}; }
+  StateParts parts() const { return {console.state(), play, rule.state(), console.cartridge_ram()}; }
 
   std::span<const std::uint8_t> screen();
 };

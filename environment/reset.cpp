@@ -43,7 +43,7 @@ ResetStart Environment::Impl::reset_start() {
 }
 
 ResetEnd Environment::Impl::reset_end(std::uint32_t frames) const {
-  return {console.state(), console.sound().registers, rule.tally(), play.paddles, frames, console.pictures()};
+  return {console.state(), console.sound().registers, rule.state(), play.paddles, frames, console.pictures()};
 }
 
 void Environment::Impl::copy_reset(const ResetEnd& end) {
@@ -52,7 +52,7 @@ void Environment::Impl::copy_reset(const ResetEnd& end) {
   console.restore(machine);
   console.restore_pictures(end.pictures);
   console.sound().registers = end.sound;
-  rule.restore(end.tally);
+  rule.restore(end.rule);
   play.frames += end.frames;
   play.episode_frames = end.frames;
   play.paddles = end.paddles;

@@ -37,7 +37,7 @@ class Environment::Saved {
   struct Values {
     State machine;
     EpisodeState play;
-    Tally tally;
+    RuleState rule;
     Sound sound;
     std::array<std::uint8_t, kAudioSize> audio{};
   };
@@ -57,7 +57,7 @@ class Environment::Saved {
   }
 
  private:
-  StateParts parts() const { return {values.machine, values.play, values.tally, cartridge_ram}; }
+  StateParts parts() const { return {values.machine, values.play, values.rule, cartridge_ram}; }
 };
 
 static_assert(std::is_trivially_copyable_v<Environment::Saved::Values>);

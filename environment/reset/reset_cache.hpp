@@ -40,7 +40,7 @@ struct ResetStart {
 struct ResetEnd {
   State machine;
   std::array<std::uint8_t, 6> sound{};
-  Tally tally;
+  RuleState rule;
   PaddleValues paddles{};
   std::uint32_t frames = 0;  // counted ones
   FrameBuffers pictures;

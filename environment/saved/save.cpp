@@ -43,7 +43,7 @@ void check_identity(const Identity& saved, const Identity& running) {
 std::shared_ptr<Environment::Saved> Environment::Impl::save_without_pictures() const {
   auto saved = std::make_shared<Saved>();
   saved->identity = identity;
-  saved->values = {console.state(), play, rule.tally(), console.sound(), audio};
+  saved->values = {console.state(), play, rule.state(), console.sound(), audio};
   saved->cartridge_ram.assign(console.cartridge_ram().begin(), console.cartridge_ram().end());
   saved->properties = properties;
   saved->height = console.height();
@@ -62,7 +62,7 @@ void Environment::Impl::restore(const Saved& saved) {
   console.restore(saved.values.machine, saved.cartridge_ram);
   console.restore_pictures(saved.pictures);
   console.sound() = saved.values.sound;
-  rule.restore(saved.values.tally);
+  rule.restore(saved.values.rule);
   play = saved.values.play;
   audio = saved.values.audio;
   raw_rewards = {};
@@ -82,7 +82,7 @@ void Environment::Impl::check_values(const Saved& saved) const {
   const Saved::Values& values = saved.values;
   console.check(values.machine, saved.cartridge_ram);
   check_play(values.play, *game);
-  check_tally(values.tally, *game);
+  check_rule_state(values.rule, *game);
   check_sound(values.sound);
 }
 
@@ -101,7 +101,7 @@ void Environment::Impl::restore_classic(const Saved& saved) {
   machine.frame.greyed = now.frame.greyed;
   machine.tia.pixel = now.tia.pixel;
   console.restore(machine, saved.cartridge_ram);
-  rule.restore(saved.values.tally);
+  rule.restore(saved.values.rule);
   play = restored;
 }
 

@@ -41,10 +41,10 @@ void check_play(const EpisodeState& play, const Game& game) {
   check_flag("the flag of outdated RAM", play.ram_is_stale);
 }
 
-void check_tally(const Tally& tally, const Game& game) {
+void check_rule_state(const RuleState& state, const Game& game) {
   const std::size_t used = game.rule ? game.rule->variables.size() : 0;
-  for (std::size_t i = used; i < tally.values.size(); ++i)
-    check_range("a variable that the rule does not have", tally.values[i], 0, 0);
+  for (std::size_t i = used; i < state.values.size(); ++i)
+    check_range("a variable that the rule does not have", state.values[i], 0, 0);
 }
 
 void check_sound(const Sound& sound) {
