@@ -12,7 +12,7 @@
 #include "environment/input/controller_input.hpp"
 #include "environment/input/legal_actions.hpp"
 #include "environment/input/sticky_actions.hpp"
-#include "environment/reset/boot_study.hpp"
+#include "environment/reset/boot_analysis.hpp"
 #include "environment/reset/reset_cache.hpp"
 #include "environment/saved_state.hpp"
 #include "games/game/rule.hpp"

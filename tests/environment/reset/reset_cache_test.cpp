@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "environment/reset/boot_study.hpp"
+#include "environment/reset/boot_analysis.hpp"
 #include "environment/saved_state.hpp"
 #include "tests/environment/steered.hpp"
 #include "tests/support/observation.hpp"

@@ -1,4 +1,4 @@
-#include "environment/reset/boot_study.hpp"
+#include "environment/reset/boot_analysis.hpp"
 
 #include <algorithm>
 #include <array>
