@@ -33,7 +33,7 @@ bool Environment::Impl::may_copy_reset() const {
 }
 
 ResetStart Environment::Impl::reset_start() {
-  if (!boot_facts) boot_facts = study_boot(console, scheme_of(*image->bytes, properties.scheme).name);
+  if (!boot_facts) boot_facts = analyze_boot(console, scheme_of(*image->bytes, properties.scheme).name);
   ResetStart start{image, game, controller_input.limits(), play.mode, play.difficulty, {}, console.state()};
   start.machine.drawn = 0;  // only a count of draws, and no more draws follow
   if (boot_facts->clears_ram) start.machine.riot.ram = {};

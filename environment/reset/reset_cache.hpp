@@ -3,9 +3,9 @@
 // their start.
 //
 // Starts differ in what the previous episode left in RAM, in the timer, which is random, and in the sound
-// registers. Most programs overwrite these before they read them. Where that is proven (boot_analysis.hpp), they
-// are left out of the comparison. The rest of the machine is compared byte for byte, so that a copy always
-// equals the result of running the reset.
+// registers. Most programs overwrite these before they read them. Where that is proven (boot_analysis.hpp),
+// they are left out of the comparison. The rest of the machine is compared byte for byte, so that a copy
+// always equals the result of running the reset.
 #pragma once
 
 #include <cstdint>
