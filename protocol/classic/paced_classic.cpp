@@ -1,6 +1,6 @@
 #include "protocol/classic/paced_classic.hpp"
 
-#include "protocol/line/player.hpp"
+#include "protocol/line/loaded_machine.hpp"
 
 namespace racebeam {
 

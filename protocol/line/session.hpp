@@ -13,7 +13,7 @@
 #include "protocol/line/line_service.hpp"
 #include "protocol/line/machines.hpp"
 #include "protocol/line/meter.hpp"
-#include "protocol/line/player.hpp"
+#include "protocol/line/loaded_machine.hpp"
 #include "protocol/line/states.hpp"
 #include "protocol/running/memory_budget.hpp"
 #include "protocol/running/pacer.hpp"

@@ -1,4 +1,4 @@
-#include "protocol/line/player.hpp"
+#include "protocol/line/loaded_machine.hpp"
 
 #include <algorithm>
 
