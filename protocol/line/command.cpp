@@ -38,7 +38,7 @@ void check(const Command& command, const Session& session, std::size_t arguments
   }
   if (command.needs >= Needs::kAdmission && !session.admitted)
     throw Refusal(Code::kUnauthorized, "this server requires a token before " + name + "; hello token=TOKEN");
-  if (command.needs >= Needs::kGame && !session.player)
+  if (command.needs >= Needs::kGame && !session.loaded)
     throw Refusal(Code::kNoGame, name + " needs a game; load one first");
   if (command.needs == Needs::kMachines && session.machines.empty())
     throw Refusal(Code::kNoMachines, name + " needs machines; open some first");

@@ -15,11 +15,12 @@
 
 namespace racebeam {
 
-class Player {
+class LoadedMachine {
  public:
   // Powers on, sets mode and difficulty, and begins an episode. Throws InvalidInput, and what `pacer` throws.
   // `pacer` must outlive this object.
-  Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields, Pacer& pacer);
+  LoadedMachine(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields,
+                Pacer& pacer);
 
   Pacer& pacer() { return pacer_; }
   Slot& slot() { return slot_; }

@@ -97,17 +97,17 @@ void Machines::rest() {
 // Checks whether `count` machines with these fields are possible. Throws Refusal if their replies would
 // exceed the limit, or if there is not enough memory. Returns the estimated length of a reply in bytes.
 std::size_t Machines::check(const std::vector<Field>& fields, std::size_t count, Autoreset autoreset) {
-  const std::size_t once = text_size(fields, session_.player->machine());
+  const std::size_t once = text_size(fields, session_.loaded->machine());
   const std::size_t reply = count * (autoreset == Autoreset::kSameStep ? 2 * once : once);
   session_.check_reply(reply, std::to_string(count) + " machines with these fields");
-  session_.memory.check(count * (sizeof(Seat) + Player::footprint(fields)) + 2 * reply,
+  session_.memory.check(count * (sizeof(Seat) + LoadedMachine::footprint(fields)) + 2 * reply,
                         std::to_string(count) + " machines with these fields");
   return reply;
 }
 
 std::size_t Machines::footprint(const std::vector<Field>& fields) const {
   if (empty()) return 0;
-  std::size_t bytes = size() * (sizeof(Seat) + Player::footprint(fields));
+  std::size_t bytes = size() * (sizeof(Seat) + LoadedMachine::footprint(fields));
   for (const auto& seat : opened_->host.seats()) bytes += seat->text.capacity();
   return bytes;
 }

@@ -106,7 +106,7 @@ void Session::append_cut() {
 }
 
 void Session::stop_recording_machines() {
-  if (recording && !recording->shows(player->machine())) recording.reset();
+  if (recording && !recording->shows(loaded->machine())) recording.reset();
 }
 
 void Session::run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const {
@@ -261,7 +261,7 @@ std::size_t Session::footprint() const {
   std::size_t bytes = kSession + out.capacity() + input.capacity() + states.footprint() +
                       machines.footprint(fields) + actions.capacity() * sizeof(Action) +
                       step_acts.capacity() * sizeof(Act) + words_.capacity() * sizeof(std::string_view);
-  if (player) bytes += Player::footprint(fields);
+  if (loaded) bytes += LoadedMachine::footprint(fields);
   if (has_own_image) bytes += kOwnImage;
   return bytes;
 }
@@ -293,7 +293,7 @@ void Session::cancel() {
 
 void Session::rest() {
   if (pacer.in_progress()) return;  // the request, whose words are in use, waits for its client to read
-  if (player) player->machine().rest();
+  if (loaded) loaded->machine().rest();
   machines.rest();
   if (out.empty()) out.shrink_to_fit();
   std::vector<Action>().swap(actions);

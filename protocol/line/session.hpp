@@ -11,9 +11,9 @@
 
 #include "protocol/line/line_reader.hpp"
 #include "protocol/line/line_service.hpp"
+#include "protocol/line/loaded_machine.hpp"
 #include "protocol/line/machines.hpp"
 #include "protocol/line/meter.hpp"
-#include "protocol/line/loaded_machine.hpp"
 #include "protocol/line/states.hpp"
 #include "protocol/running/memory_budget.hpp"
 #include "protocol/running/pacer.hpp"
@@ -49,12 +49,12 @@ class Session {
   Statistics statistics;
   Pacer pacer;  // each request runs as its body
 
-  // The loaded game. `player` is null if there is none.
+  // The loaded game. `loaded` is null if there is none.
   Cartridge cartridge;
   bool has_own_image = false;  // the client sent it; other sessions do not share it
   PlaySettings settings;
   std::vector<Field> fields;  // selected by `observe`; they persist across `load`
-  std::unique_ptr<Player> player;
+  std::unique_ptr<LoadedMachine> loaded;
   States states;
   std::unique_ptr<SessionRecording> recording;  // null if nothing is being recorded
 

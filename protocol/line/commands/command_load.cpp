@@ -132,7 +132,7 @@ Cartridge find_cartridge(const Session& session, std::string_view name, const Lo
 }
 
 void append_loaded(Session& session) {
-  const Environment& machine = session.player->machine();
+  const Environment& machine = session.loaded->machine();
   std::string& out = session.out;
   out += "ok";
   append_pair(out, "game", machine.game().name);
@@ -161,12 +161,12 @@ void run_load(Session& session, Words arguments) {
   read_settings(words.settings, settings, kKeysOfImages);
   if (settings.machine.random_seed == 0) settings.machine.random_seed = fresh_seed();
   Cartridge cartridge = find_cartridge(session, arguments[0], words);
-  std::unique_ptr<Player> player;
+  std::unique_ptr<LoadedMachine> loaded;
   try {
     session.allow_resets(1);
-    session.memory.check(Player::footprint(session.fields) + (arguments[0] == kInline ? kOwnImage : 0),
+    session.memory.check(LoadedMachine::footprint(session.fields) + (arguments[0] == kInline ? kOwnImage : 0),
                          "a machine");
-    player = std::make_unique<Player>(cartridge, settings, session.fields, session.pacer);
+    loaded = std::make_unique<LoadedMachine>(cartridge, settings, session.fields, session.pacer);
   } catch (const InvalidInput& error) {
     const bool sent = arguments[0] == kInline && !settings.mode && !settings.difficulty;
     throw Refusal(sent ? Code::kBadImage : Code::kBadValue, error.what());
@@ -174,7 +174,7 @@ void run_load(Session& session, Words arguments) {
   session.recording.reset();
   session.machines.close();
   session.states.clear();
-  session.player = std::move(player);
+  session.loaded = std::move(loaded);
   session.cartridge = std::move(cartridge);
   session.has_own_image = arguments[0] == kInline;
   session.settings = settings;
@@ -193,7 +193,7 @@ void run_set(Session& session, Words arguments) {
                       advice(key, kKeysOfSet, "there are mode and difficulty; load takes the others"));
   }
   read_settings(arguments, changed);
-  Environment& machine = session.player->machine();
+  Environment& machine = session.loaded->machine();
   const int mode = machine.mode();
   if (changed.mode) machine.set_mode(*changed.mode);
   try {
@@ -210,7 +210,7 @@ void run_set(Session& session, Words arguments) {
 }
 
 void run_modes(Session& session, Words) {
-  const Environment& machine = session.player->machine();
+  const Environment& machine = session.loaded->machine();
   session.out += "ok";
   append_pair(session.out, "mode", machine.mode());
   append_pair(session.out, "default", machine.game().default_mode);
@@ -219,7 +219,7 @@ void run_modes(Session& session, Words) {
 }
 
 void run_difficulties(Session& session, Words) {
-  const Environment& machine = session.player->machine();
+  const Environment& machine = session.loaded->machine();
   session.out += "ok";
   append_pair(session.out, "difficulty", machine.difficulty());
   append_pair(session.out, "default", 0);
@@ -227,7 +227,7 @@ void run_difficulties(Session& session, Words) {
 }
 
 void run_actions(Session& session, Words) {
-  const Game& game = session.player->machine().game();
+  const Game& game = session.loaded->machine().game();
   std::string& out = session.out;
   out += "ok";
   append_pair(out, "action_set", name_of(session.settings.action_set));

@@ -108,7 +108,7 @@ void run_open(Session& session, Words arguments) {
 }
 
 void run_step(Session& session, Words arguments) {
-  const AllowedActions allowed = session.player->allowed();
+  const AllowedActions allowed = session.loaded->allowed();
   const std::size_t machines = session.machines.size();
   if (arguments.size() != 1 && arguments.size() != machines)
     refuse_count(session, arguments.size(), "actions; give one each, or one for all");

@@ -55,7 +55,7 @@ struct Subject {  // of a recording
 
 // The machine of `load`, or one of `open`.
 Subject subject_of(Session& session, Words arguments) {
-  if (arguments.empty()) return {session.player->machine(), session.player->pacer()};
+  if (arguments.empty()) return {session.loaded->machine(), session.loaded->pacer()};
   const std::string_view number = value_of(arguments[0], "machine", "record");
   if (session.machines.empty()) throw Refusal(Code::kNoMachines, "machine= needs machines; open some first");
   const auto last = static_cast<std::int64_t>(session.machines.size()) - 1;
