@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 
 namespace racebeam {
 

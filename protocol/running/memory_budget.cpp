@@ -1,6 +1,6 @@
 #include "protocol/running/memory_budget.hpp"
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 
 namespace racebeam {
 

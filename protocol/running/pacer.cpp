@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 
 namespace racebeam {
 

@@ -9,7 +9,7 @@
 
 #include <boost/asio.hpp>
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 #include "server/access/wrong_tokens.hpp"
 #include "server/connections/lobby.hpp"
 #include "server/scheduling/loops.hpp"

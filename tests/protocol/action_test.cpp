@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 
 using namespace racebeam;
 using Catch::Matchers::Contains;

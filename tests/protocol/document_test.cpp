@@ -12,7 +12,7 @@
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
 #include "protocol/line/play_settings.hpp"
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 
 using namespace racebeam;
 using Catch::Matchers::Contains;

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 #include "tests/protocol/line_client.hpp"
 
 using namespace racebeam;

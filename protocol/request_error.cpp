@@ -1,4 +1,4 @@
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 
 #include <array>
 
