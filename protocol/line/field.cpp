@@ -98,7 +98,8 @@ std::optional<StackSettings> parse_stack(std::string_view& name) {
     return stack_of(alone ? "1" : height, kSmallSide, kSmallSide);
   }
   if (depth.empty() || depth.find('x') != std::string_view::npos)
-    throw Refusal(Code::kBadArguments, "a stack is written as in grey84x4, grey100x50x4 or rgb100x50x4");
+    throw RequestError(ErrorCode::kBadArguments,
+                       "a stack is written as in grey84x4, grey100x50x4 or rgb100x50x4");
   name = rgb ? kRgbStack : kGreyStack;
   return stack_of(depth, size_within(width, "the width of a stack", 1, kScreenWidth),
                   size_within(height, "the height of a stack", kLeastHeight, kMostHeight));
@@ -118,12 +119,13 @@ Field parse_field(std::string_view word) {
   if (row == kFields.end() || (!stack && (name == kGreyStack || name == kRgbStack))) {
     auto known = names_of(kFields);
     known.insert(known.end(), {"ends", "none"});
-    refuse_name(Code::kBadArguments, "field", name, known);
+    refuse_name(ErrorCode::kBadArguments, "field", name, known);
   }
   if (!encoded) return {&*row, row->usual, stack, std::move(written)};
-  if (row->number) throw Refusal(Code::kBadArguments, written + " is a number, and has no encoding");
+  if (row->number)
+    throw RequestError(ErrorCode::kBadArguments, written + " is a number, and has no encoding");
   const auto chosen = encoding_of(encoding);
-  if (!chosen) refuse_name(Code::kBadArguments, "encoding", encoding, names_of(encodings()));
+  if (!chosen) refuse_name(ErrorCode::kBadArguments, "encoding", encoding, names_of(encodings()));
   return {&*row, *chosen, stack, std::move(written)};
 }
 
@@ -131,10 +133,11 @@ void check(const std::vector<Field>& fields) {
   for (std::size_t i = 0; i < fields.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (fields[i].row == fields[j].row)
-        throw Refusal(Code::kBadArguments, std::string(fields[i].row->name) + " is asked for twice");
+        throw RequestError(ErrorCode::kBadArguments,
+                           std::string(fields[i].row->name) + " is asked for twice");
       if (fields[i].stack && fields[j].stack)
-        throw Refusal(Code::kBadArguments,
-                      fields[j].name + " and " + fields[i].name + " are two stacks; there can be one");
+        throw RequestError(ErrorCode::kBadArguments,
+                           fields[j].name + " and " + fields[i].name + " are two stacks; there can be one");
     }
   }
 }
@@ -154,7 +157,7 @@ std::vector<Field> parse_fields(Words words) {
   for (const std::string_view word : words) {
     if (word == "none") {
       if (words.size() == 1) break;
-      throw Refusal(Code::kBadArguments, "none stands alone; it chooses no field");
+      throw RequestError(ErrorCode::kBadArguments, "none stands alone; it chooses no field");
     }
     if (word == "ends") {
       fields.push_back(parse_field("terminated"));

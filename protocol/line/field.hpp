@@ -34,7 +34,7 @@ struct Field {
 };
 
 // Parses words such as lives, screen:rle, grey84x4 and rgb100x50x2. `ends` stands for two fields, `none` for
-// no field. Throws Refusal.
+// no field. Throws RequestError.
 std::vector<Field> parse_fields(Words words);
 
 // Which screens of an act the fields need, on a machine with colour averaging or without.

@@ -94,7 +94,7 @@ void Machines::rest() {
   }
 }
 
-// Checks whether `count` machines with these fields are possible. Throws Refusal if their replies would
+// Checks whether `count` machines with these fields are possible. Throws RequestError if their replies would
 // exceed the limit, or if there is not enough memory. Returns the estimated length of a reply in bytes.
 std::size_t Machines::check(const std::vector<Field>& fields, std::size_t count, Autoreset autoreset) {
   const std::size_t once = text_size(fields, session_.loaded->machine());

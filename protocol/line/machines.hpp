@@ -31,12 +31,12 @@ class Machines {
   Environment& machine(std::size_t number);
   Pacer& pacer(std::size_t number);  // paces this machine
   void close();
-  void observe(const std::vector<Field>& fields);  // may throw Refusal, and changes nothing then
+  void observe(const std::vector<Field>& fields);  // may throw RequestError, and changes nothing then
   void rest();                                     // releases caches
   std::size_t footprint(const std::vector<Field>& fields) const;  // estimated bytes of memory
 
-  // Each appends its reply to session.out. All may throw Refusal; `open` then keeps the machines that were
-  // there.
+  // Each appends its reply to session.out. All may throw RequestError; `open` then keeps the machines that
+  // were there.
   void open(std::size_t count, const SlotSettings& settings, Autoreset autoreset);
   void step(std::span<const Act> acts);  // one for each machine
   // Resets the machines whose byte in `chosen` is not 0. There is a seed for each machine; -1: none.

@@ -25,8 +25,8 @@ int whole(std::string_view value, std::string_view what, std::int64_t least, std
 bool flag(std::string_view value, std::string_view what) { return number_within(value, what, 0, 1) == 1; }
 
 [[noreturn]] void refuse(std::string_view what, std::string_view value, std::string_view accepted) {
-  throw Refusal(Code::kBadValue,
-                std::string(what) + " is " + quote(value) + "; it takes " + std::string(accepted));
+  throw RequestError(ErrorCode::kBadValue,
+                     std::string(what) + " is " + quote(value) + "; it takes " + std::string(accepted));
 }
 
 void set_seed(PlaySettings& settings, std::string_view value) {
@@ -179,7 +179,7 @@ const SettingRow& setting_row(std::string_view name, Words other_keys) {
   if (found != kSettings.end()) return *found;
   auto known = names_of(kSettings);
   known.insert(known.end(), other_keys.begin(), other_keys.end());
-  refuse_name(Code::kBadArguments, "setting", name, known);
+  refuse_name(ErrorCode::kBadArguments, "setting", name, known);
 }
 
 }  // namespace

@@ -46,8 +46,9 @@ void check_bytes(std::string_view line) {
   const std::size_t bad = first_unprintable(line);
   if (bad == line.size()) return;
   const auto byte = static_cast<unsigned char>(line[bad]);
-  throw Refusal(Code::kBadLine, "byte " + std::to_string(bad + 1) + " of the line has the value " +
-                                    std::to_string(byte) + "; a request is printable ASCII, 32 to 126");
+  throw RequestError(ErrorCode::kBadLine, "byte " + std::to_string(bad + 1) + " of the line has the value " +
+                                              std::to_string(byte) +
+                                              "; a request is printable ASCII, 32 to 126");
 }
 
 }  // namespace
@@ -75,8 +76,8 @@ void Session::check_frames(std::int64_t acts, std::int64_t frames) const {
   frames += acts * std::max(machine.frame_skip, machine.frame_skip_max);
   const std::int64_t most = limits(service).request_frames;
   if (frames <= most) return;
-  throw Refusal(Code::kLimit, "the request asks for " + std::to_string(frames) + " frames; it may ask for " +
-                                  std::to_string(most));
+  throw RequestError(ErrorCode::kLimit, "the request asks for " + std::to_string(frames) +
+                                            " frames; it may ask for " + std::to_string(most));
 }
 
 void Session::allow_resets(std::size_t count) {
@@ -86,8 +87,9 @@ void Session::allow_resets(std::size_t count) {
 void Session::check_reply(std::size_t bytes, const std::string& about) const {
   const std::size_t most = limits(service).reply;
   if (bytes <= most) return;
-  throw Refusal(Code::kLimit, "a reply about " + about + " would have about " + std::to_string(bytes) +
-                                  " bytes; it may have " + std::to_string(most));
+  throw RequestError(ErrorCode::kLimit, "a reply about " + about + " would have about " +
+                                            std::to_string(bytes) + " bytes; it may have " +
+                                            std::to_string(most));
 }
 
 void Session::admit() {
@@ -161,7 +163,7 @@ bool Session::go_on(Clock::time_point end) {
   return true;
 }
 
-void Session::refuse(Code code, std::string_view sentence) {
+void Session::refuse(ErrorCode code, std::string_view sentence) {
   out.resize(reply_);
   ((out += "error ") += name_of(code)) += ' ';
   append_printable(out, sentence);
@@ -173,12 +175,12 @@ template <typename Step>
 void Session::guarded(Step step) {
   try {
     step();
-  } catch (const Refusal& refusal) {
-    refuse(refusal.code(), refusal.what());
+  } catch (const RequestError& error) {
+    refuse(error.code(), error.what());
   } catch (const InvalidInput& error) {
-    refuse(Code::kBadValue, error.what());
+    refuse(ErrorCode::kBadValue, error.what());
   } catch (const std::bad_alloc&) {
-    refuse(Code::kLimit, "the system has no more memory for this request");
+    refuse(ErrorCode::kLimit, "the system has no more memory for this request");
   } catch (const std::exception& error) {
     refuse_fault(error.what());
   }
@@ -186,7 +188,7 @@ void Session::guarded(Step step) {
 
 // Reports an internal error of the server, and logs it.
 void Session::refuse_fault(const std::string& what) {
-  refuse(Code::kInternal, what);
+  refuse(ErrorCode::kInternal, what);
   const std::string name(command_ < table_.commands.size() ? table_.commands[command_].name : "a request");
   if (service.report_fault) service.report_fault("internal error in " + name + ": " + what);
 }
@@ -212,16 +214,16 @@ void Session::take(const LineReader::Line& line) {
   statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
   if (line.kind == LineReader::Kind::kLine) return execute(line.text);
   if (line.kind == LineReader::Kind::kHalf)
-    throw Refusal(Code::kHalfLine, "the input ended within a line; it was not carried out");
-  throw Refusal(Code::kLineTooLong,
-                "the line has more than " + std::to_string(input.longest()) + " bytes; it was skipped");
+    throw RequestError(ErrorCode::kHalfLine, "the input ended within a line; it was not carried out");
+  throw RequestError(ErrorCode::kLineTooLong,
+                     "the line has more than " + std::to_string(input.longest()) + " bytes; it was skipped");
 }
 
 void Session::execute(std::string_view line) {
   if (line.size() > kShortLine) memory.check(kBytesOfWord / 2 * line.size(), "a line of so many words");
   check_bytes(line);
   read_words(line);
-  if (words_.empty()) throw Refusal(Code::kBadLine, "the line is empty; help lists the commands");
+  if (words_.empty()) throw RequestError(ErrorCode::kBadLine, "the line is empty; help lists the commands");
   const Command& command = table_.find(words_[0]);
   command_ = table_.row(command);
   const Words arguments = Words(words_).subspan(1);

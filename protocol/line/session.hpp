@@ -63,11 +63,11 @@ class Session {
   std::vector<Act> step_acts;   // the same for `step`
   Machines machines;
 
-  // Throws Refusal if these acts, and these frames in addition, exceed --max-request-frames.
+  // Throws RequestError if these acts, and these frames in addition, exceed --max-request-frames.
   void check_frames(std::int64_t acts, std::int64_t frames = 0) const;
   // Lets the request reset this many machines. The pacer then stops it at the frames that it may run.
   void allow_resets(std::size_t machines);
-  // Throws Refusal if a reply of this estimated length would exceed the limit. `about` is its subject.
+  // Throws RequestError if a reply of this estimated length would exceed the limit. `about` is its subject.
   void check_reply(std::size_t bytes, const std::string& about) const;
   void admit();                        // the client gave a valid token
   void count(const Outcome& outcome);  // adds it to the statistics
@@ -98,7 +98,7 @@ class Session {
   void take(const LineReader::Line& line);
   void execute(std::string_view line);
   void read_words(std::string_view line);
-  void refuse(Code code, std::string_view sentence);
+  void refuse(ErrorCode code, std::string_view sentence);
   void refuse_fault(const std::string& what);
   std::size_t footprint() const;
   void finish_reply();

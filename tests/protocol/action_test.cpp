@@ -14,7 +14,7 @@ constexpr AllowedActions kAll{"pong", 0x3FFFF}, kSome{"pong", 0b1011};
 std::string refusal(const std::string& word, const AllowedActions& actions = kAll) {
   try {
     parse_action(word, actions);
-  } catch (const Refusal& refused) {
+  } catch (const RequestError& refused) {
     return std::string(name_of(refused.code())) + ": " + refused.what();
   }
   return "accepted";

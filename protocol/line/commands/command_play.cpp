@@ -10,16 +10,18 @@ namespace {
 void check_sound(const Session& session, const std::vector<Field>& fields) {
   if (!session.loaded || session.settings.machine.sound) return;
   if (std::ranges::any_of(fields, [](const Field& field) { return field.row->name == "audio"; }))
-    throw Refusal(Code::kBadArguments, "audio needs a game that was loaded with sound=1");
+    throw RequestError(ErrorCode::kBadArguments, "audio needs a game that was loaded with sound=1");
 }
 
 // A single look has no past.
 void check_look(const std::vector<Field>& fields) {
   for (const Field& field : fields) {
     if (field.encoding == Encoding::kDelta)
-      throw Refusal(Code::kBadArguments, "delta is for observe: it tells what changed from reply to reply");
+      throw RequestError(ErrorCode::kBadArguments,
+                         "delta is for observe: it tells what changed from reply to reply");
     if (field.stack && field.stack->depth > 1)
-      throw Refusal(Code::kBadArguments, "a stack is for observe: it is made of what replies have shown");
+      throw RequestError(ErrorCode::kBadArguments,
+                         "a stack is for observe: it is made of what replies have shown");
   }
 }
 
@@ -137,9 +139,9 @@ void run_poke(Session& session, Words arguments) {
   const int index = ram_index(arguments[0]);
   const auto bytes = bytes_of_hex(arguments[1]);
   if (bytes.empty() || bytes.size() > static_cast<std::size_t>(kRamSize - index)) {
-    throw Refusal(Code::kBadValue, "HEX has " + std::to_string(bytes.size()) + " bytes; from " +
-                                       std::to_string(index) + " on there is room for 1 to " +
-                                       std::to_string(kRamSize - index));
+    throw RequestError(ErrorCode::kBadValue, "HEX has " + std::to_string(bytes.size()) + " bytes; from " +
+                                                 std::to_string(index) + " on there is room for 1 to " +
+                                                 std::to_string(kRamSize - index));
   }
   for (std::size_t i = 0; i < bytes.size(); ++i)
     session.loaded->machine().set_ram(index + static_cast<int>(i), bytes[i]);

@@ -26,16 +26,16 @@ const Slot::Saved& find_state(const Session& session, std::string_view name) {
   constexpr std::size_t kShown = 20;
   for (const std::string_view known : Words(names).first(std::min(kShown, names.size())))
     (sentence += ' ') += known;
-  throw Refusal(Code::kNoState, sentence + (session.states.empty()  ? " none"
-                                            : names.size() > kShown ? " and more"
-                                                                    : ""));
+  throw RequestError(ErrorCode::kNoState, sentence + (session.states.empty()  ? " none"
+                                                      : names.size() > kShown ? " and more"
+                                                                              : ""));
 }
 
 void check_room(const Session& session, std::size_t more) {
   const auto most = static_cast<std::size_t>(session.service.limits.states);
   if (session.states.size() + more <= most) return;
-  throw Refusal(Code::kLimit, "there is room for " + std::to_string(most) +
-                                  " states; drop some, or save under a name that is in use");
+  throw RequestError(ErrorCode::kLimit, "there is room for " + std::to_string(most) +
+                                            " states; drop some, or save under a name that is in use");
 }
 
 void keep(Session& session, std::string_view name, Slot::Saved place) {
@@ -45,7 +45,8 @@ void keep(Session& session, std::string_view name, Slot::Saved place) {
 }
 
 std::string_view state_name(std::string_view word) {
-  if (word == "all") throw Refusal(Code::kBadValue, "'all' is no name for a state: drop all drops them all");
+  if (word == "all")
+    throw RequestError(ErrorCode::kBadValue, "'all' is no name for a state: drop all drops them all");
   return checked_name(word, "state");
 }
 
@@ -135,13 +136,14 @@ void run_export(Session& session, Words arguments) {
 void run_import(Session& session, Words arguments) {
   const std::string_view name = state_name(arguments[0]);
   const auto bytes = bytes_of_base64(arguments[1]);
-  if (!bytes) throw Refusal(Code::kBadState, "the state is not base64 (A-Z a-z 0-9 + / and = at the end)");
+  if (!bytes)
+    throw RequestError(ErrorCode::kBadState, "the state is not base64 (A-Z a-z 0-9 + / and = at the end)");
   Slot::Saved place;
   try {
     place.machine = from_bytes(*bytes, session.loaded->machine());
     place.with_random = place.machine->random.has_value();
   } catch (const InvalidInput& error) {
-    throw Refusal(Code::kBadState, error.what());
+    throw RequestError(ErrorCode::kBadState, error.what());
   }
   keep(session, name, std::move(place));
   session.out += "ok";
@@ -155,7 +157,8 @@ void run_branch(Session& session, Words arguments) {
     branch.keep = checked_name(key_value(sequences[0]).value, "state");
     sequences = sequences.subspan(1);
   }
-  if (sequences.empty()) throw Refusal(Code::kBadArguments, "branch takes at least one list of actions");
+  if (sequences.empty())
+    throw RequestError(ErrorCode::kBadArguments, "branch takes at least one list of actions");
   std::int64_t acts = 0;
   for (const std::string_view word : sequences) {
     branch.lists.push_back(parse_list(word, session.loaded->allowed()));
