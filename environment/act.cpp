@@ -13,7 +13,7 @@ std::int32_t clamped(std::int64_t reward, const Settings& settings) {
       std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max));
 }
 
-// The last of each act.
+// How many frames of an act are drawn: the last ones.
 int frames_drawn(Drawing drawing) {
   switch (drawing) {
     case Drawing::kNone: return 0;

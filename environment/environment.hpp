@@ -28,8 +28,8 @@ constexpr int kScreenWidth = 160;
 constexpr int kRamSize = 128;
 constexpr int kAudioSize = 512;
 
-// What both players ask for. a: 0-17, b: 18-35 (docs/spec/environment.md, 1). The strengths are of turning a
-// paddle.
+// The actions of both players: a is 0-17, b is 18-35 (docs/spec/environment.md, 1). The strengths say how
+// fast a paddle is turned.
 struct Act {
   int a = 0, b = 18;
   float strength_a = 1.0F, strength_b = 0.0F;
@@ -37,8 +37,8 @@ struct Act {
 
 class Environment {
  public:
-  // Powers a console on with `image` and resets `game`. Throws InvalidInput when a setting, or the
-  // image, can't be used. `pace` is told of every frame and must outlive the environment; null: none.
+  // Powers a console on with `image` and resets `game`. Throws InvalidInput if a setting or the image cannot
+  // be used. `pace` is told of every frame; it may be null, and must outlive the environment.
   Environment(std::shared_ptr<const Image> image, std::shared_ptr<const Game> game, const Settings& settings,
               Pace* pace = nullptr);
   ~Environment();
@@ -49,25 +49,25 @@ class Environment {
   // clamped sum of rewards.
   int act(int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
   int act(const Act& act) { return this->act(act.a, act.b, act.strength_a, act.strength_b); }
-  // What both players got for the last act, clamped like its answer, which is `a`. `b` is 0 in games whose
+  // The clamped rewards of both players for the last act; `a` is what act() returned. `b` is 0 if the game's
   // rule has no second player.
   struct Rewards {
     int a, b;
   };
   Rewards rewards() const;
-  // The same before it was clamped. It is no part of a state: 0 after a reset and after a restore.
+  // The same before clamping. It is not part of a state: 0 after a reset and after a restore.
   struct RawRewards {
     std::int64_t a = 0, b = 0;
   };
   RawRewards raw_rewards() const;
-  void reset_game();  // throws InvalidInput when the image does not come to the mode that was set
+  void reset_game();  // throws InvalidInput if the image does not reach the selected mode
 
-  // As constructed anew with this random_seed: powered on, in the game's default mode. Drawing and watch()
-  // stay.
+  // Powers on anew with this random_seed, in the game's default mode, as if newly constructed. The settings
+  // of set_drawing() and watch() stay.
   void reload(std::uint32_t random_seed);
 
-  // As act(), for a number of frames that is not the settings': no-ops at the start of an episode, or a step
-  // of an agent that chooses its number of frames each time.
+  // As act(), but for this number of frames: for no-ops at the start of an episode, or for an agent that
+  // chooses the number at each step.
   int act_for(int frames, int a, int b = 18, float strength_a = 1.0F, float strength_b = 0.0F);
 
   // Says which screens the caller will read. It changes only the speed: a screen that was not drawn is drawn
@@ -77,15 +77,16 @@ class Environment {
   void set_drawing(Drawing drawing);
   Drawing drawing() const;
 
-  // Gives back the memory that only makes drawing faster, some 40 KiB, or 80 where objects flicker: for one
-  // that will not act for a while.
+  // Releases the caches of drawing: about 40 KiB, or 80 KiB if objects flicker. For a machine that will not
+  // act for a while.
   void rest();
 
-  // Called after each frame of an act, not for those of a reset; nothing: no longer. For recordings.
+  // Sets the function that is called after each frame of an act, but not of a reset; none if empty. For
+  // recordings.
   void watch(std::function<void()> each_frame);
 
-  // A mode takes effect at the next reset, a difficulty at the next frame. Throw InvalidInput,
-  // naming what is offered.
+  // A mode takes effect at the next reset, a difficulty at the next frame. Both throw InvalidInput, which
+  // names what the game offers.
   void set_mode(int mode);
   void set_difficulty(int difficulty);
   int mode() const;
@@ -95,7 +96,7 @@ class Environment {
   bool terminal() const;
   bool truncated() const;
   int lives() const;
-  int frame_number() const;          // counted frames since loading; goes on below 0 after the largest int
+  int frame_number() const;          // counted frames since loading; wraps to negative numbers
   int episode_frame_number() const;  // since the last reset
 
   int height() const;                                     // rows of the screen
@@ -109,7 +110,7 @@ class Environment {
   void screen_rgb(std::vector<std::uint8_t>& rgb) const;    // height x 160 x 3
   void screen_grey(std::vector<std::uint8_t>& grey) const;  // height x 160
 
-  // The same into memory of the caller's, of exactly that size.
+  // The same into the caller's memory, which must have exactly that size.
   void screen_rgb(std::span<std::uint8_t> rgb) const;
   void screen_grey(std::span<std::uint8_t> grey) const;
 
@@ -117,34 +118,33 @@ class Environment {
   const Image& image() const;
   const Settings& settings() const;
 
-  // A state in memory. Restoring it gives back the picture, RAM, audio, rewards and every later frame,
-  // exactly. with_random: the sticky-action generator too.
+  // Saves the state in memory. After restore(), the picture, RAM, audio, rewards and every later frame are
+  // exactly the same. with_random: the state contains the generator of sticky actions, too.
   class Saved;
   std::shared_ptr<const Saved> save(bool with_random = false) const;
 
-  // A picture of a state that is one of this environment's image and game, with its pixels.
+  // Returns a picture of a state of this image and game, drawn if it was deferred.
   std::shared_ptr<const FrameBuffer> drawn(const std::shared_ptr<FrameBuffer>& picture) const;
   void restore(const Saved& saved);
 
-  // For planners, which reach the same state in different ways: two environments of the same image, game and
-  // settings that are in the same state, and are given the same actions, show the same for ever, unless an
-  // episode's limit of frames comes between. Looked at are the machine with the cartridge's RAM, paddles,
-  // mode, difficulty, the actions held and the rule's variables; left out are what tells of the way and not
-  // of the place: pictures, sound, counters of frames, the last act's rewards. Nor are generators looked at:
-  // with sticky actions two equal states may go on differently. Less than 0.2 microseconds; Saved has the
-  // same.
+  // For planners, which reach the same state in different ways. Two environments with the same image, game
+  // and settings that are in the same state show the same after the same actions, up to an episode's limit of
+  // frames. A state is the machine with the cartridge's RAM, paddles, mode, difficulty, held actions and the
+  // rule's variables. Pictures, sound, frame counters and the last rewards are left out. So are generators:
+  // with sticky actions, two equal states may continue differently. Takes less than 0.2 microseconds.
   std::uint64_t state_hash() const;  // see state_hash.hpp
   bool same_state(const Environment& other) const;
 
-  // Throws InvalidInput, naming what is wrong, when acts and resets can't have led to `saved`, which is of
-  // this image and game but comes from elsewhere. What passes may play nonsense, but does no harm.
+  // Checks a state of this image and game that comes from an untrusted source. Throws InvalidInput, which
+  // names the value, if no acts and resets can lead to it. A state that passes may be nonsense, but does no
+  // harm.
   void check(const Saved& saved) const;
 
-  // The classic server's SAVE_STATE: a state without pictures, some 2 KB, that restore_classic() alone takes.
+  // The classic server's SAVE_STATE: a state without pictures, about 2 KB. Only restore_classic() accepts it.
   std::shared_ptr<const Saved> save_classic() const;
 
-  // The classic server's LOAD_STATE: like restore, but screen and RAM answered stay those from before it
-  // until the next frame, and stored sticky actions stay (docs/spec/classic-protocol.md, 4).
+  // The classic server's LOAD_STATE: as restore(), but screen() and ram() return the old contents until the
+  // next frame, and the held actions stay (docs/spec/classic-protocol.md, 4).
   void restore_classic(const Saved& saved);
 
  private:

@@ -1,5 +1,5 @@
-// What lives on from act to act beside the machine and the rule's tally. One trivially copyable value, so
-// that saving it is a copy and nothing can be left out.
+// What lives on from act to act beside the machine and the state of the rule. One trivially copyable value,
+// so that saving it is a copy and nothing can be left out.
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@
 #include "environment/input/controller_input.hpp"
 #include "environment/input/legal_actions.hpp"
 #include "environment/input/sticky_actions.hpp"
-#include "environment/reset/boot_study.hpp"
+#include "environment/reset/boot_analysis.hpp"
 #include "environment/reset/reset_cache.hpp"
 #include "environment/saved_state.hpp"
 #include "games/game/rule.hpp"
@@ -84,7 +84,7 @@ struct Environment::Impl {
   void restore(const Saved& saved);
   void restore_classic(const Saved& saved);
 
-  StateParts parts() const { return {console.state(), play, rule.tally(), console.cartridge_ram()}; }
+  StateParts parts() const { return {console.state(), play, rule.state(), console.cartridge_ram()}; }
 
   std::span<const std::uint8_t> screen();
 };

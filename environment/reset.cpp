@@ -16,7 +16,7 @@ void Environment::Impl::reset() {
   play.paddles = controller_input.middle();
   console.reset();
   controller_input.press(console.inputs(), {}, play.difficulty,
-                         play.paddles);  // as the first frame does again
+                         play.paddles);  // the first frame repeats this
   if (!may_copy_reset()) return run_reset();
   const ResetStart start = reset_start();
   if (const auto end = reset_cache().find(start)) return copy_reset(*end);
@@ -26,16 +26,16 @@ void Environment::Impl::reset() {
   if (!drew_at_reset) reset_cache().keep(start, reset_end(play.frames - frames_before));
 }
 
-// Not where something takes part that ResetStart does not know.
+// A reset must not be copied if its result depends on something that ResetStart does not contain.
 bool Environment::Impl::may_copy_reset() const {
   return settings.copy_resets && !settings.classic && console.cartridge_ram().empty() &&
          !rule.keeps_variables();
 }
 
 ResetStart Environment::Impl::reset_start() {
-  if (!boot_facts) boot_facts = study_boot(console, scheme_of(*image->bytes, properties.scheme).name);
+  if (!boot_facts) boot_facts = analyze_boot(console, scheme_of(*image->bytes, properties.scheme).name);
   ResetStart start{image, game, controller_input.limits(), play.mode, play.difficulty, {}, console.state()};
-  start.machine.drawn = 0;  // counts only: nothing is drawn any more
+  start.machine.drawn = 0;  // only a count of draws, and no more draws follow
   if (boot_facts->clears_ram) start.machine.riot.ram = {};
   if (boot_facts->sets_timer) start.machine.riot.timer = 0;
   if (!boot_facts->sets_sound) start.sound = console.sound().registers;
@@ -43,7 +43,7 @@ ResetStart Environment::Impl::reset_start() {
 }
 
 ResetEnd Environment::Impl::reset_end(std::uint32_t frames) const {
-  return {console.state(), console.sound().registers, rule.tally(), play.paddles, frames, console.pictures()};
+  return {console.state(), console.sound().registers, rule.state(), play.paddles, frames, console.pictures()};
 }
 
 void Environment::Impl::copy_reset(const ResetEnd& end) {
@@ -52,7 +52,7 @@ void Environment::Impl::copy_reset(const ResetEnd& end) {
   console.restore(machine);
   console.restore_pictures(end.pictures);
   console.sound().registers = end.sound;
-  rule.restore(end.tally);
+  rule.restore(end.rule);
   play.frames += end.frames;
   play.episode_frames = end.frames;
   play.paddles = end.paddles;
@@ -85,7 +85,7 @@ void Environment::Impl::soft_reset() {
   if (!settings.classic) play.held = {};
 }
 
-// Only the frame after it is seen by the rule, and counts.
+// Holds SELECT for `frames` frames. Only the frame after them counts, and is seen by the rule.
 void Environment::Impl::select(int frames) {
   ControllerInput::press_select(console.inputs(), play.difficulty);
   for (int n = 0; n < frames; ++n) step_console(false);
@@ -108,7 +108,7 @@ void Environment::Impl::set_up_mode() {
     void act(int action, int count) override {
       Presses asked;
       asked.a.action = action;
-      impl.drew_at_reset = true;  // of sticky actions
+      impl.drew_at_reset = true;  // for sticky actions
       for (int n = 0; n < count; ++n) impl.act(asked);
     }
 

@@ -25,14 +25,14 @@ PlayWords words_of(const EpisodeState& play) {
 std::uint64_t state_hash(const StateParts& parts) {
   StateHash hash;
   hash.add(parts.machine);
-  hash.add(parts.tally.values);
+  hash.add(parts.rule.values);
   hash.add(words_of(parts.play));
   if (!parts.cartridge_ram.empty()) hash.add(parts.cartridge_ram);
   return hash.value();
 }
 
 bool same_state(const StateParts& a, const StateParts& b) {
-  return std::memcmp(&a.machine, &b.machine, sizeof(State)) == 0 && a.tally == b.tally &&
+  return std::memcmp(&a.machine, &b.machine, sizeof(State)) == 0 && a.rule == b.rule &&
          words_of(a.play) == words_of(b.play) && std::ranges::equal(a.cartridge_ram, b.cartridge_ram);
 }
 

@@ -14,7 +14,7 @@ namespace racebeam {
 struct StateParts {
   const State& machine;
   const EpisodeState& play;
-  const Tally& tally;
+  const RuleState& rule;
   std::span<const std::uint8_t> cartridge_ram;
 };
 

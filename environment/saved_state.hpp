@@ -19,7 +19,7 @@
 
 namespace racebeam {
 
-// The image and the game of a state.
+// Identifies the image and the game of a state.
 struct Identity {
   std::array<char, 32> md5{};
   std::array<char, 64> game{};  // its name, padded with zeros
@@ -37,7 +37,7 @@ class Environment::Saved {
   struct Values {
     State machine;
     EpisodeState play;
-    Tally tally;
+    RuleState rule;
     Sound sound;
     std::array<std::uint8_t, kAudioSize> audio{};
   };
@@ -45,24 +45,24 @@ class Environment::Saved {
   Identity identity;
   Values values;
   std::vector<std::uint8_t> cartridge_ram;  // Console::cartridge_ram()
-  Properties properties;                    // of the console
-  FrameBuffers pictures;                    // shared with the console until it draws again
+  Properties properties;                    // the console's
+  FrameBuffers pictures;                    // shared with the console until it draws on them
   int height = 0;                           // visible rows of the pictures
   std::optional<MersenneTwister> random;
 
-  // As Environment::state_hash() and same_state(). States of different images are never the same.
+  // See Environment::state_hash() and same_state(). States of different images are never the same.
   std::uint64_t state_hash() const { return racebeam::state_hash(parts()); }
   bool same_state(const Saved& other) const {
     return identity == other.identity && racebeam::same_state(parts(), other.parts());
   }
 
  private:
-  StateParts parts() const { return {values.machine, values.play, values.tally, cartridge_ram}; }
+  StateParts parts() const { return {values.machine, values.play, values.rule, cartridge_ram}; }
 };
 
 static_assert(std::is_trivially_copyable_v<Environment::Saved::Values>);
 
-// Throws InvalidInput if a state of `saved` does not belong to `running`.
+// Throws InvalidInput if the identity of a saved state differs from that of the running machine.
 void check_identity(const Identity& saved, const Identity& running);
 
 }  // namespace racebeam

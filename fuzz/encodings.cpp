@@ -111,8 +111,8 @@ template <class Read>
 void may_refuse(Read read) {
   try {
     read();
-  } catch (const Refusal& refusal) {
-    require(*refusal.what() != '\0', "a refusal has a message");
+  } catch (const RequestError& error) {
+    require(*error.what() != '\0', "an error has a message");
   }
 }
 

@@ -43,12 +43,12 @@ void play(const Game& game, Rule& rule, Host& host) {
   for (int frame = 0; frame < kFrames; ++frame) {
     host.pass();
     rule.step(host.memory());
-    const Tally before = rule.tally();
+    const RuleState before = rule.state();
     rule.reward();
     rule.reward_b();
     rule.terminal();
     rule.lives();
-    require(rule.tally() == before, "queries change nothing");
+    require(rule.state() == before, "queries change nothing");
   }
   require(game.has_second_reward() || rule.reward_b() == 0,
           "player B gets nothing where the rule has one player");

@@ -18,7 +18,6 @@ namespace racebeam {
 namespace {
 
 namespace net = boost::asio;
-using boost::system::error_code;
 using net::use_awaitable;
 using namespace std::chrono_literals;
 

@@ -19,7 +19,7 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Of this process; 0 where the kernel does not tell.
+// Memory of this process; 0 if the kernel does not report it.
 double resident_bytes() {
   std::ifstream file("/proc/self/statm");
   double pages = 0;
@@ -47,7 +47,7 @@ BatchSettings batch_settings(const MachineOptions& machine, const BatchBenchOpti
   return settings;
 }
 
-// The next step's actions, from the list or drawn.
+// Chooses the actions of each step, from the list or at random.
 class Dealer {
  public:
   Dealer(const std::vector<int>& list, std::size_t choices) : list_(list), choices_(choices) {}

@@ -68,7 +68,7 @@ struct BenchOptions {
   int resets = 0;  // 0: resets are not measured on their own
 };
 
-struct Tally {
+struct Totals {
   int frames = 0, acts = 0, resets = 0, screens = 0, reward = 0;
   double play_seconds = 0, reset_seconds = 0;
 };
@@ -104,12 +104,12 @@ class Bench {
     if (screen_ == Screen::kNone) environment_.set_drawing(Drawing::kNone);
   }
 
-  Tally run() {
-    while (tally_.frames < limit_) {
+  Totals run() {
+    while (totals_.frames < limit_) {
       play();
       if (environment_.game_over()) reset();
     }
-    return tally_;
+    return totals_;
   }
 
   const Environment& environment() const { return environment_; }
@@ -122,20 +122,20 @@ class Bench {
   }
 
   void play() {
-    const int frames_before = tally_.frames;
+    const int frames_before = totals_.frames;
     const int first = environment_.frame_number();
     const double start = cpu_seconds();
-    while (tally_.frames < limit_ && !environment_.game_over()) {
-      const int action = actions_[static_cast<std::size_t>(tally_.acts++) % actions_.size()];
+    while (totals_.frames < limit_ && !environment_.game_over()) {
+      const int action = actions_[static_cast<std::size_t>(totals_.acts++) % actions_.size()];
       for (int i = 0; i < repeat_ && !environment_.game_over(); ++i) act(action);
-      tally_.frames = frames_before + environment_.frame_number() - first;
+      totals_.frames = frames_before + environment_.frame_number() - first;
     }
-    tally_.play_seconds += cpu_seconds() - start;
+    totals_.play_seconds += cpu_seconds() - start;
   }
 
   void act(int action) {
-    tally_.reward += environment_.act(action);
-    if (screen_ != Screen::kNone) tally_.screens += !environment_.screen().empty();
+    totals_.reward += environment_.act(action);
+    if (screen_ != Screen::kNone) totals_.screens += !environment_.screen().empty();
   }
 
   void reset() {
@@ -143,8 +143,8 @@ class Bench {
     environment_.reset_game();
     if (environment_.game_over())
       throw std::runtime_error("the game is over right after its reset: there is nothing to measure");
-    tally_.reset_seconds += cpu_seconds() - start;
-    ++tally_.resets;
+    totals_.reset_seconds += cpu_seconds() - start;
+    ++totals_.resets;
   }
 
   Screen screen_;
@@ -152,7 +152,7 @@ class Bench {
   int limit_;
   std::vector<int> actions_;
   Environment environment_;
-  Tally tally_;
+  Totals totals_;
 };
 
 std::string crc(std::span<const std::uint8_t> bytes) {
@@ -161,22 +161,22 @@ std::string crc(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-nlohmann::ordered_json report(const BenchOptions& options, const Tally& tally,
+nlohmann::ordered_json report(const BenchOptions& options, const Totals& totals,
                               const Environment& environment) {
   return {
       {"game", environment.game().name},
       {"md5", environment.image().md5},
-      {"frames", tally.frames},
-      {"acts", tally.acts},
+      {"frames", totals.frames},
+      {"acts", totals.acts},
       {"frame_skip", options.machine.settings.frame_skip},
-      {"cpu_seconds", tally.play_seconds},
-      {"frames_per_second", tally.frames / tally.play_seconds},
-      {"resets", tally.resets},
-      {"reset_cpu_seconds", tally.reset_seconds},
+      {"cpu_seconds", totals.play_seconds},
+      {"frames_per_second", totals.frames / totals.play_seconds},
+      {"resets", totals.resets},
+      {"reset_cpu_seconds", totals.reset_seconds},
       {"screen", options.screen},
-      {"screens", tally.screens},
+      {"screens", totals.screens},
       {"audio", environment.settings().sound},
-      {"reward", tally.reward},
+      {"reward", totals.reward},
       {"last_screen_crc", crc(environment.screen())},
       {"last_ram_crc", crc(environment.ram())},
   };
@@ -233,8 +233,8 @@ void run(const BenchOptions& options) {
   if (options.resets > 0) return show(time_resets(cartridge, options.machine, options.resets), options.json);
   if (options.search) return show(time_search(cartridge, options.machine), options.json);
   Bench bench{options, cartridge};
-  const Tally tally = bench.run();
-  auto figures = report(options, tally, bench.environment());
+  const Totals totals = bench.run();
+  auto figures = report(options, totals, bench.environment());
   if (options.save_restore) add_snapshots(figures, time_snapshots(cartridge, options.machine));
   show(figures, options.json);
 }

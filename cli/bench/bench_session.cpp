@@ -39,7 +39,7 @@ class BenchSession {
       if (environment_.game_over()) reset();
     }
     const double seconds = cpu_seconds() - start - reset_seconds_;
-    Json answer = tally();
+    Json answer = totals();
     answer["seconds"] = seconds;
     answer["reset_seconds"] = reset_seconds_;
     if (look_) answer["screen"] = crc32_of(0, environment_.screen());
@@ -56,7 +56,7 @@ class BenchSession {
       digest = digest_of_act(digest, reward);
       if (environment_.game_over()) reset();
     }
-    Json answer = tally();
+    Json answer = totals();
     answer["digest"] = digest;
     return answer;
   }
@@ -100,7 +100,7 @@ class BenchSession {
     reset_seconds_ += cpu_seconds() - start;
   }
 
-  Json tally() const {
+  Json totals() const {
     const int frames = frames_ + environment_.frame_number() - first_frame_;
     return {{"frames", frames}, {"reward", reward_}, {"resets", resets_}};
   }

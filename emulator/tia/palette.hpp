@@ -39,9 +39,9 @@ class Blend {
  private:
   static constexpr std::size_t index(unsigned a, unsigned b) { return (a >> 1) << 7 | b >> 1; }
 
-  std::array<std::uint8_t, 128 * 128> table_;
-  bool keeps_equal_ =
-      true;  // whether every colour blended with itself is itself (not in PAL, which has some colours twice)
+  std::array<std::uint8_t, std::size_t{128} * 128> table_;
+  // Whether every colour blended with itself gives itself. Not in PAL, which has some colours twice.
+  bool keeps_equal_ = true;
 };
 
 // Computed on the first request, in about a millisecond; shared by all machines of the process.

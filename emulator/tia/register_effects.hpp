@@ -1,5 +1,5 @@
-// What a write to each register of the TIA does to the picture's state (docs/spec/tia.md, 4 and 7 to 9).
-// A Painter is told, before and after (render_policies.hpp).
+// The effect of a write to each register of the TIA (docs/spec/tia.md, 4 and 7 to 9). A Painter is called
+// before and after each change; render_policies.hpp describes its functions.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class RegisterEffects {
   RegisterEffects(TiaState& state, const FrameState& frame, const Video& video, Painter painter)
       : tia_(state), frame_(frame), video_(video), first_cycle_(state.origin / 3), painter_(painter) {}
 
-  // The writes in [first, last) of a log whose cycles count from `base`.
+  // Plays the writes in [first, last) of a log, whose cycles count from `base`.
   void play(const std::uint32_t* first, const std::uint32_t* last, std::int32_t base);
 
  private:
@@ -34,10 +34,15 @@ class RegisterEffects {
     return static_cast<std::uint8_t>(1U << (first + which));
   }
 
-  // A position that is at most one line off.
+  // Wraps a position that is at most one line off.
   static constexpr std::uint8_t wrapped(int position) {
     if (position < 0) position += kLinePixels;
     return static_cast<std::uint8_t>(position >= kLinePixels ? position - kLinePixels : position);
+  }
+
+  // Where a strobe at clock `h` of the line places an object.
+  static constexpr std::uint8_t beam_position(int h, int in_blank, int delay) {
+    return static_cast<std::uint8_t>(h < kBlankClocks ? in_blank : (h - kBlankClocks + delay) % kLinePixels);
   }
 
   bool any_motion() const {
@@ -46,13 +51,13 @@ class RegisterEffects {
     return (p0.motion | p1.motion | m0.motion | m1.motion | tia_.ball.motion) != 0;
   }
 
-  // CPU cycle within the line, 0-75. The origin is a multiple of three.
+  // The CPU cycle within the line, 0-75. It is exact, since the origin is a multiple of three.
   int line_cycle(std::int32_t cycle) const { return (cycle - first_cycle_) % kLineCycles; }
 
-  // On odd line counts PAL loses its colour (docs/spec/tia.md, 12).
+  // 1 if the picture loses its colour: PAL, after an odd number of lines (docs/spec/tia.md, 12).
   std::uint8_t color_loss() const { return video_.pal ? frame_.lines & 1 : 0; }
 
-  // The control of these objects has been written: they are enabled now, or not.
+  // Updates which of these objects are enabled, after a write that may change it.
   RACEBEAM_INLINE void control(unsigned objects) {
     if (!painter_.minds(objects)) return;
     const auto enabled = static_cast<std::uint8_t>((tia_.enabled & ~objects) | enabled_among(tia_, objects));
@@ -63,7 +68,7 @@ class RegisterEffects {
 
   template <class T>
   bool assign(T& reg, T value, std::int32_t clock, std::uint8_t objects);
-  std::uint8_t strobe_position(std::int32_t clock, int in_blank, int delay) const;
+  std::uint8_t strobe_position(TiaRegister reg, std::int32_t clock) const;
   void write_color(unsigned which, std::uint8_t value, std::int32_t clock);
   void write_nusiz(unsigned which, std::uint8_t value, std::int32_t clock);
   void write_ctrlpf(std::uint8_t value, std::int32_t clock);
@@ -122,7 +127,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t
   const auto motion = [value] { return static_cast<std::uint8_t>(value >> 4); };
   // clang-format off
   switch (write.reg()) {
-    case VBLANK: assign(tia_.vblank, flag(1), after(VBLANK), kAllObjects), painter_.enabled(); break;
+    case VBLANK: assign(tia_.vblank, flag(1), after(VBLANK), kAllObjects); painter_.enabled(); break;
     case NUSIZ0: write_nusiz(0, value, after(NUSIZ0)); break;
     case NUSIZ1: write_nusiz(1, value, after(NUSIZ1)); break;
     case COLUP0: case COLUP1: case COLUPF: case COLUBK: write_color(write.reg() - COLUP0, value, clock); break;
@@ -137,8 +142,8 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::play(TiaWrite write, std::int32_t
     case RESBL:  strobe_ball(clock); break;
     case GRP0:   write_graphics(0, value, after(GRP0)); break;
     case GRP1:   write_graphics(1, value, after(GRP1)); break;
-    case ENAM0:  assign(m0.enabled, flag(1), clock, object(kM0, 0)), control(object(kM0, 0)); break;
-    case ENAM1:  assign(m1.enabled, flag(1), clock, object(kM0, 1)), control(object(kM0, 1)); break;
+    case ENAM0:  assign(m0.enabled, flag(1), clock, object(kM0, 0)); control(object(kM0, 0)); break;
+    case ENAM1:  assign(m1.enabled, flag(1), clock, object(kM0, 1)); control(object(kM0, 1)); break;
     case ENABL:  write_ball(flag(1), ball.old_enabled, ball.vdel, clock); break;
     case HMP0:   painter_.reach(clock); p0.motion = motion(); break;
     case HMP1:   painter_.reach(clock); p1.motion = motion(); break;
@@ -181,7 +186,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_nusiz(unsigned which, std::
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, std::int32_t clock) {
   const bool latches =
-      line_cycle(clock / 3) < 49;  // later, the playfield turns round at the end of the line only
+      line_cycle(clock / 3) < 49;  // a later write reflects the playfield only from the next line on
   const std::uint8_t reflect = latches ? value & 1 : tia_.reflect;
   value &= 0x37;
   if (painter_.looks() && tia_.ctrlpf == value && tia_.reflect == reflect) return painter_.reach(clock);
@@ -189,7 +194,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, 
     painter_.draw_to(clock, kBallBit | kPlayfieldBit);
   else
     painter_.come_to(clock);
-  // Drawing may have passed a line's end, and with it the latch.
+  // Drawing may have passed the end of a line, where the latch changes: read it again.
   tia_.reflect = latches ? value & 1 : tia_.reflect;
   tia_.ctrlpf = value;
   painter_.changed(kBallBit | kPlayfieldBit);
@@ -198,7 +203,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ctrlpf(std::uint8_t value, 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, std::uint8_t value,
                                                                std::int32_t cycle) {
-  static constexpr std::array<std::uint8_t, 4> kDelay = {4, 5, 2, 3};  // until the next block of four pixels
+  static constexpr std::array<std::uint8_t, 4> kDelay = {4, 5, 2, 3};  // to the next block of four pixels
   static_assert(kLineCycles % 4 == 0 && std::ranges::max(kDelay) == kRegisters[PF0].delay);
   const std::int32_t clock = 3 * cycle + kDelay[static_cast<std::size_t>(cycle - first_cycle_) % 4];
   std::uint8_t& reg = tia_.pf[which];
@@ -212,7 +217,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_playfield(unsigned which, s
   control(kPlayfieldBit);
 }
 
-// Writing one player's graphics moves the other's into the register that VDELPx shows.
+// A write to one player's graphics copies the other player's into the register that VDELPx shows.
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_graphics(unsigned which, std::uint8_t value,
                                                               std::int32_t clock) {
@@ -259,7 +264,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_ball(std::uint8_t enabled, 
   control(kBallBit);
 }
 
-// Unlocking a missile leaves it in the middle of its player.
+// A missile that is unlocked stays in the middle of its player.
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_resmp(unsigned which, std::uint8_t value,
                                                            std::int32_t clock) {
@@ -273,7 +278,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::write_resmp(unsigned which, std::
   if (which == 0) show_cosmic_normally();
 }
 
-// A second motion written exactly 21 cycles after an HMOVE keeps missile 0 moving: "Cosmic Ark mode".
+// If HMM0 changes from 7 to 6 exactly 21 cycles after an HMOVE, missile 0 keeps moving: "Cosmic Ark mode".
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::write_hmm0(std::uint8_t motion, std::int32_t clock) {
   MissileState& missile = tia_.missile[0];
@@ -296,18 +301,32 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::show_cosmic_normally() {
   painter_.changed(object(kM0, 0));
 }
 
+// The position of a missile or of the ball after a strobe: where the beam is, or what docs/spec/tia.md, 8,
+// lists for a strobe so many clocks after an HMOVE.
 template <class Painter>
-RACEBEAM_INLINE std::uint8_t RegisterEffects<Painter>::strobe_position(std::int32_t clock, int in_blank,
-                                                                       int delay) const {
+RACEBEAM_INLINE std::uint8_t RegisterEffects<Painter>::strobe_position(TiaRegister reg,
+                                                                       std::int32_t clock) const {
+  struct Exception {
+    TiaRegister reg;
+    std::uint32_t since_hmove;
+    int h;
+    std::uint8_t position;
+  };
+  static constexpr Exception kExceptions[] = {{RESM0, 60, 69, 8},  {RESM1, 9, 18, 3}, {RESBL, 54, 60, 10},
+                                              {RESBL, 54, 69, 10}, {RESBL, 9, 18, 3}, {RESBL, 21, 30, 6},
+                                              {RESBL, 18, 27, 5}};
+  const std::uint32_t since = static_cast<std::uint32_t>(clock) - tia_.hmove_clock;
   const int h = 3 * line_cycle(clock / 3);
-  return static_cast<std::uint8_t>(h < kBlankClocks ? in_blank : (h - kBlankClocks + delay) % kLinePixels);
+  for (const Exception& e : kExceptions)
+    if (reg == e.reg && since == e.since_hmove && h == e.h) return e.position;
+  return beam_position(h, 2, 4);
 }
 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std::int32_t clock) {
   PlayerState& player = tia_.player[which];
   painter_.draw_to(clock, object(kP0, which));
-  const std::uint8_t position = strobe_position(clock, 3, 5);
+  const std::uint8_t position = beam_position(3 * line_cycle(clock / 3), 3, 5);
   const int distance = wrapped(position - player.position);
   const Copies& copies = kCopies[player.nusiz & 7];
   const int width = 8 * static_cast<int>(copies.scale);
@@ -315,7 +334,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std
   for (unsigned i = 0; i < copies.count; ++i) {
     const int into = distance - copies.offset[i];
     if (into >= 0 && into <= 3) skip = false;
-    // The old copy is being drawn: it is finished first.
+    // The old copy is being drawn, and is finished first.
     if (into >= 4 && into <= 3 + width) painter_.draw_to(clock + kRegisters[RESP0].delay, object(kP0, which));
   }
   if (skip) painter_.come_to(clock);
@@ -327,31 +346,15 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_player(unsigned which, std
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_missile(unsigned which, std::int32_t clock) {
   painter_.draw_to(clock + kRegisters[RESM0].delay, object(kM0, which));
-  const std::uint32_t since = static_cast<std::uint32_t>(clock) - tia_.hmove_clock;
-  const int h = 3 * line_cycle(clock / 3);
-  std::uint8_t position = strobe_position(clock, 2, 4);
-  if (which == 0 && since == 60 && h == 69) position = 8;
-  if (which == 1 && since == 9 && h == 18) position = 3;
-  tia_.missile[which].position = position;
+  tia_.missile[which].position = strobe_position(which == 0 ? RESM0 : RESM1, clock);
   if (which == 0) show_cosmic_normally();
   painter_.changed(object(kM0, which));
 }
 
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_ball(std::int32_t clock) {
-  struct Exception {
-    std::uint32_t since;
-    int h;
-    std::uint8_t position;
-  };
-  static constexpr Exception kExceptions[] = {
-      {54, 60, 10}, {54, 69, 10}, {9, 18, 3}, {21, 30, 6}, {18, 27, 5}};
   painter_.draw_to(clock, kBallBit);
-  const std::uint32_t since = static_cast<std::uint32_t>(clock) - tia_.hmove_clock;
-  const int h = 3 * line_cycle(clock / 3);
-  tia_.ball.position = strobe_position(clock, 2, 4);
-  for (const Exception& e : kExceptions)
-    if (since == e.since && h == e.h) tia_.ball.position = e.position;
+  tia_.ball.position = strobe_position(RESBL, clock);
   painter_.changed(kBallBit);
 }
 
@@ -389,7 +392,7 @@ RACEBEAM_INLINE void RegisterEffects<Painter>::strobe_hmove(std::int32_t cycle) 
   tia_.hmove_clock = static_cast<std::uint32_t>(clock);
 }
 
-// What is not drawn yet may still meet: it is drawn before the latches are cleared.
+// Pixels that are not drawn yet may still collide, so they are drawn before the latches are cleared.
 template <class Painter>
 RACEBEAM_INLINE void RegisterEffects<Painter>::clear_collisions(std::int32_t clock) {
   painter_.draw_to(clock, kAllObjects);

@@ -5,6 +5,8 @@
 
 namespace racebeam::translator {
 
+// Enumerators are named as in opcodes.inc, which the interpreter's functions have to match, too.
+// NOLINTBEGIN(readability-identifier-naming)
 enum class Mode : std::uint8_t {
   implied,
   accumulator,
@@ -104,6 +106,7 @@ enum class Operation : std::uint8_t {
 
 // How the operation accesses memory: the fourth column of opcodes.inc.
 enum class Access : std::uint8_t { Read, Immediate, Write, Modify, Accumulator, Implied, Jump, Branch };
+// NOLINTEND(readability-identifier-naming)
 
 struct Instruction {
   std::uint16_t pc;

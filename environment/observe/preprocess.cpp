@@ -16,14 +16,15 @@ constexpr std::size_t kRow = kScreenWidth;
 
 bool same_row(const std::uint8_t* a, const std::uint8_t* b) { return std::memcmp(a, b, kRow) == 0; }
 
-// Eight pixels of each of the pictures that a plane is made of, and what they give.
+// Eight pixels of each picture, and the eight bytes of the plane that they give.
 template <std::size_t pictures>
 struct Octet {
   std::array<std::uint64_t, pictures> pixels{};
   std::uint64_t bytes = 0;
 };
 
-// Rows that repeat are common: they are copied. So are eight pixels that repeat: most of a row is background.
+// A row that equals the row above is copied, and so is a group of eight pixels that equals the last group.
+// Both are common, since most of a row is background.
 template <std::size_t pictures>
 void make_rows(const std::array<const std::uint8_t*, pictures>& in, const BrightnessTable& table,
                std::span<std::uint8_t> plane) {

@@ -3,9 +3,9 @@
 // their start.
 //
 // Starts differ in what the previous episode left in RAM, in the timer, which is random, and in the sound
-// registers. Most programs overwrite these before they read them. Where that is proven (boot_study.hpp), they
-// are left out of the comparison. The rest of the machine is compared byte for byte, so that a copy always
-// equals the result of running the reset.
+// registers. Most programs overwrite these before they read them. Where that is proven (boot_analysis.hpp),
+// they are left out of the comparison. The rest of the machine is compared byte for byte, so that a copy
+// always equals the result of running the reset.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ struct ResetStart {
 struct ResetEnd {
   State machine;
   std::array<std::uint8_t, 6> sound{};
-  Tally tally;
+  RuleState rule;
   PaddleValues paddles{};
   std::uint32_t frames = 0;  // counted ones
   FrameBuffers pictures;

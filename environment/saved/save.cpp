@@ -14,7 +14,7 @@ void put(std::span<char> field, const std::string& text) {
   std::copy_n(text.begin(), std::min(text.size(), field.size()), field.begin());
 }
 
-// A state may come from anywhere.
+// Replaces control bytes, since the state may come from an untrusted source.
 std::string text_of(std::span<const char> field) {
   return printable({field.begin(), std::ranges::find(field, '\0')});
 }
@@ -43,7 +43,7 @@ void check_identity(const Identity& saved, const Identity& running) {
 std::shared_ptr<Environment::Saved> Environment::Impl::save_without_pictures() const {
   auto saved = std::make_shared<Saved>();
   saved->identity = identity;
-  saved->values = {console.state(), play, rule.tally(), console.sound(), audio};
+  saved->values = {console.state(), play, rule.state(), console.sound(), audio};
   saved->cartridge_ram.assign(console.cartridge_ram().begin(), console.cartridge_ram().end());
   saved->properties = properties;
   saved->height = console.height();
@@ -62,7 +62,7 @@ void Environment::Impl::restore(const Saved& saved) {
   console.restore(saved.values.machine, saved.cartridge_ram);
   console.restore_pictures(saved.pictures);
   console.sound() = saved.values.sound;
-  rule.restore(saved.values.tally);
+  rule.restore(saved.values.rule);
   play = saved.values.play;
   audio = saved.values.audio;
   raw_rewards = {};
@@ -70,7 +70,7 @@ void Environment::Impl::restore(const Saved& saved) {
   blend_is_due = true;
 }
 
-// A game of the same name can come from another file.
+// Two game files can have the same name and different properties.
 void Environment::Impl::check(const Saved& saved) const {
   check_identity(saved.identity, identity);
   if (saved.properties == properties && saved.height == console.height()) return;
@@ -82,12 +82,12 @@ void Environment::Impl::check_values(const Saved& saved) const {
   const Saved::Values& values = saved.values;
   console.check(values.machine, saved.cartridge_ram);
   check_play(values.play, *game);
-  check_tally(values.tally, *game);
+  check_rule_state(values.rule, *game);
   check_sound(values.sound);
 }
 
-// The reference copies RAM after frames only, and keeps pictures, sound and sticky actions out of its states;
-// in 0.6 also how far the present frame has come.
+// The reference copies RAM only after a frame. Its states do not contain pictures, sound and sticky actions;
+// in 0.6, nor how far the current frame has come.
 void Environment::Impl::restore_classic(const Saved& saved) {
   check(saved);
   EpisodeState restored = saved.values.play;
@@ -101,7 +101,7 @@ void Environment::Impl::restore_classic(const Saved& saved) {
   machine.frame.greyed = now.frame.greyed;
   machine.tia.pixel = now.tia.pixel;
   console.restore(machine, saved.cartridge_ram);
-  rule.restore(saved.values.tally);
+  rule.restore(saved.values.rule);
   play = restored;
 }
 

@@ -23,14 +23,12 @@ void check_offered(const char* what, int number, const std::vector<int>& offered
 
 void check_strength(const Press& press) {
   if (!std::isfinite(press.strength))
-    throw InvalidInput(
-        "invalid state: the strength of a held action is not a "
-        "finite number");
+    throw InvalidInput("invalid state: the strength of a held action is not a finite number");
 }
 
 }  // namespace
 
-// A held action may be any number: with paddles an agent may send any, and an unknown one presses nothing.
+// A held action may be any number: with paddles the client may send any, and an unknown one presses nothing.
 void check_play(const EpisodeState& play, const Game& game) {
   check_strength(play.held.a);
   check_strength(play.held.b);
@@ -43,10 +41,10 @@ void check_play(const EpisodeState& play, const Game& game) {
   check_flag("the flag of outdated RAM", play.ram_is_stale);
 }
 
-void check_tally(const Tally& tally, const Game& game) {
+void check_rule_state(const RuleState& state, const Game& game) {
   const std::size_t used = game.rule ? game.rule->variables.size() : 0;
-  for (std::size_t i = used; i < tally.values.size(); ++i)
-    check_range("a variable that the rule does not have", tally.values[i], 0, 0);
+  for (std::size_t i = used; i < state.values.size(); ++i)
+    check_range("a variable that the rule does not have", state.values[i], 0, 0);
 }
 
 void check_sound(const Sound& sound) {
@@ -54,7 +52,7 @@ void check_sound(const Sound& sound) {
     check_range("the divider of a sound channel", channel.divider, 0, kSlowestDivider);
 }
 
-// A generator whose words are all zero would give zeros for ever.
+// A generator whose words are all zero would return only zeros.
 void check_generator(std::span<const std::uint32_t, MersenneTwister::state_size> words,
                      std::uint32_t position) {
   check_range("the position of the generator", position, 0, MersenneTwister::state_size);

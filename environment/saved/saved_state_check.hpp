@@ -11,7 +11,7 @@ namespace racebeam {
 void check_play(const EpisodeState& play, const Game& game);
 
 // The same for a rule's variables and the sound channels. Any value of a variable is possible.
-void check_tally(const Tally& tally, const Game& game);
+void check_rule_state(const RuleState& state, const Game& game);
 void check_sound(const Sound& sound);
 
 // Checks the generator's words, and the position in them.

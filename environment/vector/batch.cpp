@@ -16,7 +16,7 @@
 namespace racebeam {
 namespace {
 
-// The sentence is made only if it is needed: a step allocates nothing.
+// `sentence` is a function, so that a step without an error allocates no text.
 template <class Sentence>
 void refuse_unless(bool good, const Sentence& sentence) {
   if (!good) throw InvalidInput(sentence());
@@ -41,10 +41,11 @@ void check_act(const Act& act) {
                 [&] { return "the strength of a paddle is not a number"; });
 }
 
-// Bytes of a machine that has played, beside its stack and results; measured (docs/performance.md).
+// Bytes of a machine that has played, without its stack and results; measured (docs/performance.md).
 constexpr std::size_t kMachine = std::size_t{240} << 10;
 
-// Before any memory is taken: a system that promises more than it has ends the process later.
+// Returns the batch size. Checks before it allocates, since a system that overcommits memory kills the
+// process only later.
 std::size_t checked_size(std::size_t machines, const BatchSettings& settings) {
   refuse_unless(machines > 0, [&] { return "there are 0 machines; there must be 1 or more"; });
   refuse_unless(settings.batch_size <= machines, [&] {
@@ -63,48 +64,23 @@ std::size_t checked_size(std::size_t machines, const BatchSettings& settings) {
   return settings.batch_size == 0 ? machines : settings.batch_size;
 }
 
-template <typename T>
-void put(std::span<T> array, std::size_t position, std::int64_t value) {
-  if (!array.empty()) array[position] = static_cast<T>(value);
-}
-
 }  // namespace
-
-BatchArrays BatchResults::arrays() {
-  return {observations,
-          final_observations,
-          final_lives,
-          final_frames,
-          final_episode_frames,
-          screens,
-          ram,
-          rewards,
-          rewards_b,
-          raw_rewards,
-          raw_rewards_b,
-          terminated,
-          truncated,
-          finished,
-          game_over,
-          lives,
-          frames,
-          episode_frames,
-          numbers};
-}
 
 struct Batch::Impl final : VectorHost {
   Impl(std::span<const Cartridge> cartridges, const BatchSettings& given)
       : settings(given),
         batch_size(checked_size(cartridges.size(), given)),
         pool(given.threads, given.busy_poll, given.first_processor),
+        layout(given.stack, given.screens, given.autoreset == Autoreset::kSameStep),
         finals(cartridges.size()),
         vector(cartridges, given.slot, given.autoreset, *this),
         playing(vector.size()),
         jobs(vector.size()),
         queue(pool, [this](std::size_t number) { play(number); }) {
-    height = 0;
+    int height = 0;
     for (std::size_t number = 0; number < vector.size(); ++number)
       height = std::max(height, vector.slot(number).environment().height());
+    layout.set_height(height);
     done.reserve(vector.size());
   }
 
@@ -117,23 +93,12 @@ struct Batch::Impl final : VectorHost {
     slot.set_stack(settings.stack);
   }
   void ended(std::size_t number, const Slot& slot) override {
-    if (out != nullptr) return write_final(slot, number, *out);
-    Final& final = finals[number];
-    final.observation.resize(observation_size());
-    write_final(slot, 0, final.arrays());
+    if (out != nullptr) return layout.write_final(slot, number, *out);
+    finals[number].keep(layout, slot);
   }
-  void shown(std::size_t number, const Slot&) override {
-    if (out != nullptr) write(number, number, *out);
+  void shown(std::size_t number, const Slot& slot) override {
+    if (out != nullptr) layout.write(slot, number, number, *out);
   }
-
-  std::size_t screen_size() const;  // of a stack, with the zeros behind lower ones
-  std::size_t observation_size() const {
-    return static_cast<std::size_t>(settings.stack.depth) * screen_size();
-  }
-  void put_stack(const Slot& slot, std::span<std::uint8_t> observations, std::size_t position) const;
-  void write(std::size_t number, std::size_t position, const BatchArrays& arrays) const;
-  void write_final(const Slot& slot, std::size_t position, const BatchArrays& arrays) const;
-  void pass_final(std::size_t number, std::size_t position, const BatchArrays& arrays);
 
   std::span<const Act> acts_of(std::span<const int> actions, auto machine_of);
   void check_free() const;
@@ -142,20 +107,6 @@ struct Batch::Impl final : VectorHost {
   void play(std::size_t number);
   std::span<const std::size_t> await_batch();
 
-  // How an episode ended, from then to receive().
-  struct Final {
-    BatchArrays arrays() {
-      BatchArrays to;
-      to.final_observations = observation;
-      to.final_lives = {&lives, 1};
-      to.final_frames = {&frames, 1};
-      to.final_episode_frames = {&episode_frames, 1};
-      return to;
-    }
-    std::vector<std::uint8_t> observation;
-    std::int32_t lives = 0, frames = 0, episode_frames = 0;
-  };
-
   struct Job {
     Act act;
     bool resets = false;
@@ -163,7 +114,7 @@ struct Batch::Impl final : VectorHost {
     std::exception_ptr failure;
   };
 
-  // Sets where results go while a request runs.
+  // Directs results into `arrays` for as long as it lives.
   struct Output {
     Output(Impl& of, const BatchArrays& arrays) : impl(of) { impl.out = &arrays; }
     ~Output() { impl.out = nullptr; }
@@ -173,81 +124,20 @@ struct Batch::Impl final : VectorHost {
   const BatchSettings settings;
   const std::size_t batch_size;
   ThreadPool pool;
-  const BatchArrays* out = nullptr;  // null: nowhere
-  int height = 0;
-  std::vector<Final> finals;  // by machine
+  const BatchArrays* out = nullptr;  // of the request that runs; null between send() and receive()
+  ResultLayout layout;
+  std::vector<FinalResult> finals;  // by machine, from the episode's end to receive()
   VectorEnvironment vector;
 
-  std::vector<Act> acts;              // of a request; kept for their memory
+  std::vector<Act> acts;              // of a request; a member to reuse its memory
   std::vector<std::uint8_t> playing;  // by machine: from send() to receive()
   std::vector<Job> jobs;
   std::vector<std::size_t> received;
   std::mutex mutex;
   std::condition_variable one_is_done;
   std::vector<std::size_t> done;  // under the mutex
-  ThreadPool::Queue queue;        // the last, so that it goes first
+  ThreadPool::Queue queue;        // the last member, so that it is destroyed first
 };
-
-std::size_t Batch::Impl::screen_size() const {
-  const StackSettings& stack = settings.stack;
-  const int rows = stack.height == 0 ? height : stack.height;
-  const int columns = stack.width == 0 ? kScreenWidth : stack.width;
-  return static_cast<std::size_t>(rows * columns * stack.channels());
-}
-
-void Batch::Impl::put_stack(const Slot& slot, std::span<std::uint8_t> observations,
-                            std::size_t position) const {
-  if (observations.empty()) return;
-  const std::size_t stride = screen_size(), size = observation_size();
-  const auto own = observations.subspan(position * size, size);
-  const ScreenStack& stack = *slot.stack();
-  stack.copy_to(own, stride);
-  if (stack.screen_size() == stride) return;
-  for (std::size_t at = 0; at < own.size(); at += stride)
-    std::ranges::fill(own.subspan(at + stack.screen_size(), stride - stack.screen_size()), std::uint8_t{0});
-}
-
-void Batch::Impl::write_final(const Slot& slot, std::size_t position, const BatchArrays& arrays) const {
-  if (slot.stack() != nullptr) put_stack(slot, arrays.final_observations, position);
-  put(arrays.final_lives, position, slot.environment().lives());
-  put(arrays.final_frames, position, slot.environment().frame_number());
-  put(arrays.final_episode_frames, position, slot.environment().episode_frame_number());
-}
-
-void Batch::Impl::pass_final(std::size_t number, std::size_t position, const BatchArrays& arrays) {
-  const Final& final = finals[number];
-  put(arrays.final_lives, position, final.lives);
-  put(arrays.final_frames, position, final.frames);
-  put(arrays.final_episode_frames, position, final.episode_frames);
-  if (arrays.final_observations.empty()) return;
-  std::ranges::copy(final.observation, arrays.final_observations.begin() +
-                                           static_cast<std::ptrdiff_t>(position * observation_size()));
-}
-
-void Batch::Impl::write(std::size_t number, std::size_t position, const BatchArrays& arrays) const {
-  const Slot& slot = vector.slot(number);
-  const Environment& environment = slot.environment();
-  const Outcome& outcome = slot.outcome();
-  put(arrays.rewards, position, outcome.reward);
-  put(arrays.rewards_b, position, outcome.reward_b);
-  put(arrays.raw_rewards, position, outcome.raw_reward);
-  put(arrays.raw_rewards_b, position, outcome.raw_reward_b);
-  put(arrays.terminated, position, outcome.terminated);
-  put(arrays.truncated, position, outcome.truncated);
-  put(arrays.finished, position, outcome.finished);
-  put(arrays.game_over, position, outcome.game_over);
-  put(arrays.lives, position, environment.lives());
-  put(arrays.frames, position, environment.frame_number());
-  put(arrays.episode_frames, position, environment.episode_frame_number());
-  put(arrays.numbers, position, static_cast<std::int64_t>(number));
-  if (!arrays.ram.empty()) std::ranges::copy(environment.ram(), &arrays.ram[position * kRamSize]);
-  if (slot.stack() != nullptr) put_stack(slot, arrays.observations, position);
-  if (arrays.screens.empty()) return;
-  const auto room = static_cast<std::size_t>(height) * kScreenWidth;
-  const auto own = arrays.screens.subspan(position * room, room);
-  const auto rest = std::ranges::copy(environment.screen(), own.begin()).out;
-  std::fill(rest, own.end(), std::uint8_t{0});
-}
 
 std::span<const Act> Batch::Impl::acts_of(std::span<const int> actions, auto machine_of) {
   acts.clear();
@@ -288,7 +178,7 @@ void Batch::Impl::begin(std::span<const std::size_t> numbers) {
   queue.push(numbers);
 }
 
-// On any thread.
+// Runs on any thread.
 void Batch::Impl::play(std::size_t number) {
   Job& job = jobs[number];
   try {
@@ -303,7 +193,7 @@ void Batch::Impl::play(std::size_t number) {
   one_is_done.notify_one();
 }
 
-// The caller's thread helps.
+// Waits for a batch; meanwhile the caller's thread runs machines, too.
 std::span<const std::size_t> Batch::Impl::await_batch() {
   const auto busy = static_cast<std::size_t>(std::ranges::count(playing, 1));
   refuse_unless(busy >= batch_size, [&] {
@@ -337,33 +227,15 @@ Batch& Batch::operator=(Batch&&) noexcept = default;
 
 std::size_t Batch::size() const { return impl_->vector.size(); }
 std::size_t Batch::batch_size() const { return impl_->batch_size; }
-int Batch::height() const { return impl_->height; }
-std::size_t Batch::observation_size() const { return impl_->observation_size(); }
+int Batch::height() const { return impl_->layout.height(); }
+std::size_t Batch::observation_size() const { return impl_->layout.observation_size(); }
 unsigned Batch::threads() const { return impl_->pool.threads(); }
 Slot& Batch::slot(std::size_t machine) { return impl_->vector.slot(machine); }
 const std::vector<int>& Batch::actions(std::size_t machine) const {
   return impl_->vector.slot(machine).actions();
 }
 
-BatchResults Batch::make_results() const {
-  const std::size_t count = batch_size();
-  BatchResults results;
-  results.observations.resize(count * observation_size());
-  if (impl_->settings.autoreset == Autoreset::kSameStep) {
-    results.final_observations.resize(count * observation_size());
-    for (auto* numbers : {&results.final_lives, &results.final_frames, &results.final_episode_frames})
-      numbers->resize(count);
-  }
-  if (impl_->settings.screens)
-    results.screens.resize(count * static_cast<std::size_t>(height()) * kScreenWidth);
-  results.ram.resize(count * kRamSize);
-  for (auto* numbers : {&results.rewards, &results.rewards_b, &results.raw_rewards, &results.raw_rewards_b,
-                        &results.lives, &results.frames, &results.episode_frames, &results.numbers})
-    numbers->resize(count);
-  for (auto* flags : {&results.terminated, &results.truncated, &results.finished, &results.game_over})
-    flags->resize(count);
-  return results;
-}
+BatchResults Batch::make_results() const { return impl_->layout.make_results(batch_size()); }
 
 void Batch::step(std::span<const Act> acts, const BatchArrays& out) {
   check_count(acts.size(), "actions", size());
@@ -389,7 +261,8 @@ void Batch::reset(const BatchArrays& out, std::span<const std::uint8_t> chosen,
 
 void Batch::show(const BatchArrays& out) const {
   impl_->check_free();
-  for (std::size_t number = 0; number < size(); ++number) impl_->write(number, number, out);
+  for (std::size_t number = 0; number < size(); ++number)
+    impl_->layout.write(impl_->vector.slot(number), number, number, out);
 }
 
 void Batch::send(std::span<const Act> acts, std::span<const std::int32_t> machines) {
@@ -426,9 +299,10 @@ void Batch::receive(const BatchArrays& out) {
     const std::size_t number = numbers[position];
     if (impl_->jobs[number].failure)
       std::rethrow_exception(std::exchange(impl_->jobs[number].failure, nullptr));
-    impl_->write(number, position, out);
-    const bool ended = impl_->vector.slot(number).outcome().finished;
-    if (ended && impl_->settings.autoreset == Autoreset::kSameStep) impl_->pass_final(number, position, out);
+    const Slot& slot = impl_->vector.slot(number);
+    impl_->layout.write(slot, number, position, out);
+    const bool ended = slot.outcome().finished && impl_->settings.autoreset == Autoreset::kSameStep;
+    if (ended) impl_->finals[number].write(position, out);
   }
 }
 

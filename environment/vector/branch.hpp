@@ -1,4 +1,4 @@
-// From one state, several lists of actions: what planners do all day.
+// Branches: several sequences of actions from one state, as a planner tries them.
 #pragma once
 
 #include <cstdint>
@@ -10,44 +10,44 @@
 
 namespace racebeam {
 
-// What a list of actions led to. It is played until its end, or the episode's.
+// The result of one sequence, which is played to its end or to the end of the episode.
 struct BranchEnd {
   std::int64_t reward = 0, reward_b = 0;  // sums over the acts
-  int acts = 0, frames = 0;               // that were played
+  int acts = 0, frames = 0;               // how many were played
   bool terminated = false, truncated = false;
   int lives = 0;
 };
 
-// An environment that is lent to branches, act by act. It must not be used otherwise meanwhile.
+// Plays branches on an environment, act by act. The caller must not use the environment meanwhile.
 class Branching {
  public:
-  // Remembers where `environment` is, its generator included.
+  // Saves the state of `environment`, its generator included.
   explicit Branching(Environment& environment);
-  ~Branching();  // puts it back there
+  ~Branching();  // restores it
   Branching(const Branching&) = delete;
   Branching& operator=(const Branching&) = delete;
 
-  // Begins a branch at `root`. A state without a generator goes on with the environment's, for every branch
-  // from the same place in it. Throws std::invalid_argument for a state of another image or game.
+  // Begins a branch at `root`. If `root` has no generator, every branch begins with the generator that the
+  // environment had. Throws InvalidInput for a state of another image or game.
   void enter(const Environment::Saved& root);
 
   bool over() const { return environment_.game_over(); }
 
-  // One act; its reward to player A. Throws as Environment::act().
+  // Plays one act and returns player A's reward. Throws what Environment::act() throws.
   int act(const Act& act);
 
-  // Of the branch so far.
+  // The result of the branch so far.
   const BranchEnd& end() const { return end_; }
 
  private:
   Environment& environment_;
   std::shared_ptr<const Environment::Saved> undisturbed_;
-  Drawing drawing_;  // before; the screens of a branch are not read
+  Drawing drawing_;  // to be restored: the screens of a branch are not drawn
   BranchEnd end_;
 };
 
-// All at once: ends[i] is what sequences[i] led to; there are as many of both. Afterwards, and after a throw,
-// the environment is as it was.
+// Plays all sequences from `root`: ends[i] becomes the result of sequences[i]. Throws std::invalid_argument
+// if the spans differ in length. The environment is unchanged afterwards, also after an exception.
 void branch(Environment& environment, const Environment::Saved& root,
             std::span<const std::vector<Act>> sequences, std::span<BranchEnd> ends);
 

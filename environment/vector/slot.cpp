@@ -24,7 +24,7 @@ const SlotSettings& checked(const SlotSettings& settings) {
   return settings;
 }
 
-// The frames of a step are acts of their own, without the limits of a step.
+// With Steps::kFrames each frame is an act of its own, to which the limits of a step do not apply.
 Settings machine_settings(const SlotSettings& settings) {
   Settings machine = settings.machine;
   if (settings.steps == Steps::kActs) return machine;
@@ -37,7 +37,7 @@ Settings machine_settings(const SlotSettings& settings) {
   return machine;
 }
 
-// Of a step's last frames, how many are drawn.
+// How many of a step's frames are drawn: the last ones.
 int frames_drawn(Drawing drawing, int all) {
   switch (drawing) {
     case Drawing::kNone: return 0;
@@ -86,7 +86,7 @@ void Slot::run_act(const Act& act) {
   const int before = environment_.frame_number();
   environment_.act(act);
   const int frames = frames_between(before, environment_.frame_number());
-  if (frames == 0) {  // no reward, even where each is raised to a least one
+  if (frames == 0) {  // no reward, even if reward_min is above 0
     outcome_.over = outcome_.acts == 0;
     return;
   }
@@ -137,8 +137,9 @@ void Slot::run_frames(const Act& act) {
   if (stack_) look_at_end_of_step(left);
 }
 
-// The reference looks at the last frame but one and at the last, and not any more once the episode is over,
-// so that what it saw before takes their place. left: of the step's frames, with the one that was just run.
+// The reference looks at the last frame but one and at the last, and stops looking when the episode is over;
+// what it saw before then stays in their place. left: frames of the step that remain, counting the one just
+// run.
 void Slot::look_at_end_of_step(int left) {
   if (!progress_.finished) return show(pools());
   if (left == 1 && pools()) stack_->look_at_previous(environment_);
@@ -164,7 +165,6 @@ void Slot::set_stack(const std::optional<StackSettings>& settings) {
   if (stack_) show(progress_.blends);
 }
 
-// A stack that another one was saved with begins anew.
 Slot::Saved Slot::save(bool with_random) const {
   return {environment_.save(with_random), stack_ ? stack_->bytes() : std::vector<std::uint8_t>(), with_random,
           progress_};
@@ -176,6 +176,7 @@ void Slot::restore(const Saved& saved) {
   look_at_ends();
   if (!stack_) return;
   stack_->look(environment_, progress_.blends);
+  // A stack of another size cannot be restored: it begins anew.
   if (stack_->size() == saved.stack.size()) return stack_->set_bytes(saved.stack);
   stack_->clear();
   stack_->push();

@@ -1,5 +1,5 @@
 // One machine of a vector environment: its steps, its episodes, and the stack of screens that its agent sees.
-// With the defaults it plays as the reference's vector environment does (docs/spec/environment.md, 15).
+// With the default settings it behaves as the reference's vector environment (docs/spec/environment.md, 15).
 #pragma once
 
 #include <cstdint>
@@ -18,35 +18,35 @@ namespace racebeam {
 
 // What a step is.
 enum class Steps {
-  kFrames,  // frames, each an act of its own: lives and ends are looked at after each
-  kActs     // one act of the environment, which has its own ends and its own number of frames
+  kFrames,  // several acts of one frame each; lives and the end of the game are checked after each
+  kActs     // one act of the environment, which has its own number of frames and its own limits
 };
 
 // How an episode begins.
 enum class ResetOrder {
   kFireNoops,  // as in ALE's vector environment: FIRE, which counts as a no-op, then the no-ops
-  kNoopsFire,  // as in EnvPool: no-ops, one more where there is no FIRE, then FIRE
-  kBaselines   // as in Stable-Baselines3: at least one no-op; then a step of FIRE, and one of the next action
+  kNoopsFire,  // as in EnvPool: the no-ops, then FIRE; one no-op more if the action set has no FIRE
+  kBaselines   // as in Stable-Baselines3: at least one no-op, then a step of FIRE and one of the next action
 };
 
 // What a lost life does to the episode.
 enum class LifeLoss {
   kIgnored,
-  kTold,   // the step is terminated; the episode goes on (life_loss_info)
-  kEnds,   // the episode ends, and the next one goes on with the next life, as in DQN
+  kTold,   // the step counts as terminated, but the episode continues (life_loss_info)
+  kEnds,   // the episode ends, and the next one continues the game with the next life, as in DQN
   kResets  // the episode ends, and the next one is a new game (episodic_life)
 };
 
-// What the stack of screens is when an episode begins.
+// The stack of screens when an episode begins.
 enum class StackStart {
-  kZeros,   // the first screen, behind zeros
-  kRepeats  // the first screen, over and over; an episode that goes on with the next life keeps the stack
+  kZeros,   // zeros, then the first screen
+  kRepeats  // only the first screen; an episode that continues with the next life keeps the stack
 };
 
 struct SlotSettings {
-  // Frames, limits of rewards and of an episode's frames are those of a step. With Steps::kFrames,
-  // frame_skip_max, truncate_on_life_loss and color_averaging must not be set, and no-ops at the start don't
-  // count as frames of the episode.
+  // frame_skip and the limits of rewards and frames apply to a step. With Steps::kFrames, frame_skip_max,
+  // truncate_on_life_loss and color_averaging must not be set, and no-ops at the start do not count as frames
+  // of the episode.
   Settings machine{
       .frame_skip = 4, .sticky = 0, .max_episode_frames = 108000, .reward_min = -1, .reward_max = 1};
   std::optional<int> mode, difficulty;  // the game's defaults if not given
@@ -55,29 +55,28 @@ struct SlotSettings {
   Steps steps = Steps::kFrames;
   ResetOrder reset_order = ResetOrder::kFireNoops;
   int noop_max = 30;          // an episode begins with 0 to noop_max - 1 frames of NOOP
-  bool fire_at_reset = true;  // and with FIRE, if it is in the action set
+  bool fire_at_reset = true;  // and with FIRE if the action set has it
   LifeLoss life_loss = LifeLoss::kIgnored;
   StackStart stack_start = StackStart::kZeros;
-  bool max_pool =
-      true;  // screens of the stack are of the brighter of a step's last two frames, pixel by pixel
+  bool max_pool = true;  // each pixel of a stacked screen is the brighter of the step's last two frames
 };
 
-// What acts led to: those of a step, or of a request.
+// The results of the acts of one step, or of one request.
 struct Outcome {
-  std::int64_t reward = 0, reward_b = 0;          // of players A and B; each step's is clamped
-  std::int64_t raw_reward = 0, raw_reward_b = 0;  // before that
+  std::int64_t reward = 0, reward_b = 0;          // of players A and B: sums of each step's clamped reward
+  std::int64_t raw_reward = 0, raw_reward_b = 0;  // the same before clamping
   int acts = 0;
   int frames = 0;
   bool terminated = false, truncated = false;
   bool finished = false;   // the episode is over
-  bool game_over = false;  // the game is, whatever lives and limits say
-  bool over = false;       // nothing was done: the episode had ended before
+  bool game_over = false;  // the game itself is over; lives and limits do not count
+  bool over = false;       // nothing was run, because the episode had ended before
 };
 
 class Slot {
  public:
-  // Powers on and begins an episode. `pace` outlives the slot; null: none. Throws InvalidInput for settings
-  // that can't be used, and what `pace` throws.
+  // Powers on and begins an episode. `pace` may be null, and must outlive the slot. Throws InvalidInput for
+  // settings that cannot be used, and what `pace` throws.
   Slot(const Cartridge& cartridge, const SlotSettings& settings, Pace* pace = nullptr);
   Slot(const Slot&) = delete;
   Slot& operator=(const Slot&) = delete;
@@ -87,50 +86,49 @@ class Slot {
   const SlotSettings& settings() const { return settings_; }
   const std::vector<int>& actions() const { return actions_; }  // of the action set
 
-  void begin_request();      // sums begin at 0
+  void begin_request();      // sets the sums of outcome() to 0
   void act(const Act& act);  // one step
-  // Begins an episode: after a life that was lost, with LifeLoss::kEnds, the next one; else a new game. With
-  // a seed, the machine is powered on anew with it, and so is the generator of no-ops. Throws InvalidInput,
-  // and what the pace throws; the slot is then as it was.
+  // Begins an episode. After a lost life with LifeLoss::kEnds, the game continues; otherwise a new game
+  // begins. A seed powers the machine on anew, and seeds the generator of no-ops, too. Throws InvalidInput,
+  // and what the pace throws; the slot is then unchanged.
   void reset(std::optional<std::uint32_t> seed = std::nullopt);
 
-  bool finished() const;  // the episode: a step does nothing more
+  bool finished() const;  // the episode is over: act() does nothing
   const Outcome& outcome() const { return outcome_; }
   void set_outcome(const Outcome& outcome) { outcome_ = outcome; }
-  std::int64_t reset_frames() const {
-    return reset_frames_;
-  }  // of the longest reset so far, told by the pace
+  // The frames of the longest reset so far, as the pace counts; 0 without a pace.
+  std::int64_t reset_frames() const { return reset_frames_; }
 
-  // Screens that will be looked at beside the stack: it changes nothing but the speed.
+  // Which screens the caller will read beside the stack. Affects only the speed.
   void set_drawing(Drawing drawing);
 
-  // A stack of screens from now on, beginning with what is there; without settings, none. Throws
-  // InvalidInput.
+  // Keeps a stack of screens from now on, beginning with the current one; without settings, keeps none.
+  // Throws InvalidInput for a size that is impossible.
   void set_stack(const std::optional<StackSettings>& settings);
   const ScreenStack* stack() const { return stack_ ? &*stack_ : nullptr; }
-  // Whether what is there would be seen as the brighter of two frames.
+  // Whether the current screen is seen as the brighter of two frames.
   bool blends() const { return progress_.blends; }
 
  private:
-  // What of the episode the environment does not know.
+  // What the environment does not know of the episode.
   struct Progress {
     int elapsed = 0;        // frames of play in this game
     int lives = 0;          // after the last step
     bool finished = false;  // Steps::kFrames: the episode
-    bool goes_on = false;   // finished by a lost life alone: the next episode goes on with the game
+    bool goes_on = false;   // finished only by a lost life: the next episode continues the game
     bool terminated = false, truncated = false;  // Steps::kFrames: how the last step ended
-    bool blends = false;                         // the last step ran two frames or more
+    bool blends = false;  // the last step ran at least two frames, so its screen blends them
   };
 
  public:
-  // A place that can be returned to. The generator of no-ops is no part of it.
+  // A saved state. It does not contain the generator of no-ops.
   struct Saved {
     std::shared_ptr<const Environment::Saved> machine;
-    std::vector<std::uint8_t> stack;  // ScreenStack::bytes(); empty: there was none
-    bool with_random = false;         // the generator of what is random in play is part of it
+    std::vector<std::uint8_t> stack;  // ScreenStack::bytes(); empty if there was no stack
+    bool with_random = false;         // contains the generator of the machine, as for sticky actions
     Progress progress;
 
-    std::size_t footprint() const;  // bytes of memory, about; pictures that are shared count
+    std::size_t footprint() const;  // estimated bytes of memory; shared pictures count in full
   };
   Saved save(bool with_random) const;
   void restore(const Saved& saved);  // throws InvalidInput
@@ -152,7 +150,7 @@ class Slot {
   void begin_stack(bool goes_on);
   void draw_nothing();
   void run_noops(int frames);
-  void run_noops_and_fire(bool fire);  // EnvPool's order; one no-op more where there is no FIRE
+  void run_noops_and_fire(bool fire);  // EnvPool's order
   void press_fire();
   void press_as_baselines();
   bool has_fire() const;

@@ -10,7 +10,8 @@ constexpr int kNoop = 0, kFire = 1;
 
 }  // namespace
 
-// An act's environment has begun an episode by itself; a mode takes effect at the next.
+// With Steps::kActs the environment has begun an episode already. That suffices unless a mode, which takes
+// effect at the next reset, or no-ops are asked for.
 void Slot::set_up() {
   if (settings_.mode) environment_.set_mode(*settings_.mode);
   if (settings_.difficulty) environment_.set_difficulty(*settings_.difficulty);
@@ -68,8 +69,8 @@ void Slot::begin_episode() {
   if (pace_ != nullptr) reset_frames_ = std::max(reset_frames_, pace_->frames() - frames_before);
 }
 
-// The game goes on. No-ops stay where the model has them: EnvPool draws them anew, Stable-Baselines3 waits
-// for a step.
+// The game continues with the next life. The no-ops are those of the model: none in ALE, a new draw in
+// EnvPool, one step in Stable-Baselines3.
 void Slot::begin_life() {
   const int elapsed = progress_.elapsed, frames = environment_.episode_frame_number();
   const bool fire = has_fire();
@@ -101,8 +102,8 @@ void Slot::begin_stack(bool goes_on) {
   if (settings_.stack_start == StackStart::kRepeats && !keeps) stack_->repeat();
 }
 
-// Of the frames before an episode, the last is drawn if it is looked at. Acts are drawn as their client has
-// chosen.
+// The frames before an episode are not drawn; the last one is drawn if it is read. With Steps::kActs the
+// client's choice stays.
 void Slot::draw_nothing() {
   if (settings_.steps == Steps::kFrames) environment_.set_drawing(Drawing::kNone);
 }
@@ -125,7 +126,7 @@ void Slot::run_noops_and_fire(bool fire) {
 
 void Slot::press_fire() { environment_.act_for(1, kFire); }
 
-// A step of each of the first two actions behind NOOP, the first of which must be FIRE.
+// A step of each of the first two actions after NOOP, provided that the first of them is FIRE.
 void Slot::press_as_baselines() {
   if (actions_.size() < 3 || actions_[1] != kFire) return;
   for (const int action : {actions_[1], actions_[2]}) {

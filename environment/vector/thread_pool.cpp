@@ -14,7 +14,7 @@ unsigned number_of_threads(unsigned asked) {
   return asked != 0 ? asked : static_cast<unsigned>(usable_processors().amount);
 }
 
-// Where the process may not run on the processor, the thread stays free.
+// If the process may not use the processor, the thread stays unbound.
 void bind_to(std::jthread& thread, unsigned processor) {
   cpu_set_t set;
   CPU_ZERO(&set);
@@ -24,7 +24,7 @@ void bind_to(std::jthread& thread, unsigned processor) {
 
 }  // namespace
 
-// Numbers from 0 on, in one share for each thread; the caller's is the first.
+// The job of one run(): numbers from 0, in one share for each thread. The caller has the first share.
 class ThreadPool::Round final : public Job {
  public:
   Round(const Task& task, std::size_t count, std::size_t threads) : task_(task), shares_(shares(threads)) {
@@ -51,7 +51,7 @@ class ThreadPool::Round final : public Job {
 
  private:
   static std::span<Share> shares(std::size_t threads) {
-    static thread_local std::vector<Share> all;  // for its memory
+    static thread_local std::vector<Share> all;  // reused by the next run()
     if (all.size() < threads) all = std::vector<Share>(threads);
     return std::span(all).first(threads);
   }
@@ -122,12 +122,12 @@ ThreadPool::Job* ThreadPool::pick() {
   return found == jobs_.end() ? nullptr : *found;
 }
 
-// Other threads that want the processor have it: the client is one of them.
+// Yields the processor to others, since the client may be one of them.
 void ThreadPool::await_job(BusyPoll& busy, std::size_t jobs) const {
   for (busy.begin(); busy.again() && jobs_so_far_ == jobs;) std::this_thread::yield();
 }
 
-// They are at their last task.
+// Polls briefly, since the helpers are at their last task.
 void ThreadPool::await_helpers(const Job& job) const {
   const auto end = BusyPoll::Clock::now() + busy_poll_;
   while (job.helpers != 0 && BusyPoll::Clock::now() < end) std::this_thread::yield();
@@ -135,7 +135,7 @@ void ThreadPool::await_helpers(const Job& job) const {
 
 void ThreadPool::help(std::size_t own) {
   BusyPoll busy(busy_poll_);
-  bool quick = false;  // the last job came soon after the one before
+  bool quick = false;  // the last job came soon after its predecessor
   std::unique_lock lock(mutex_);
   for (;;) {
     const auto idle = BusyPoll::Clock::now();

@@ -1,5 +1,5 @@
-// Threads that stay, for the machines of vector environments. One pool serves any number of them: a caller's
-// job is done by the caller and by those threads that have nothing else to do.
+// A thread pool for the machines of vector environments. One pool serves any number of callers: a caller's
+// job is done by the caller and by the threads that are idle.
 #pragma once
 
 #include <atomic>
@@ -22,17 +22,17 @@ class ThreadPool {
    public:
     virtual ~Job() = default;
     virtual bool can_use_help() const = 0;
-    virtual void work(std::size_t thread) = 0;  // until nothing is left to begin
+    virtual void work(std::size_t thread) = 0;  // returns when nothing is left to begin
 
-    std::atomic<std::size_t> helpers = 0;  // that work on it beside the caller; they come and go under mutex_
+    std::atomic<std::size_t> helpers = 0;  // threads on it beside the caller; changed under mutex_
   };
 
  public:
-  // Work on task(number). Must not throw.
+  // Called with a number; must not throw.
   using Task = std::function<void(std::size_t number)>;
 
-  // The caller of run() is one of the threads. threads: 0: one for each processor that the process may use.
-  // busy_poll: how long a thread waits awake for the next job; 0: never. first_processor: the pool's own
+  // threads: how many, counting the caller of run(); 0: one for each processor that the process may use.
+  // busy_poll: how long a thread polls for the next job before it sleeps. first_processor: the pool's own
   // threads are bound to this processor and those after it; -1: to none.
   explicit ThreadPool(unsigned threads, std::chrono::microseconds busy_poll = {}, int first_processor = -1);
   ~ThreadPool();
@@ -41,22 +41,22 @@ class ThreadPool {
 
   unsigned threads() const { return static_cast<unsigned>(threads_.size()) + 1; }
 
-  // Runs task(0) ... task(count - 1) and returns when all are done. Every thread begins with a share of its
-  // own, the same for the same count, so that what a task uses stays in one processor's cache. A thread that
-  // has finished helps the others. From any thread, also from several at once. Callers count among the
-  // threads that work: more threads than processors would wait for helpers that wait for a processor.
+  // Runs task(0) ... task(count - 1) and returns when all are done. Thread-safe. Every thread begins with a
+  // share of its own, the same for the same count, so that a task's data stays in one processor's cache; a
+  // thread that has finished helps the others. At most threads() work at a time, callers included: with more
+  // threads than processors, a caller would wait for helpers that wait for a processor.
   void run(std::size_t count, const Task& task);
 
-  // Tasks that come one by one and are begun in that order. The pool outlives its queues.
+  // Tasks that are begun in the order of push(). The pool must outlive its queues.
   class Queue final : private Job {
    public:
     Queue(ThreadPool& pool, Task task);
-    ~Queue();  // tasks that were not begun are dropped; those in progress are awaited
+    ~Queue();  // drops the tasks that were not begun, and waits for those in progress
     Queue(const Queue&) = delete;
     Queue& operator=(const Queue&) = delete;
 
     void push(std::span<const std::size_t> numbers);
-    bool work_once();  // begins one task on the caller's thread; false: there is none
+    bool work_once();  // runs one task on the caller's thread; false if there is none
 
    private:
     friend class ThreadPool;
@@ -72,17 +72,17 @@ class ThreadPool {
 
  private:
   struct alignas(64) Share {
-    std::atomic<std::size_t> next = 0;  // to be begun
+    std::atomic<std::size_t> next = 0;  // the first task that was not begun
     std::size_t end = 0;
   };
   class Round;
 
   void add(Job& job);
-  void remove(Job& job);  // and waits for its helpers
-  void announce();        // there is more to do
+  void remove(Job& job);  // waits for its helpers
+  void announce();        // wakes threads, since there is more to do
   void help(std::size_t own);
-  Job* pick();  // null: none can use help, or as many threads work as there may; under mutex_
-  void await_job(BusyPoll& busy, std::size_t jobs) const;  // beyond those so far
+  Job* pick();  // null if no job can use help, or threads() work already; under mutex_
+  void await_job(BusyPoll& busy, std::size_t jobs) const;  // polls until jobs_so_far_ is not `jobs`
   void await_helpers(const Job& job) const;
 
   const std::chrono::microseconds busy_poll_;

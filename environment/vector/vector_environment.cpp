@@ -28,8 +28,8 @@ VectorEnvironment::VectorEnvironment(std::span<const Cartridge> cartridges, cons
   });
 }
 
-// A failure is kept and not thrown, since tasks run on any thread. What unwinds a suspended task is no
-// std::exception.
+// Failures are collected and thrown at the end, since tasks run on any thread. A cancelled fiber unwinds with
+// something that is no std::exception, and that must pass.
 template <typename Task>
 void VectorEnvironment::run(Task task) {
   const auto guarded = [&](std::size_t number) {

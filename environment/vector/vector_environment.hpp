@@ -1,5 +1,5 @@
-// Many machines, of one game or of several, that are stepped together. Where they run, and what becomes of
-// what they show, is left to a VectorHost: a Batch runs them on threads and fills arrays (batch.hpp); the
+// Many machines, of one game or of several, that are stepped together. A VectorHost decides where they run
+// and collects their results. There are two: a Batch runs them on threads and fills arrays (batch.hpp); the
 // line protocol's `open` runs them in slices of time and writes text (protocol/line/machines.hpp).
 #pragma once
 
@@ -14,34 +14,34 @@
 
 namespace racebeam {
 
-// What becomes of a machine whose episode is over, as in Gymnasium.
+// What happens to a machine whose episode is over, as in Gymnasium.
 enum class Autoreset {
-  kNextStep,  // its next step resets, whatever the action
-  kSameStep,  // it is reset at once; the last observation is told beside the new one
-  kDisabled   // nothing moves until it is reset
+  kNextStep,  // its next step resets it and ignores the action
+  kSameStep,  // the same step resets it, and reports the last observation beside the new one
+  kDisabled   // its steps do nothing until the caller resets it
 };
 
 class VectorHost {
  public:
   virtual ~VectorHost() = default;
 
-  // Runs task(0) ... task(count - 1), on several threads if it likes, and returns when all are done. A task
-  // does not throw.
+  // Runs task(0) ... task(count - 1), on one thread or several, and returns when all are done. A task does
+  // not throw.
   virtual void run_all(std::size_t count, const std::function<void(std::size_t)>& task) = 0;
 
-  virtual Pace* pace(std::size_t) { return nullptr; }  // of a machine
+  virtual Pace* pace(std::size_t /*number*/) { return nullptr; }  // of this machine; null: none
 
-  // Called from within a machine's task. Each may throw what is to become of the request.
-  virtual void opened(std::size_t number, Slot& slot) = 0;  // it is there
-  virtual void ended(std::size_t number,
-                     const Slot& slot) = 0;  // Autoreset::kSameStep: it will be reset at once
-  virtual void shown(std::size_t number, const Slot& slot) = 0;  // it has done what was asked
+  // Called from within a machine's task. What they throw is the failure of that machine.
+  virtual void opened(std::size_t number, Slot& slot) = 0;       // after it was made
+  virtual void ended(std::size_t number, const Slot& slot) = 0;  // Autoreset::kSameStep: before its reset
+  virtual void shown(std::size_t number, const Slot& slot) = 0;  // at the end of each request
 };
 
 class VectorEnvironment {
  public:
-  // A machine for each cartridge, powered on and reset. random_seed is the first machine's; the n-th after it
-  // has n more. `host` outlives the environment. Throws the first machine's failure, as Slot does.
+  // Makes a machine for each cartridge, powers it on and resets it. settings.machine.random_seed is the seed
+  // of machine 0; machine n has n more. `host` must outlive the environment. Throws what Slot throws, for the
+  // first machine that fails.
   VectorEnvironment(std::span<const Cartridge> cartridges, const SlotSettings& settings, Autoreset autoreset,
                     VectorHost& host);
 
@@ -50,15 +50,17 @@ class VectorEnvironment {
   Slot& slot(std::size_t number) { return *slots_[number]; }
   const Slot& slot(std::size_t number) const { return *slots_[number]; }
 
-  // One act each. A machine whose episode is over does what Autoreset says. Throws the failure of the first
-  // machine that has one.
+  // Steps every machine: acts[n] is of machine n. A machine whose episode is over does what Autoreset says.
+  // Throws the failure of the first machine that has one.
   void step(std::span<const Act> acts);
 
-  // New episodes, for those machines whose byte is not 0; empty: for all. The others are shown as they are. A
-  // seed from 0 on is that of the machine's reset (Slot::reset()); a negative one, or none, is no seed.
+  // Begins new episodes of the machines whose byte in `chosen` is not 0; of all if `chosen` is empty. The
+  // other machines are shown as they are. A seed of 0 or more goes to Slot::reset(); a negative one means
+  // none.
   void reset(std::span<const std::uint8_t> chosen = {}, std::span<const std::int64_t> seeds = {});
 
-  // The same for one machine, on the caller's thread; different machines at the same time. Throw its failure.
+  // The same for one machine, on the caller's thread. Callers may use different machines at the same time.
+  // Both throw the machine's failure.
   void step_one(std::size_t number, const Act& act);
   void reset_one(std::size_t number, std::int64_t seed);
 

@@ -42,7 +42,7 @@ class Runner {
 
   // The rule's variables change between statements, because frames pass.
   std::int32_t value(const Statement& statement) {
-    std::ranges::copy(rule_.tally().values, variables_.begin());
+    std::ranges::copy(rule_.state().values, variables_.begin());
     if (statement.draws) variables_[kRandomSlot] = static_cast<std::int32_t>(host_.random());
     return evaluate(statement.expression, variables_.data(), host_.memory());
   }
@@ -52,9 +52,9 @@ class Runner {
       variables_[static_cast<std::size_t>(slot)] = value;
       return;
     }
-    Tally tally = rule_.tally();
-    tally.values[static_cast<std::size_t>(slot)] = value;
-    rule_.restore(tally);
+    RuleState state = rule_.state();
+    state.values[static_cast<std::size_t>(slot)] = value;
+    rule_.restore(state);
   }
 
   [[noreturn]] void give_up(const std::string& why) const {

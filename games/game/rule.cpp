@@ -7,13 +7,13 @@
 
 namespace racebeam {
 
-static_assert(std::has_unique_object_representations_v<Tally>);  // so that it can be compared with memcmp
+static_assert(std::has_unique_object_representations_v<RuleState>);  // so that it can be compared with memcmp
 
 Rule::Rule(const Game& game) : program_(game.rule ? &*game.rule : nullptr) { reset(); }
 
 void Rule::reset() {
   if (!program_) return;
-  std::int32_t* value = tally_.values.data();
+  std::int32_t* value = state_.values.data();
   for (const Variable& variable : program_->variables) {
     if (!variable.kept) *value = variable.initial;
     ++value;
@@ -21,21 +21,21 @@ void Rule::reset() {
 }
 
 void Rule::step(const Memory& memory) {
-  if (program_) execute(program_->step, tally_.values.data(), memory);
+  if (program_) execute(program_->step, state_.values.data(), memory);
 }
 
-int Rule::reward() const { return tally_.values[kRewardSlot]; }
+int Rule::reward() const { return state_.values[kRewardSlot]; }
 
 int Rule::reward_b() const {
   if (!program_ || !program_->reward_b) return 0;
-  return tally_.values[static_cast<std::size_t>(*program_->reward_b)];
+  return state_.values[static_cast<std::size_t>(*program_->reward_b)];
 }
 
 bool Rule::terminal() const {
-  return program_ && evaluate(program_->terminal, tally_.values.data(), {}) != 0;
+  return program_ && evaluate(program_->terminal, state_.values.data(), {}) != 0;
 }
 
-int Rule::lives() const { return program_ ? evaluate(program_->lives, tally_.values.data(), {}) : 0; }
+int Rule::lives() const { return program_ ? evaluate(program_->lives, state_.values.data(), {}) : 0; }
 
 bool Rule::keeps_variables() const {
   return program_ && std::ranges::any_of(program_->variables, &Variable::kept);

@@ -17,9 +17,9 @@ struct Game;
 constexpr int kRewardSlot = 0, kTerminalSlot = 1;  // the variables that every rule has
 
 // All that a rule remembers from frame to frame. Trivially copyable, so that saving it is a copy.
-struct Tally {
+struct RuleState {
   std::array<std::int32_t, kMaxVariables> values{};
-  bool operator==(const Tally&) const = default;
+  bool operator==(const RuleState&) const = default;
 };
 
 // A variable that a rule remembers.
@@ -31,7 +31,7 @@ struct Variable {
 
 // The rule of a game file, compiled.
 struct RuleProgram {
-  std::vector<Variable> variables;  // variable n is Tally::values[n]
+  std::vector<Variable> variables;  // variable n is RuleState::values[n]
   Program step;
   Program terminal, lives;      // for queries; they read variables only
   std::optional<int> reward_b;  // the variable with player B's reward, if the rule has one
@@ -53,12 +53,12 @@ class Rule {
 
   bool keeps_variables() const;  // whether a variable persists over resets
 
-  const Tally& tally() const { return tally_; }
-  void restore(const Tally& tally) { tally_ = tally; }
+  const RuleState& state() const { return state_; }
+  void restore(const RuleState& state) { state_ = state; }
 
  private:
   const RuleProgram* program_;  // null: the game has no rule
-  Tally tally_;
+  RuleState state_;
 };
 
 }  // namespace racebeam

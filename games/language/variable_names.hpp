@@ -1,5 +1,5 @@
-// The variables of one game's rule. A variable gets a slot in the tally when its value from before the step
-// is first read. Other names are temporaries of the step, without a slot.
+// The variables of one game's rule. A variable gets a slot in the rule's state when its value from before the
+// step is first read. Other names are temporaries of the step, without a slot.
 #pragma once
 
 #include <map>

@@ -1,11 +1,11 @@
 #include "protocol/classic/paced_classic.hpp"
 
-#include "protocol/line/player.hpp"
+#include "protocol/line/loaded_machine.hpp"
 
 namespace racebeam {
 
 PacedClassic::PacedClassic(const ClassicService& service) : service_(service), memory_(service.memory) {
-  memory_.set(Player::footprint({}));
+  memory_.set(LoadedMachine::footprint({}));
 }
 
 PacedClassic::~PacedClassic() { pacer_.cancel(); }
@@ -33,7 +33,7 @@ void PacedClassic::answer() {
 // errors.
 void PacedClassic::account() {
   constexpr std::size_t kState = std::size_t{96} << 10;
-  const std::size_t bytes = Player::footprint({}) + session_->saved_states() * kState;
+  const std::size_t bytes = LoadedMachine::footprint({}) + session_->saved_states() * kState;
   if (bytes <= memory_.bytes()) {
     memory_.set(bytes);
   } else if (!memory_.grow(bytes - memory_.bytes())) {

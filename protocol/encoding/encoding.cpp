@@ -16,9 +16,8 @@ namespace {
 constexpr std::array kEncodings = {
     EncodingRow{Encoding::kHex, "hex", "two digits a byte, upper case"},
     EncodingRow{Encoding::kRunLength, "rle",
-                "runs: value and length, two digits each; the length is 01 to FF; runs go on across rows"},
-    EncodingRow{Encoding::kDelta, "delta",
-                "records of what changed since the reply before that had this field"},
+                "runs: value and length, two digits each; the length is 01 to FF; runs continue across rows"},
+    EncodingRow{Encoding::kDelta, "delta", "records of what changed since the last reply with this field"},
     EncodingRow{Encoding::kBase64, "base64", "RFC 4648, with padding"},
     EncodingRow{Encoding::kZlib, "zlib", "zlib (RFC 1950), then base64"},
 };

@@ -19,8 +19,8 @@ constexpr int kMostTimes = 1'000'000'000;  // Session::check_frames() limits wha
     ((list += ' ') += std::to_string(action) + '=') += action_name(action);
     names.push_back(action_name(action));
   }
-  throw Refusal(Code::kBadAction, quote(word) + std::string(why) + ';' + did_you_mean(word, names) + ' ' +
-                                      std::string(actions.game) + " takes" + list);
+  throw RequestError(ErrorCode::kBadAction, quote(word) + std::string(why) + ';' + did_you_mean(word, names) +
+                                                ' ' + std::string(actions.game) + " takes" + list);
 }
 
 int number_of(std::string_view word, const AllowedActions& actions) {
@@ -35,7 +35,8 @@ int number_of(std::string_view word, const AllowedActions& actions) {
 float strength_of(std::string_view text) {
   const auto strength = parse_number<float>(text);
   if (strength && *strength >= 0 && *strength <= 1) return *strength;
-  throw Refusal(Code::kBadValue, "the strength of a paddle is " + quote(text) + "; it takes 0 to 1");
+  throw RequestError(ErrorCode::kBadValue,
+                     "the strength of a paddle is " + quote(text) + "; it takes 0 to 1");
 }
 
 }  // namespace

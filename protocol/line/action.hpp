@@ -19,7 +19,7 @@ struct AllowedActions {
   std::uint32_t allowed;  // bit n: action n
 };
 
-// Throws Refusal.
+// Throws RequestError.
 Action parse_action(std::string_view word, const AllowedActions& actions);
 
 }  // namespace racebeam

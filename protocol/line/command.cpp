@@ -27,21 +27,22 @@ const Command& CommandTable::find(std::string_view name) const {
   if (found != commands.end()) return *found;
   const auto alias = std::ranges::find(aliases, name, &Alias::name);
   if (alias != aliases.end()) return find(alias->command);
-  refuse_name(Code::kUnknownCommand, "command", name, names_of(commands));
+  refuse_name(ErrorCode::kUnknownCommand, "command", name, names_of(commands));
 }
 
 void check(const Command& command, const Session& session, std::size_t arguments) {
   const std::string name(command.name);
   if (arguments < command.least || arguments > command.most) {
-    throw Refusal(Code::kBadArguments, name + " takes " + count_text(command) + " arguments, not " +
-                                           std::to_string(arguments) + ": " + usage(command));
+    throw RequestError(ErrorCode::kBadArguments, name + " takes " + count_text(command) + " arguments, not " +
+                                                     std::to_string(arguments) + ": " + usage(command));
   }
   if (command.needs >= Needs::kAdmission && !session.admitted)
-    throw Refusal(Code::kUnauthorized, "this server requires a token before " + name + "; hello token=TOKEN");
-  if (command.needs >= Needs::kGame && !session.player)
-    throw Refusal(Code::kNoGame, name + " needs a game; load one first");
+    throw RequestError(ErrorCode::kUnauthorized,
+                       "this server requires a token before " + name + "; hello token=TOKEN");
+  if (command.needs >= Needs::kGame && !session.loaded)
+    throw RequestError(ErrorCode::kNoGame, name + " needs a game; load one first");
   if (command.needs == Needs::kMachines && session.machines.empty())
-    throw Refusal(Code::kNoMachines, name + " needs machines; open some first");
+    throw RequestError(ErrorCode::kNoMachines, name + " needs machines; open some first");
 }
 
 }  // namespace racebeam

@@ -24,8 +24,8 @@ struct Command {
   std::size_t least, most;   // number of arguments
   Needs needs;
 
-  // Appends "ok" and the fields to session.out, without LF. Throws Refusal. It is the body of session.pacer:
-  // long work is suspended between frames, or where it calls breathe().
+  // Appends "ok" and the fields to session.out, without LF. Throws RequestError. It is the body of
+  // session.pacer: long work is suspended between frames, or where it calls breathe().
   void (*run)(Session& session, Words arguments);
 };
 
@@ -39,14 +39,14 @@ struct CommandTable {
   std::span<const Command> commands;
   std::span<const Alias> aliases;
 
-  // Finds a command by its name or an alias. Throws Refusal, with the names that exist.
+  // Finds a command by its name or an alias. Throws RequestError, with the names that exist.
   const Command& find(std::string_view name) const;
   std::size_t row(const Command& command) const {
     return static_cast<std::size_t>(&command - commands.data());
   }
 };
 
-// Throws Refusal if the number of arguments is wrong, or another command must come first.
+// Throws RequestError if the number of arguments is wrong, or another command must come first.
 void check(const Command& command, const Session& session, std::size_t arguments);
 
 std::string usage(const Command& command);  // its name and arguments

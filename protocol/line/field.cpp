@@ -24,17 +24,18 @@ constexpr int kDeepest = 16;
   }
 
 constexpr std::array kFields = {
-    NUMBER("reward", true, o.reward, "sum over the acts of the request; each act's is limited as loaded"),
+    NUMBER("reward", true, o.reward,
+           "sum over the acts of the request; each act's reward is clamped as loaded"),
     NUMBER("reward_b", true, o.reward_b, "the same for player B"),
-    NUMBER("raw_reward", true, o.raw_reward, "reward before it was limited"),
+    NUMBER("raw_reward", true, o.raw_reward, "the same before clamping"),
     NUMBER("raw_reward_b", true, o.raw_reward_b, "the same for player B"),
     NUMBER("terminated", true, o.terminated, "1: the game is over"),
     NUMBER("truncated", true, o.truncated, "1: the episode was cut short, by frames or by a lost life"),
-    NUMBER("game_over", true, o.game_over, "1: the game is over, whatever lives and limits say"),
-    NUMBER("lives", false, e.lives(), "lives that are left; 0 in games without"),
+    NUMBER("game_over", true, o.game_over, "1: the game itself is over; lost lives and limits do not count"),
+    NUMBER("lives", false, e.lives(), "remaining lives; 0 in games without lives"),
     NUMBER("frame", false, e.frame_number(), "frames since the game was loaded"),
     NUMBER("episode_frame", false, e.episode_frame_number(), "frames since the episode began"),
-    NUMBER("acts", true, o.acts, "acts that were carried out; fewer than asked for when the episode ended"),
+    NUMBER("acts", true, o.acts, "acts that were played; fewer than requested if the episode ended"),
     NUMBER("frames", true, o.frames, "frames that the request ran"),
     FieldRow{"ram", "128 bytes", false, nullptr,
              [](const Environment& e, Scratch&) -> Bytes { return e.ram(); }, Encoding::kHex},
@@ -59,7 +60,7 @@ constexpr std::array kFields = {
              "a stack of N screens, W x H, grey, each the brighter of two frames; grey84x4 is short for "
              "grey84x84x4",
              false, nullptr, nullptr, Encoding::kZlib, Drawing::kLastTwo},
-    FieldRow{kRgbStack, "the same, red, green and blue of each pixel, row by row", false, nullptr, nullptr,
+    FieldRow{kRgbStack, "the same in colour: red, green and blue of each pixel", false, nullptr, nullptr,
              Encoding::kZlib, Drawing::kLastTwo},
     FieldRow{"palette", "256 x 3: red, green, blue of each value of screen", false, nullptr,
              [](const Environment& e, Scratch& scratch) -> Bytes {
@@ -78,9 +79,10 @@ int size_within(std::string_view text, std::string_view what, int least, int mos
   return static_cast<int>(number_within(text, what, least, most));
 }
 
-// grey84, grey84xN, greyWxHxN and rgbWxHxN, whose name then is that of their row; nothing for other fields.
+// Parses grey84, grey84xN, greyWxHxN and rgbWxHxN, and sets `name` to the name of their row. Returns nothing
+// for other fields.
 std::optional<StackSettings> parse_stack(std::string_view& name) {
-  constexpr int kLeastHeight = 9, kMostHeight = 300;  // a machine's screen may be lower: ScreenStack looks
+  constexpr int kLeastHeight = 9, kMostHeight = 300;  // ScreenStack checks against the machine's screen
   const bool rgb = name.starts_with("rgb");
   if (!rgb && !name.starts_with("grey")) return std::nullopt;
   std::string_view width = name.substr(rgb ? 3 : 4);
@@ -96,7 +98,8 @@ std::optional<StackSettings> parse_stack(std::string_view& name) {
     return stack_of(alone ? "1" : height, kSmallSide, kSmallSide);
   }
   if (depth.empty() || depth.find('x') != std::string_view::npos)
-    throw Refusal(Code::kBadArguments, "a stack is written as in grey84x4, grey100x50x4 or rgb100x50x4");
+    throw RequestError(ErrorCode::kBadArguments,
+                       "a stack is written as in grey84x4, grey100x50x4 or rgb100x50x4");
   name = rgb ? kRgbStack : kGreyStack;
   return stack_of(depth, size_within(width, "the width of a stack", 1, kScreenWidth),
                   size_within(height, "the height of a stack", kLeastHeight, kMostHeight));
@@ -116,12 +119,13 @@ Field parse_field(std::string_view word) {
   if (row == kFields.end() || (!stack && (name == kGreyStack || name == kRgbStack))) {
     auto known = names_of(kFields);
     known.insert(known.end(), {"ends", "none"});
-    refuse_name(Code::kBadArguments, "field", name, known);
+    refuse_name(ErrorCode::kBadArguments, "field", name, known);
   }
   if (!encoded) return {&*row, row->usual, stack, std::move(written)};
-  if (row->number) throw Refusal(Code::kBadArguments, written + " is a number, and has no encoding");
+  if (row->number)
+    throw RequestError(ErrorCode::kBadArguments, written + " is a number, and has no encoding");
   const auto chosen = encoding_of(encoding);
-  if (!chosen) refuse_name(Code::kBadArguments, "encoding", encoding, names_of(encodings()));
+  if (!chosen) refuse_name(ErrorCode::kBadArguments, "encoding", encoding, names_of(encodings()));
   return {&*row, *chosen, stack, std::move(written)};
 }
 
@@ -129,10 +133,11 @@ void check(const std::vector<Field>& fields) {
   for (std::size_t i = 0; i < fields.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (fields[i].row == fields[j].row)
-        throw Refusal(Code::kBadArguments, std::string(fields[i].row->name) + " is asked for twice");
+        throw RequestError(ErrorCode::kBadArguments,
+                           std::string(fields[i].row->name) + " is asked for twice");
       if (fields[i].stack && fields[j].stack)
-        throw Refusal(Code::kBadArguments,
-                      fields[j].name + " and " + fields[i].name + " are two stacks; there can be one");
+        throw RequestError(ErrorCode::kBadArguments,
+                           fields[j].name + " and " + fields[i].name + " are two stacks; there can be one");
     }
   }
 }
@@ -152,7 +157,7 @@ std::vector<Field> parse_fields(Words words) {
   for (const std::string_view word : words) {
     if (word == "none") {
       if (words.size() == 1) break;
-      throw Refusal(Code::kBadArguments, "none stands alone; it chooses no field");
+      throw RequestError(ErrorCode::kBadArguments, "none stands alone; it chooses no field");
     }
     if (word == "ends") {
       fields.push_back(parse_field("terminated"));
@@ -187,8 +192,8 @@ std::size_t View::footprint(const std::vector<Field>& fields) {
   std::size_t bytes = 0;
   for (const Field& field : fields) {
     if (field.row->number) continue;
-    const std::size_t stack = field.stack ? 2 * bytes_of(*field.stack) : 0;  // and a copy
-    bytes += 3 * kTallScreen + stack;                                        // the scratch copy, at most
+    const std::size_t stack = field.stack ? 2 * bytes_of(*field.stack) : 0;  // with a copy
+    bytes += 3 * kTallScreen + stack;                                        // for scratch_, at most
     if (field.encoding == Encoding::kZlib) bytes += kDeflater;
     if (field.encoding == Encoding::kDelta) bytes += 3 * kTallScreen + stack;
   }

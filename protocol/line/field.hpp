@@ -1,4 +1,4 @@
-// What a reply can carry: one table of fields, and the choice that a client has made.
+// The fields of replies: the table of all fields, those that a client has selected, and how they are written.
 #pragma once
 
 #include <memory>
@@ -17,10 +17,11 @@ namespace racebeam {
 struct FieldRow {
   std::string_view name;
   std::string_view summary;
-  bool of_request;  // what an act led to, not what the machine shows
-  std::int64_t (*number)(const Environment&, const Outcome&);  // null for those that are bytes
+  bool of_request;  // a result of the request's acts; else a part of what the machine shows
+  std::int64_t (*number)(const Environment&,
+                         const Outcome&);  // null for fields of bytes; then `bytes` is set
   std::span<const std::uint8_t> (*bytes)(const Environment&, std::vector<std::uint8_t>& scratch);
-  Encoding usual;  // encoding of bytes
+  Encoding usual;  // default encoding of a field of bytes
   Drawing looks_at = Drawing::kNone;
 };
 std::span<const FieldRow> field_rows();
@@ -28,39 +29,40 @@ std::span<const FieldRow> field_rows();
 struct Field {
   const FieldRow* row;
   Encoding encoding;
-  std::optional<StackSettings> stack;  // of screens; none: it is no stack
-  std::string name;                    // with the stack's size
+  std::optional<StackSettings> stack;  // set if the field is a stack of screens
+  std::string name;                    // as in replies; contains the size of a stack
 };
 
-// Words such as lives, screen:rle, grey84x4, rgb100x50x2; `ends` is two of them, `none` is none. Throws
-// Refusal.
+// Parses words such as lives, screen:rle, grey84x4 and rgb100x50x2. `ends` stands for two fields, `none` for
+// no field. Throws RequestError.
 std::vector<Field> parse_fields(Words words);
 
-// Which of an act's screens they look at, on a machine with colour averaging or without.
+// Which screens of an act the fields need, on a machine with colour averaging or without.
 Drawing drawing_of(const std::vector<Field>& fields, bool averaging);
 
-// How long they are in a reply about such a machine, about: text_size() of each that is bytes.
+// Estimates the length of the fields in a reply about `machine`. Numbers count with a typical length.
 std::size_t text_size(const std::vector<Field>& fields, const Environment& machine);
 
-// Writes the chosen fields of one machine, reply after reply.
+// Writes the selected fields of one machine into its replies. It has state: the delta encoding needs the last
+// reply.
 class View {
  public:
   explicit View(std::vector<Field> fields);
 
-  static std::size_t footprint(const std::vector<Field>& fields);  // bytes of memory, about
+  static std::size_t footprint(const std::vector<Field>& fields);  // estimated bytes of memory
 
-  // What a machine shows, what acts led to, and the stack of screens; null: no field is one.
+  // The sources of values. `stack` is null if no field is a stack.
   struct Shown {
     const Environment& machine;
     const Outcome& outcome;
     const ScreenStack* stack;
   };
 
-  // " name=value" for each field, behind " over=1" where nothing was done.
+  // Appends " name=value" for each field, after " over=1" if the episode was over and nothing was run.
   void append(std::string& out, const Shown& shown);
   void append(std::string& out, const Slot& slot) { append(out, shown(slot)); }
 
-  // " final_name=value" for each that the machine shows: how an episode ended.
+  // Appends " final_name=value" for each field that the machine shows, at the end of an episode.
   void append_final(std::string& out, const Slot& slot);
 
  private:
@@ -68,7 +70,7 @@ class View {
   void append_value(std::string& out, std::size_t field, const Shown& shown);
 
   std::vector<Field> fields_;
-  std::vector<Encoder> encoders_;  // one a field
+  std::vector<Encoder> encoders_;  // one for each field
   std::vector<std::uint8_t> scratch_;
 };
 

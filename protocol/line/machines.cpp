@@ -16,16 +16,16 @@ constexpr std::array<std::string_view, 3> kAutoresets = {"next-step", "same-step
 struct Seat {
   Pacer pacer;
   std::optional<View> view;
-  bool done = false;            // with the request
-  std::exception_ptr no_fiber;  // why it was not begun
-  std::string text;             // the machine's part of the reply; kept for its memory
+  bool done = false;            // has finished the request
+  std::exception_ptr no_fiber;  // why its fiber could not start; else null
+  std::string text;             // the machine's part of the reply; a member to reuse its memory
 };
 
 }  // namespace
 
 std::span<const std::string_view> autoresets() { return kAutoresets; }
 
-// Each machine's part of a reply is made by itself before it is put into the whole.
+// Each machine writes its part of the reply into its own seat, since machines run on several threads.
 class Machines::Host final : public VectorHost {
  public:
   Host(Session& session, std::size_t count) : session_(session), seats_(count) {
@@ -67,7 +67,7 @@ struct Machines::Opened {
 
   Host host;
   VectorEnvironment vector;
-  std::size_t reply_bytes;  // that a reply may have
+  std::size_t reply_bytes;  // estimated length of a reply
 };
 
 Machines::Machines(Session& session) : session_(session) {}
@@ -94,20 +94,20 @@ void Machines::rest() {
   }
 }
 
-// So many machines with these fields. Throws Refusal when replies about them are longer than they may be, or
-// when there is no memory for the machines. Returns how many bytes a reply may have.
+// Checks whether `count` machines with these fields are possible. Throws RequestError if their replies would
+// exceed the limit, or if there is not enough memory. Returns the estimated length of a reply in bytes.
 std::size_t Machines::check(const std::vector<Field>& fields, std::size_t count, Autoreset autoreset) {
-  const std::size_t once = text_size(fields, session_.player->machine());
+  const std::size_t once = text_size(fields, session_.loaded->machine());
   const std::size_t reply = count * (autoreset == Autoreset::kSameStep ? 2 * once : once);
   session_.check_reply(reply, std::to_string(count) + " machines with these fields");
-  session_.memory.check(count * (sizeof(Seat) + Player::footprint(fields)) + 2 * reply,
+  session_.memory.check(count * (sizeof(Seat) + LoadedMachine::footprint(fields)) + 2 * reply,
                         std::to_string(count) + " machines with these fields");
   return reply;
 }
 
 std::size_t Machines::footprint(const std::vector<Field>& fields) const {
   if (empty()) return 0;
-  std::size_t bytes = size() * (sizeof(Seat) + Player::footprint(fields));
+  std::size_t bytes = size() * (sizeof(Seat) + LoadedMachine::footprint(fields));
   for (const auto& seat : opened_->host.seats()) bytes += seat->text.capacity();
   return bytes;
 }
@@ -146,7 +146,7 @@ void Machines::restart(std::span<const std::uint8_t> chosen, std::span<const std
   append_texts();
 }
 
-// A reset is taken to last as long as the machine's longest one so far.
+// Assumes that a reset takes as long as the machine's longest one so far.
 void Machines::check_frames(std::int64_t acts, std::span<const std::uint8_t> resets) const {
   std::int64_t frames = 0;
   for (std::size_t i = 0; i < size(); ++i) {
@@ -169,10 +169,11 @@ std::int64_t Machines::Host::frames() const {
   return frames;
 }
 
-// Rounds of a slice each; the session yields between them. A machine begins only while its round lasts, so
-// that no more machines are in progress than there are threads. The first begins in any case.
+// Works in rounds that last a slice each; the session yields between them. A machine begins only while its
+// round lasts, so that at most as many machines as threads are in progress. The first machine of a round
+// always begins.
 void Machines::Host::run_all(std::size_t count, const std::function<void(std::size_t)>& task) {
-  struct Guard {  // the task does not outlive this call
+  struct Guard {  // cancels all fibers, so that the task does not outlive this call
     ~Guard() {
       for (const auto& seat : of) seat->pacer.cancel();
     }
@@ -185,7 +186,7 @@ void Machines::Host::run_all(std::size_t count, const std::function<void(std::si
     seat->text.clear();
   }
   std::int64_t counted = frames();
-  for (std::size_t first = 0;;) {  // that is not done
+  for (std::size_t first = 0;;) {  // the first machine that is not done
     const auto end = session_.pacer.end();
     session_.run_parallel(count - first, [&](std::size_t i) {
       Seat& seat = *seats_[first + i];
@@ -203,7 +204,7 @@ void Machines::Host::run_all(std::size_t count, const std::function<void(std::si
   }
 }
 
-// On any thread; touches nothing but its own seat.
+// Runs on any thread, and touches only its own seat.
 void Machines::Host::work_on(Seat& seat, std::size_t number, const std::function<void(std::size_t)>& task,
                              Pacer::Clock::time_point end) {
   try {

@@ -1,5 +1,5 @@
-// Many machines in one session: `open`, `step`, `restart`. They are a vector environment whose machines run
-// in slices of time, on the server's threads, and whose results are text.
+// The machines of `open`, `step` and `restart`: a vector environment that runs on the server's threads in
+// slices of time, and writes its results as text.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ namespace racebeam {
 
 class Session;
 
-std::span<const std::string_view> autoresets();  // their names, as Autoreset counts
+std::span<const std::string_view> autoresets();  // names, in the order of Autoreset
 
 class Machines {
  public:
-  explicit Machines(Session& session);  // which outlives them
+  explicit Machines(Session& session);  // must outlive the machines
   ~Machines();
   Machines(const Machines&) = delete;
   Machines& operator=(const Machines&) = delete;
@@ -29,17 +29,17 @@ class Machines {
   bool empty() const { return opened_ == nullptr; }
   std::size_t size() const;
   Environment& machine(std::size_t number);
-  Pacer& pacer(std::size_t number);  // on which that machine runs
+  Pacer& pacer(std::size_t number);  // paces this machine
   void close();
-  void observe(const std::vector<Field>& fields);                 // throws Refusal, and changes nothing
-  void rest();                                                    // gives back memory that only saves time
-  std::size_t footprint(const std::vector<Field>& fields) const;  // bytes of memory, about
+  void observe(const std::vector<Field>& fields);  // may throw RequestError, and changes nothing then
+  void rest();                                     // releases caches
+  std::size_t footprint(const std::vector<Field>& fields) const;  // estimated bytes of memory
 
-  // Each appends its reply to session.out. All throw Refusal; `open` then leaves the machines that were
-  // there.
+  // Each appends its reply to session.out. All may throw RequestError; `open` then keeps the machines that
+  // were there.
   void open(std::size_t count, const SlotSettings& settings, Autoreset autoreset);
-  void step(std::span<const Act> acts);  // one each
-  // Those that are not 0; with a seed, or -1 for none, for each.
+  void step(std::span<const Act> acts);  // one for each machine
+  // Resets the machines whose byte in `chosen` is not 0. There is a seed for each machine; -1: none.
   void restart(std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds);
 
  private:

@@ -25,8 +25,8 @@ int whole(std::string_view value, std::string_view what, std::int64_t least, std
 bool flag(std::string_view value, std::string_view what) { return number_within(value, what, 0, 1) == 1; }
 
 [[noreturn]] void refuse(std::string_view what, std::string_view value, std::string_view accepted) {
-  throw Refusal(Code::kBadValue,
-                std::string(what) + " is " + quote(value) + "; it takes " + std::string(accepted));
+  throw RequestError(ErrorCode::kBadValue,
+                     std::string(what) + " is " + quote(value) + "; it takes " + std::string(accepted));
 }
 
 void set_seed(PlaySettings& settings, std::string_view value) {
@@ -98,17 +98,18 @@ void append_reward_limit(std::string& out, int limit, int none) {
   }
 
 constexpr std::array kSettings = {
-    SettingRow{"preset", "none or a preset's name", "settings of the literature, which others then change",
-               set_preset,
+    SettingRow{"preset", "none or a preset's name",
+               "a set of settings from the literature; other keys override it", set_preset,
                [](std::string& out, const PlaySettings& s, const Environment&) { out += s.preset; }},
-    SettingRow{"seed", "0 to 4294967295", "of all that is random in play; 0: the server picks one", set_seed,
+    SettingRow{"seed", "0 to 4294967295",
+               "seed of everything that is random in play; 0: the server chooses one", set_seed,
                ECHO(std::int64_t{e.settings().random_seed})},
-    SettingRow{"system_seed", "0 to 4294967295", "of what is in memory at power-on", set_system_seed,
+    SettingRow{"system_seed", "0 to 4294967295", "seed of the memory's contents at power-on", set_system_seed,
                ECHO(std::int64_t{s.machine.system_seed})},
     SettingRow{"frame_skip", "1 to 1000, or a range such as 2-4",
-               "frames that an act lasts; of a range, each act draws one, 2, 3 or 4", set_frame_skip,
+               "frames of an act; with a range, each act draws its number from it", set_frame_skip,
                append_frame_skip},
-    SettingRow{"sticky", "0 to 1", "probability that a frame repeats the action before it", set_sticky,
+    SettingRow{"sticky", "0 to 1", "probability that a frame repeats the previous action", set_sticky,
                [](std::string& out, const PlaySettings& s, const Environment&) {
                  std::array<char, 32> digits;
                  out.append(
@@ -135,25 +136,25 @@ constexpr std::array kSettings = {
     SettingRow{
         "action_set", "full, legal or minimal", "the actions that `act` accepts", set_action_set,
         [](std::string& out, const PlaySettings& s, const Environment&) { out += name_of(s.action_set); }},
-    SettingRow{"reward_min", "none or a whole number", "an act's reward is raised to it",
+    SettingRow{"reward_min", "none or a whole number", "an act's reward is clamped to at least this",
                READ(s.machine.reward_min = reward_limit(value, "reward_min", kLeastReward)),
                [](std::string& out, const PlaySettings& s, const Environment&) {
                  append_reward_limit(out, s.machine.reward_min, kLeastReward);
                }},
-    SettingRow{"reward_max", "none or a whole number", "an act's reward is lowered to it",
+    SettingRow{"reward_max", "none or a whole number", "an act's reward is clamped to at most this",
                READ(s.machine.reward_max = reward_limit(value, "reward_max", kMostReward)),
                [](std::string& out, const PlaySettings& s, const Environment&) {
                  append_reward_limit(out, s.machine.reward_max, kMostReward);
                }},
     SettingRow{"rules", "ale-0.12 or fixed",
-               "how score and end are found: as the reference does, or corrected where it errs", set_rules,
+               "rules of score and end: those of the reference, or corrected ones", set_rules,
                [](std::string& out, const PlaySettings& s, const Environment&) {
                  out += kRules[static_cast<std::size_t>(s.machine.rules)];
                }},
     SettingRow{"color_averaging", "0 or 1", "blend each screen with the one before it",
                READ(s.machine.color_averaging = flag(value, "color_averaging")),
                ECHO(std::int64_t{s.machine.color_averaging})},
-    SettingRow{"sound", "0 or 1", "make the samples of the field audio",
+    SettingRow{"sound", "0 or 1", "generate the samples of the field audio",
                READ(s.machine.sound = flag(value, "sound")), ECHO(std::int64_t{s.machine.sound})},
 };
 
@@ -166,7 +167,7 @@ constexpr std::array kPresets = {
     PresetRow{"dqn2015",
               "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=18000 life_loss_ends=1 "
               "noop_max=30 reward_min=-1 reward_max=1",
-              "Mnih et al. 2015, as in training; evaluate with life_loss_ends=0 and rewards as they are"},
+              "Mnih et al. 2015, as in training; evaluate with life_loss_ends=0 and unclamped rewards"},
     PresetRow{"machado2018", "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000",
               "Machado et al. 2018"},
     PresetRow{"gym-v5", "frame_skip=4 sticky=0.25 action_set=minimal max_episode_frames=108000",
@@ -178,7 +179,7 @@ const SettingRow& setting_row(std::string_view name, Words other_keys) {
   if (found != kSettings.end()) return *found;
   auto known = names_of(kSettings);
   known.insert(known.end(), other_keys.begin(), other_keys.end());
-  refuse_name(Code::kBadArguments, "setting", name, known);
+  refuse_name(ErrorCode::kBadArguments, "setting", name, known);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct SettingRow {
   std::string_view name;
   std::string_view accepted;  // for people
   std::string_view summary;
-  void (*set)(PlaySettings& settings, std::string_view value);  // throws Refusal
+  void (*set)(PlaySettings& settings, std::string_view value);  // throws RequestError
   void (*append)(std::string& out, const PlaySettings& settings, const Environment& machine);
 };
 std::span<const SettingRow> setting_rows();
@@ -40,14 +40,14 @@ struct PresetRow {
 };
 std::span<const PresetRow> preset_rows();
 
-// The words key=value of a request; a preset comes first, wherever it stands. Throws Refusal, which lists
-// `other_keys` with the settings: those that the request may have beside them.
+// The words key=value of a request; a preset comes first, wherever it stands. Throws RequestError, which
+// lists `other_keys` with the settings: those that the request may have beside them.
 void read_settings(Words words, PlaySettings& settings, Words other_keys = {});
 
 // " key=value" for every setting, as it is in effect.
 void append_settings(std::string& out, const PlaySettings& settings, const Environment& machine);
 
 std::string_view name_of(ActionSet set);
-std::uint32_t parse_seed(std::string_view text);  // throws Refusal
+std::uint32_t parse_seed(std::string_view text);  // throws RequestError
 
 }  // namespace racebeam

@@ -11,21 +11,22 @@
 namespace racebeam {
 namespace {
 
-// Waking a client that sleeps takes the time of a step, sending that of some more: the replies of requests
-// that were sent ahead go out together, when kLastRequests are left, which are answered while the client
-// reads and sends the next. No more of them wait than this.
+// Waking a sleeping client takes as long as a step, and sending takes longer still. The replies to requests
+// that were sent ahead are therefore sent together, when kLastRequests requests are left. The session answers
+// those while the client reads. The other constants limit how many replies wait.
 constexpr std::size_t kLastRequests = 3;
 constexpr int kFewReplies = 4;
-constexpr int kFramesOfReplies = 64;              // some hundred microseconds
-constexpr std::size_t kBytesOfReplies = 1 << 16;  // some twenty with a screen
+constexpr int kFramesOfReplies = 64;              // take some hundred microseconds
+constexpr std::size_t kBytesOfReplies = 1 << 16;  // about twenty screens
 
 constexpr std::size_t kShortLine = 4096;
-constexpr std::size_t kBytesOfWord =
-    48;  // that each word of a request may take, an action and its reward; two bytes at least
+// Memory that a word of a request may take, as an action and as its reward. A word has at least two bytes,
+// with the space.
+constexpr std::size_t kBytesOfWord = 48;
 
 const LineLimits& limits(const LineService& service) { return service.limits; }
 
-// The most bytes of a line. A client without a token needs only short ones.
+// Returns how many bytes a line may have. A client without a token needs only short lines.
 std::size_t longest_line(const LineService& service, bool admitted) {
   constexpr std::size_t kLongestBefore = 4096;
   return admitted ? limits(service).line : std::min(kLongestBefore, limits(service).line);
@@ -36,7 +37,7 @@ std::size_t first_unprintable(std::string_view line) {
   return static_cast<std::size_t>(bad - line.begin());
 }
 
-// A sentence can quote what came as base64, and that may be any bytes.
+// A sentence may quote text that the client sent as base64, and that may be any bytes.
 void append_printable(std::string& out, std::string_view sentence) {
   for (const char c : sentence) out += c < ' ' || c > '~' ? '?' : c;
 }
@@ -45,8 +46,9 @@ void check_bytes(std::string_view line) {
   const std::size_t bad = first_unprintable(line);
   if (bad == line.size()) return;
   const auto byte = static_cast<unsigned char>(line[bad]);
-  throw Refusal(Code::kBadLine, "byte " + std::to_string(bad + 1) + " of the line has the value " +
-                                    std::to_string(byte) + "; a request is printable ASCII, 32 to 126");
+  throw RequestError(ErrorCode::kBadLine, "byte " + std::to_string(bad + 1) + " of the line has the value " +
+                                              std::to_string(byte) +
+                                              "; a request is printable ASCII, 32 to 126");
 }
 
 }  // namespace
@@ -63,7 +65,7 @@ Session::Session(const LineService& with, const CommandTable& table, Meter* coun
   memory.set(footprint());
 }
 
-// Before what they use.
+// The fiber and the recording use the other members, so they go first.
 Session::~Session() {
   pacer.cancel();
   recording.reset();
@@ -74,8 +76,8 @@ void Session::check_frames(std::int64_t acts, std::int64_t frames) const {
   frames += acts * std::max(machine.frame_skip, machine.frame_skip_max);
   const std::int64_t most = limits(service).request_frames;
   if (frames <= most) return;
-  throw Refusal(Code::kLimit, "the request asks for " + std::to_string(frames) + " frames; it may ask for " +
-                                  std::to_string(most));
+  throw RequestError(ErrorCode::kLimit, "the request asks for " + std::to_string(frames) +
+                                            " frames; it may ask for " + std::to_string(most));
 }
 
 void Session::allow_resets(std::size_t count) {
@@ -85,8 +87,9 @@ void Session::allow_resets(std::size_t count) {
 void Session::check_reply(std::size_t bytes, const std::string& about) const {
   const std::size_t most = limits(service).reply;
   if (bytes <= most) return;
-  throw Refusal(Code::kLimit, "a reply about " + about + " would have about " + std::to_string(bytes) +
-                                  " bytes; it may have " + std::to_string(most));
+  throw RequestError(ErrorCode::kLimit, "a reply about " + about + " would have about " +
+                                            std::to_string(bytes) + " bytes; it may have " +
+                                            std::to_string(most));
 }
 
 void Session::admit() {
@@ -105,7 +108,7 @@ void Session::append_cut() {
 }
 
 void Session::stop_recording_machines() {
-  if (recording && !recording->shows(player->machine())) recording.reset();
+  if (recording && !recording->shows(loaded->machine())) recording.reset();
 }
 
 void Session::run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const {
@@ -123,7 +126,7 @@ bool Session::run(std::chrono::microseconds slice) {
   return more && !done_;
 }
 
-// A reader that is slow holds up its own requests only.
+// Whether enough output waits to be sent. A client that reads slowly thus delays only its own requests.
 bool Session::has_enough() const {
   return pacer.frames() - sent_frames_ >= kFramesOfReplies ||
          out.size() >= std::min(kBytesOfReplies, limits(service).output);
@@ -141,7 +144,7 @@ bool Session::wants_more() const {
 
 bool Session::waits() const { return pacer.in_progress() && recording && recording->is_behind(); }
 
-// A request, or a part of one; false when there is nothing to do before something comes in.
+// Works on a request until `end`. Returns false if there is nothing to do before more input comes.
 bool Session::go_on(Clock::time_point end) {
   if (pacer.in_progress()) {
     pacer.go_on(end);
@@ -160,7 +163,7 @@ bool Session::go_on(Clock::time_point end) {
   return true;
 }
 
-void Session::refuse(Code code, std::string_view sentence) {
+void Session::refuse(ErrorCode code, std::string_view sentence) {
   out.resize(reply_);
   ((out += "error ") += name_of(code)) += ' ';
   append_printable(out, sentence);
@@ -172,20 +175,20 @@ template <typename Step>
 void Session::guarded(Step step) {
   try {
     step();
-  } catch (const Refusal& refusal) {
-    refuse(refusal.code(), refusal.what());
+  } catch (const RequestError& error) {
+    refuse(error.code(), error.what());
   } catch (const InvalidInput& error) {
-    refuse(Code::kBadValue, error.what());
+    refuse(ErrorCode::kBadValue, error.what());
   } catch (const std::bad_alloc&) {
-    refuse(Code::kLimit, "the system has no more memory for this request");
+    refuse(ErrorCode::kLimit, "the system has no more memory for this request");
   } catch (const std::exception& error) {
     refuse_fault(error.what());
   }
 }
 
-// An error of the server itself: it is logged, too.
+// Reports an internal error of the server, and logs it.
 void Session::refuse_fault(const std::string& what) {
-  refuse(Code::kInternal, what);
+  refuse(ErrorCode::kInternal, what);
   const std::string name(command_ < table_.commands.size() ? table_.commands[command_].name : "a request");
   if (service.report_fault) service.report_fault("internal error in " + name + ": " + what);
 }
@@ -198,12 +201,12 @@ void Session::begin_request() {
   refused_ = false;
 }
 
-// A comment: it has no reply.
+// Whether the line is a comment, which gets no reply.
 bool Session::ignores(const LineReader::Line& line) {
   const std::size_t first = line.text.find_first_not_of(' ');
   if (first == std::string_view::npos || line.text[first] != '#') return false;
   statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
-  began_ = looked_ = Clock::now();  // of the next request
+  began_ = looked_ = Clock::now();  // when the next request begins
   return true;
 }
 
@@ -211,16 +214,16 @@ void Session::take(const LineReader::Line& line) {
   statistics.bytes_in += static_cast<std::int64_t>(line.text.size() + 1);
   if (line.kind == LineReader::Kind::kLine) return execute(line.text);
   if (line.kind == LineReader::Kind::kHalf)
-    throw Refusal(Code::kHalfLine, "the input ended within a line; it was not carried out");
-  throw Refusal(Code::kLineTooLong,
-                "the line has more than " + std::to_string(input.longest()) + " bytes; it was skipped");
+    throw RequestError(ErrorCode::kHalfLine, "the input ended within a line; it was not carried out");
+  throw RequestError(ErrorCode::kLineTooLong,
+                     "the line has more than " + std::to_string(input.longest()) + " bytes; it was skipped");
 }
 
 void Session::execute(std::string_view line) {
   if (line.size() > kShortLine) memory.check(kBytesOfWord / 2 * line.size(), "a line of so many words");
   check_bytes(line);
   read_words(line);
-  if (words_.empty()) throw Refusal(Code::kBadLine, "the line is empty; help lists the commands");
+  if (words_.empty()) throw RequestError(ErrorCode::kBadLine, "the line is empty; help lists the commands");
   const Command& command = table_.find(words_[0]);
   command_ = table_.row(command);
   const Words arguments = Words(words_).subspan(1);
@@ -228,7 +231,7 @@ void Session::execute(std::string_view line) {
   command.run(*this, arguments);
 }
 
-// A line may have half a million.
+// Splits the line into words_. There may be half a million.
 void Session::read_words(std::string_view line) {
   constexpr std::size_t kWordsBetweenLooks = 1024;
   words_.clear();
@@ -245,7 +248,7 @@ void Session::finish_reply() {
   done_ = quitting || refused();
   memory.set(footprint());
   if (meter_) measure();
-  began_ = looked_;  // the next, if it is there
+  began_ = looked_;  // when the next request begins, if it is here
 }
 
 void Session::measure() {
@@ -254,18 +257,18 @@ void Session::measure() {
   metered_frames_ = statistics.frames;
 }
 
-// Bytes, about. Of what changes within a request, what is large is checked before it is taken.
+// Estimates the bytes of memory that the session holds. A request checks large allocations by itself.
 std::size_t Session::footprint() const {
   constexpr std::size_t kSession = std::size_t{48} << 10;  // with connection, fiber and buffers
   std::size_t bytes = kSession + out.capacity() + input.capacity() + states.footprint() +
                       machines.footprint(fields) + actions.capacity() * sizeof(Action) +
                       step_acts.capacity() * sizeof(Act) + words_.capacity() * sizeof(std::string_view);
-  if (player) bytes += Player::footprint(fields);
+  if (loaded) bytes += LoadedMachine::footprint(fields);
   if (has_own_image) bytes += kOwnImage;
   return bytes;
 }
 
-// A line that there is no memory for is too long.
+// If there is no memory for a longer line, the line is treated as too long.
 std::span<char> Session::space() {
   if (const std::size_t growth = input.growth(); growth > 0 && !memory.grow(growth)) input.cut_line();
   return input.space();
@@ -291,8 +294,8 @@ void Session::cancel() {
 }
 
 void Session::rest() {
-  if (pacer.in_progress()) return;  // a request waits for a reader that is slow; its words are in use
-  if (player) player->machine().rest();
+  if (pacer.in_progress()) return;  // the request, whose words are in use, waits for its client to read
+  if (loaded) loaded->machine().rest();
   machines.rest();
   if (out.empty()) out.shrink_to_fit();
   std::vector<Action>().swap(actions);

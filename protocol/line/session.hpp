@@ -1,4 +1,4 @@
-// The inside of a LineSession: what the commands work on.
+// The implementation of a LineSession, and the context of its commands.
 #pragma once
 
 #include <chrono>
@@ -11,9 +11,9 @@
 
 #include "protocol/line/line_reader.hpp"
 #include "protocol/line/line_service.hpp"
+#include "protocol/line/loaded_machine.hpp"
 #include "protocol/line/machines.hpp"
 #include "protocol/line/meter.hpp"
-#include "protocol/line/player.hpp"
 #include "protocol/line/states.hpp"
 #include "protocol/running/memory_budget.hpp"
 #include "protocol/running/pacer.hpp"
@@ -23,10 +23,10 @@ namespace racebeam {
 struct CommandTable;
 class SessionRecording;
 
-// What a machine may run beyond what was asked for: powering on and an ordinary reset take some 130 frames.
+// Frames that a machine may run beyond those of the request. Power-on and an ordinary reset take about 130.
 constexpr std::int64_t kFreeResetFrames = 1000;
 
-// An image that a client has sent may be translated to so much code.
+// The most code, in bytes, that the translator makes of an image that the client sent.
 constexpr std::size_t kOwnImage = std::size_t{4} << 20;
 
 struct Statistics {
@@ -35,7 +35,7 @@ struct Statistics {
 
 class Session {
  public:
-  // All outlive the session. `counting` may be null.
+  // All arguments must outlive the session. `counting` may be null.
   Session(const LineService& with, const CommandTable& table, Meter* counting);
   ~Session();
 
@@ -43,43 +43,45 @@ class Session {
   LineReader input;
   std::string out;
   bool quitting = false;
-  bool admitted;         // true once a token was given, or where none is needed
-  int wrong_tokens = 0;  // so far
-  int columns = 0;       // of the terminal that a person reads; 0: a program does
+  bool admitted;         // the client gave a valid token, or none is needed
+  int wrong_tokens = 0;  // how many the client gave
+  int columns = 0;       // width of the terminal if a person types; 0: the client is a program
   Statistics statistics;
-  Pacer pacer;  // a request runs as its body
+  Pacer pacer;  // each request runs as its body
 
-  // The game that was loaded; `player` is null without one.
+  // The loaded game. `loaded` is null if there is none.
   Cartridge cartridge;
   bool has_own_image = false;  // the client sent it; other sessions do not share it
   PlaySettings settings;
-  std::vector<Field> fields;  // chosen by `observe`; stay when another game is loaded
-  std::unique_ptr<Player> player;
+  std::vector<Field> fields;  // selected by `observe`; they persist across `load`
+  std::unique_ptr<LoadedMachine> loaded;
   States states;
-  std::unique_ptr<SessionRecording> recording;  // null: none was begun, or it was stopped
+  std::unique_ptr<SessionRecording> recording;  // null if nothing is being recorded
 
-  MemoryShare memory;           // of the server's; what a request is going to take is checked before
-  std::vector<Action> actions;  // of a request; kept for their memory
-  std::vector<Act> step_acts;   // the same, of `step`
+  MemoryShare memory;           // of the server's budget; a request checks it before it allocates
+  std::vector<Action> actions;  // of the current request; members to reuse their memory
+  std::vector<Act> step_acts;   // the same for `step`
   Machines machines;
 
-  // Throws Refusal when so many acts, and frames beside them, are more than a request may ask for.
+  // Throws RequestError if these acts, and these frames in addition, exceed --max-request-frames.
   void check_frames(std::int64_t acts, std::int64_t frames = 0) const;
-  void allow_resets(std::size_t machines);  // the request resets so many, for as long as its frames last
-  void check_reply(std::size_t bytes, const std::string& about) const;  // throws Refusal when it is too long
-  void admit();                                                         // a token was right
-  void count(const Outcome& outcome);                                   // into the statistics
-  void append_cut();               // to a reply, when the recording has ended too early
-  void stop_recording_machines();  // those of `open` will go
+  // Lets the request reset this many machines. The pacer then stops it at the frames that it may run.
+  void allow_resets(std::size_t machines);
+  // Throws RequestError if a reply of this estimated length would exceed the limit. `about` is its subject.
+  void check_reply(std::size_t bytes, const std::string& about) const;
+  void admit();                        // the client gave a valid token
+  void count(const Outcome& outcome);  // adds it to the statistics
+  void append_cut();                   // notes in the reply that the recording has ended early
+  void stop_recording_machines();      // stops a recording of machines of `open`, which are about to go
   void run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
 
   std::span<char> space();
   bool run(std::chrono::microseconds slice);
   Pacer::Clock::duration worked() const { return worked_; }
-  std::string_view whole_replies() const;  // not the one that is being worked on: it may yet be refused
-  void sent(std::size_t count);            // of them
+  std::string_view whole_replies() const;  // without that of a request in progress, which may still fail
+  void sent(std::size_t count);            // removes this many bytes of them
   bool wants_more() const;                 // see LineSession
-  bool waits() const;                      // the same
+  bool waits() const;                      // see LineSession
   bool finished() const { return done_; }
   bool refused() const { return service.strict && statistics.errors > 0; }
   void cancel();
@@ -96,7 +98,7 @@ class Session {
   void take(const LineReader::Line& line);
   void execute(std::string_view line);
   void read_words(std::string_view line);
-  void refuse(Code code, std::string_view sentence);
+  void refuse(ErrorCode code, std::string_view sentence);
   void refuse_fault(const std::string& what);
   std::size_t footprint() const;
   void finish_reply();
@@ -106,17 +108,17 @@ class Session {
 
   const CommandTable& table_;
   std::vector<std::string_view> words_;
-  std::size_t reply_ = 0;         // where in `out` the current reply begins
-  int unsent_ = 0;                // whole replies in `out`
-  std::int64_t sent_frames_ = 0;  // of the pacer's, those before the replies in `out`
+  std::size_t reply_ = 0;         // offset of the current reply in `out`
+  int unsent_ = 0;                // number of whole replies in `out`
+  std::int64_t sent_frames_ = 0;  // pacer.frames() when `out` was last sent
   bool done_ = false;
-  Clock::time_point began_;   // the current request
-  Clock::time_point looked_;  // at the clock, the last time
-  Clock::duration worked_{};  // in the last run()
+  Clock::time_point began_;   // when the current request began
+  Clock::time_point looked_;  // when the clock was last read
+  Clock::duration worked_{};  // duration of the last run()
 
-  // The server's metrics of this session; null: none.
+  // The server's metrics; null if it has none.
   Meter* meter_;
-  std::size_t command_ = 0;  // of the request: its row in the table
+  std::size_t command_ = 0;  // row of the request's command in the table
   bool refused_ = false;
   std::int64_t metered_frames_ = 0;
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "protocol/line/player.hpp"
+#include "protocol/line/loaded_machine.hpp"
 
 namespace racebeam {
 

@@ -38,22 +38,22 @@ std::int64_t number_within(std::string_view text, std::string_view what, std::in
                            std::int64_t most) {
   const auto number = parse_number<std::int64_t>(text);
   if (number && *number >= least && *number <= most) return *number;
-  throw Refusal(Code::kBadValue, std::string(what) + " is " + quote(text) +
-                                     "; it takes a whole number from " + std::to_string(least) + " to " +
-                                     std::to_string(most));
+  throw RequestError(ErrorCode::kBadValue, std::string(what) + " is " + quote(text) +
+                                               "; it takes a whole number from " + std::to_string(least) +
+                                               " to " + std::to_string(most));
 }
 
 KeyValue key_value(std::string_view word) {
   const std::size_t equals = word.find('=');
   if (equals != std::string_view::npos) return {word.substr(0, equals), word.substr(equals + 1)};
-  throw Refusal(Code::kBadArguments, quote(word) + " is not of the form key=value");
+  throw RequestError(ErrorCode::kBadArguments, quote(word) + " is not of the form key=value");
 }
 
 std::string_view value_of(std::string_view word, std::string_view key, std::string_view command) {
   if (word.size() > key.size() && word.starts_with(key) && word[key.size()] == '=')
     return word.substr(key.size() + 1);
-  throw Refusal(Code::kBadArguments, quote(word) + " is not accepted here; " + std::string(command) +
-                                         " takes " + std::string(key) + "=");
+  throw RequestError(ErrorCode::kBadArguments, quote(word) + " is not accepted here; " +
+                                                   std::string(command) + " takes " + std::string(key) + "=");
 }
 
 std::string advice(std::string_view given, Words known, std::string accepted) {
@@ -62,11 +62,11 @@ std::string advice(std::string_view given, Words known, std::string accepted) {
   return meant + ' ' + accepted;
 }
 
-void refuse_name(Code code, std::string_view kind, std::string_view name, Words known) {
+void refuse_name(ErrorCode code, std::string_view kind, std::string_view name, Words known) {
   std::string list = "there are";
   for (const std::string_view one : known) (list += ' ') += one;
-  throw Refusal(code,
-                "there is no " + std::string(kind) + ' ' + quote(name) + ';' + advice(name, known, list));
+  throw RequestError(
+      code, "there is no " + std::string(kind) + ' ' + quote(name) + ';' + advice(name, known, list));
 }
 
 std::size_t choice_of(std::string_view value, std::string_view what, Words accepted) {
@@ -77,12 +77,12 @@ std::size_t choice_of(std::string_view value, std::string_view what, Words accep
     if (&one != &accepted.front()) list += &one == &accepted.back() ? " or " : ", ";
     list += one;
   }
-  throw Refusal(Code::kBadValue,
-                std::string(what) + " is " + quote(value) + ';' + advice(value, accepted, list));
+  throw RequestError(ErrorCode::kBadValue,
+                     std::string(what) + " is " + quote(value) + ';' + advice(value, accepted, list));
 }
 
 void refuse_twice(std::string_view key) {
-  throw Refusal(Code::kBadArguments, std::string(key) + " is given twice");
+  throw RequestError(ErrorCode::kBadArguments, std::string(key) + " is given twice");
 }
 
 std::string_view cut_behind(std::string_view& text, char mark) {
@@ -96,8 +96,8 @@ std::string_view cut_behind(std::string_view& text, char mark) {
 std::string_view checked_name(std::string_view text, std::string_view what) {
   constexpr std::size_t kLongest = 64;
   if (!text.empty() && text.size() <= kLongest && std::ranges::all_of(text, is_name_letter)) return text;
-  throw Refusal(Code::kBadValue, quote(text) + " is not a name for a " + std::string(what) +
-                                     "; it takes 1 to 64 letters, digits, - and _");
+  throw RequestError(ErrorCode::kBadValue, quote(text) + " is not a name for a " + std::string(what) +
+                                               "; it takes 1 to 64 letters, digits, - and _");
 }
 
 std::vector<std::uint8_t> bytes_of_hex(std::string_view digits) {
@@ -108,7 +108,8 @@ std::vector<std::uint8_t> bytes_of_hex(std::string_view digits) {
     const auto [end, error] = std::from_chars(pair, pair + 2, bytes[i], 16);
     good = error == std::errc{} && end == pair + 2;
   }
-  if (!good) throw Refusal(Code::kBadValue, quote(digits) + " are not hexadecimal bytes, two digits each");
+  if (!good)
+    throw RequestError(ErrorCode::kBadValue, quote(digits) + " are not hexadecimal bytes, two digits each");
   return bytes;
 }
 

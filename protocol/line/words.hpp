@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 
 namespace racebeam {
 
@@ -33,17 +33,17 @@ std::optional<Number> parse_number(std::string_view text) {
   return number;
 }
 
-// A whole number from `least` to `most`. Throws Refusal(kBadValue), which names it `what`.
+// A whole number from `least` to `most`. Throws RequestError(kBadValue), which names it `what`.
 std::int64_t number_within(std::string_view text, std::string_view what, std::int64_t least,
                            std::int64_t most);
 
 struct KeyValue {
   std::string_view key, value;
 };
-// Throws Refusal(kBadArguments) if there is no '='.
+// Throws RequestError(kBadArguments) if there is no '='.
 KeyValue key_value(std::string_view word);
 
-// The value of key=value, if `command` accepts only this key. Throws Refusal(kBadArguments).
+// The value of key=value, if `command` accepts only this key. Throws RequestError(kBadArguments).
 std::string_view value_of(std::string_view word, std::string_view key, std::string_view command);
 
 template <typename Rows>
@@ -58,22 +58,23 @@ std::vector<std::string_view> names_of(const Rows& rows) {  // the names of a ta
 std::string advice(std::string_view given, Words known, std::string accepted);
 
 // "there is no KIND 'NAME'; did you mean A? There are A B C"
-[[noreturn]] void refuse_name(Code code, std::string_view kind, std::string_view name, Words known);
+[[noreturn]] void refuse_name(ErrorCode code, std::string_view kind, std::string_view name, Words known);
 
-// The index of `value` in `accepted`. Throws Refusal(kBadValue): "WHAT is 'VALUE'; did you mean A? It takes
-// A, B or C".
+// The index of `value` in `accepted`. Throws RequestError(kBadValue): "WHAT is 'VALUE'; did you mean A? It
+// takes A, B or C".
 std::size_t choice_of(std::string_view value, std::string_view what, Words accepted);
 
-[[noreturn]] void refuse_twice(std::string_view key);  // Refusal(kBadArguments)
+[[noreturn]] void refuse_twice(std::string_view key);  // RequestError(kBadArguments)
 
 // Removes the first `mark` and the text after it from `text`. Returns the text after it; "" if there is no
 // mark.
 std::string_view cut_behind(std::string_view& text, char mark);
 
-// A name for something that a client saves: 1 to 64 letters, digits, '-' and '_'. Throws Refusal(kBadValue).
+// A name for something that a client saves: 1 to 64 letters, digits, '-' and '_'. Throws
+// RequestError(kBadValue).
 std::string_view checked_name(std::string_view text, std::string_view what);
 
-std::vector<std::uint8_t> bytes_of_hex(std::string_view digits);  // Throws Refusal(kBadValue)
+std::vector<std::uint8_t> bytes_of_hex(std::string_view digits);  // Throws RequestError(kBadValue)
 
 void append_number(std::string& out, std::int64_t number);
 void append_number(std::string& out, double number);               // the shortest text that reads back

@@ -1,6 +1,6 @@
 #include "protocol/running/memory_budget.hpp"
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 
 namespace racebeam {
 
@@ -28,10 +28,10 @@ bool MemoryShare::grow(std::size_t bytes) {
 
 void MemoryShare::check(std::size_t bytes, const std::string& what) {
   if (grow(bytes)) return;
-  throw Refusal(Code::kLimit, what + " would take about " + std::to_string(bytes >> 10) +
-                                  " KiB of memory; the server's sessions hold " +
-                                  std::to_string(budget_->taken() >> 20) + " MiB and may hold " +
-                                  std::to_string(budget_->most() >> 20) + " MiB");
+  throw RequestError(ErrorCode::kLimit, what + " would take about " + std::to_string(bytes >> 10) +
+                                            " KiB of memory; the server's sessions hold " +
+                                            std::to_string(budget_->taken() >> 20) + " MiB and may hold " +
+                                            std::to_string(budget_->most() >> 20) + " MiB");
 }
 
 }  // namespace racebeam

@@ -43,7 +43,7 @@ class MemoryShare {
 
   void set(std::size_t bytes);   // what the owner holds
   bool grow(std::size_t bytes);  // returns false, and takes nothing, if less is left
-  void check(std::size_t bytes, const std::string& what);  // as grow(), but throws Refusal
+  void check(std::size_t bytes, const std::string& what);  // as grow(), but throws RequestError
 
   std::size_t bytes() const { return bytes_; }
 

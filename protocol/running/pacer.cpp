@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 
 namespace racebeam {
 
@@ -12,8 +12,8 @@ void Pacer::allow_frames(std::int64_t more) {
 }
 
 void Pacer::refuse() const {
-  throw Refusal(Code::kLimit, "the request would run more than " + std::to_string(allowed_) +
-                                  " frames; powering on, reaching a mode and no-ops count, too");
+  throw RequestError(ErrorCode::kLimit, "the request would run more than " + std::to_string(allowed_) +
+                                            " frames; powering on, reaching a mode and no-ops count, too");
 }
 
 }  // namespace racebeam

@@ -50,8 +50,8 @@ class Pacer final : public Pace {
     if (in_progress()) fiber_.suspend();
   }
 
-  // Frames that other threads have run for this body. Throws Refusal when there are more than allow_frames()
-  // said.
+  // Frames that other threads have run for this body. Throws RequestError when there are more than
+  // allow_frames() said.
   void count(std::int64_t frames) {
     frames_ += frames;
     if (frames_ > most_frames_) refuse();

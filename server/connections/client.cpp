@@ -35,7 +35,7 @@ void Client::rest() {
   if (on_rest && !std::exchange(rests_, true)) on_rest();
 }
 
-void Client::end(Code code, const std::string& sentence) {
+void Client::end(ErrorCode code, const std::string& sentence) {
   boost::system::error_code ignored;
   if (ending()) {
     if (Clock::now() - ended_ > 2s) socket.close(ignored);

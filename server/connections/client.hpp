@@ -9,7 +9,7 @@
 
 #include <boost/asio.hpp>
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 #include "server/access/wrong_tokens.hpp"
 #include "server/connections/lobby.hpp"
 #include "server/scheduling/loops.hpp"
@@ -43,7 +43,7 @@ class Client {
 
   // Ends the session: cancels what it waits for, and sends it the error. A client that does not read the
   // error within two seconds is disconnected by the next end().
-  void end(Code code, const std::string& sentence);
+  void end(ErrorCode code, const std::string& sentence);
   bool ending() const { return !farewell_.empty(); }
   const std::string& farewell() const { return farewell_; }  // a reply of the line protocol
   const std::string& reason() const { return reason_; }      // for the log

@@ -190,7 +190,7 @@ void ConnectionAcceptor::admit(Socket socket, Loop& loop, const Listener& listen
   if (const auto why = obstacle(service)) {
     ++metrics_.refused_busy;
     log_warning(client->name + ": refused, " + *why);
-    client->end(Code::kBusy, *why + "; try again later");
+    client->end(ErrorCode::kBusy, *why + "; try again later");
     const bool understands = !listener.endpoint().classic && !listener.endpoint().tls;
     net::co_spawn(loop.context, turn_away(std::move(client), understands), net::detached);
     return;

@@ -33,7 +33,7 @@ void IdleMonitor::end_all() {
     net::post(loop.context, [this, &loop] {
       for (Client* client : loop.clients) {
         ++metrics_.ended_stopping;
-        client->end(Code::kStopping, "the server stops");
+        client->end(ErrorCode::kStopping, "the server stops");
       }
     });
   }
@@ -53,15 +53,15 @@ void IdleMonitor::look_at(Client& client) {
   const auto now = Clock::now();
   const auto idle = seconds(settings_.idle_seconds), handshake = seconds(settings_.handshake_seconds);
   if (client.ending()) {
-    client.end(Code::kIdle, {});  // with its second call, the client is disconnected
+    client.end(ErrorCode::kIdle, {});  // with its second call, the client is disconnected
   } else if (!client.admitted && now - client.came() > handshake) {
     ++metrics_.ended_handshake;
-    client.end(Code::kUnauthorized, why_no_token(client, settings_.handshake_seconds));
+    client.end(ErrorCode::kUnauthorized, why_no_token(client, settings_.handshake_seconds));
   } else if (client.working) {
     return;
   } else if (idle > 0s && now - client.active() > idle) {
     ++metrics_.ended_idle;
-    client.end(Code::kIdle,
+    client.end(ErrorCode::kIdle,
                "nothing came or went for " + std::to_string(settings_.idle_seconds) + " seconds");
   } else if (now - client.active() > kPause) {
     client.rest();

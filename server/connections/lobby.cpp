@@ -16,7 +16,8 @@ bool Lobby::make_room(const std::string& sentence) {
   auto client = take_first();
   if (!client) return false;
   auto& context = client->loop.context;
-  boost::asio::post(context, [client = std::move(client), sentence] { client->end(Code::kBusy, sentence); });
+  boost::asio::post(context,
+                    [client = std::move(client), sentence] { client->end(ErrorCode::kBusy, sentence); });
   return true;
 }
 

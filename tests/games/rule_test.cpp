@@ -9,7 +9,7 @@
 using namespace racebeam;
 using Catch::Contains;
 
-static_assert(std::is_trivially_copyable_v<Tally>);
+static_assert(std::is_trivially_copyable_v<RuleState>);
 
 TEST_CASE("a rule counts the change of the score, unless it says what the reward is") {
   const Game game = game_with_step("score = ram[0x80]\nterminal = ram[0x81] == 1");
@@ -99,20 +99,20 @@ TEST_CASE("a rule can answer lives and the end in its own way") {
   CHECK(rule.lives() == 4);
 }
 
-TEST_CASE("a tally holds all that a rule remembers, and no more than that") {
+TEST_CASE("the state of a rule is all that it remembers, and no more") {
   const Game game = game_with_step("digit = ram[0x80] & 15\nscore = 10 * digit\nterminal = 0");
   CHECK(game.rule->variables.size() == 3);  // reward, terminal, score: digit lives within a step only
   FakeMemory memory;
   Rule rule(game), other(game);
   memory[0x80] = 3;
   rule.step(memory.memory());
-  other.restore(rule.tally());
-  CHECK(std::memcmp(&rule.tally(), &other.tally(), sizeof(Tally)) == 0);
+  other.restore(rule.state());
+  CHECK(std::memcmp(&rule.state(), &other.state(), sizeof(RuleState)) == 0);
   memory[0x80] = 5;
   rule.step(memory.memory());
   other.step(memory.memory());
   CHECK(other.reward() == 20);
-  CHECK(rule.tally() == other.tally());
+  CHECK(rule.state() == other.state());
 }
 
 TEST_CASE("addresses and other constants are gone from a compiled rule") {
@@ -186,7 +186,7 @@ TEST_CASE("player B's reward is the change of score_b or what the rule says, and
   const auto reward_b = [&](const Game& game) {
     Rule rule(game);
     rule.step(memory.memory());
-    const Tally copy = rule.tally();
+    const RuleState copy = rule.state();
     Rule other(game);
     other.restore(copy);
     CHECK(other.reward_b() == rule.reward_b());

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 
 using namespace racebeam;
 using Catch::Matchers::Contains;
@@ -14,7 +14,7 @@ constexpr AllowedActions kAll{"pong", 0x3FFFF}, kSome{"pong", 0b1011};
 std::string refusal(const std::string& word, const AllowedActions& actions = kAll) {
   try {
     parse_action(word, actions);
-  } catch (const Refusal& refused) {
+  } catch (const RequestError& refused) {
     return std::string(name_of(refused.code())) + ": " + refused.what();
   }
   return "accepted";

@@ -12,7 +12,7 @@
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
 #include "protocol/line/play_settings.hpp"
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 
 using namespace racebeam;
 using Catch::Matchers::Contains;
@@ -85,7 +85,7 @@ TEST_CASE("The document has each setting, preset, field, encoding and error code
     const std::string row = in_code(field.name) + " " + std::string(field.summary) + " |";
     CHECK_THAT(table("| field | content | encoding |"), Contains(row));
   }
-  for (const CodeRow& code : codes()) {
+  for (const ErrorRow& code : codes()) {
     const std::string row = in_code(code.name) + " " + std::string(code.meaning) + " |\n";
     CHECK_THAT(table("| code | meaning |"), Contains(row));
   }

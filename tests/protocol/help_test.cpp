@@ -51,7 +51,7 @@ std::multimap<std::string, std::string> all_names() {
     add(row.name, row.summary);
     add("encodings", row.summary);
   }
-  for (const CodeRow& row : codes()) {
+  for (const ErrorRow& row : codes()) {
     add(row.name, row.meaning);
     add("errors", row.meaning);
   }

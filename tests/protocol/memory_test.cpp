@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "protocol/refusal.hpp"
+#include "protocol/request_error.hpp"
 #include "tests/protocol/line_client.hpp"
 
 using namespace racebeam;
@@ -40,7 +40,7 @@ TEST_CASE("A share is given back when its owner ends") {
     share.set(30);
     CHECK(share.grow(20));
     CHECK_FALSE(share.grow(51));
-    CHECK_THROWS_AS(share.check(51, "it"), Refusal);
+    CHECK_THROWS_AS(share.check(51, "it"), RequestError);
     CHECK(budget->taken() == 50);
   }
   CHECK(budget->taken() == 0);

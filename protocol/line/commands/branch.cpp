@@ -9,14 +9,14 @@
 namespace racebeam {
 namespace {
 
-// The session's player, lent to branches.
+// The session's machine, lent to branches.
 class Loan {
  public:
-  explicit Loan(Session& session) : session_(session), undisturbed_(session.player->slot().save(true)) {
-    session.player->machine().watch({});  // no recording of what did not happen
+  explicit Loan(Session& session) : session_(session), undisturbed_(session.loaded->slot().save(true)) {
+    session.loaded->machine().watch({});  // no recording of what did not happen
   }
   ~Loan() {
-    session_.player->slot().restore(undisturbed_);
+    session_.loaded->slot().restore(undisturbed_);
     if (session_.recording) session_.recording->watch();
   }
   Loan(const Loan&) = delete;
@@ -90,7 +90,7 @@ void play_branches(Session& session, const BranchRequest& request) {
   append_pair(session.out += "ok", "branches", static_cast<std::int64_t>(request.lists.size()));
   {
     const Loan loan(session);
-    Environment& machine = session.player->machine();
+    Environment& machine = session.loaded->machine();
     Branching branching(machine);
     for (std::size_t i = 0; i < request.lists.size(); ++i) {
       branching.enter(*request.root.machine);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/line/player.hpp"
+#include "protocol/line/loaded_machine.hpp"
 
 namespace racebeam {
 

@@ -46,13 +46,15 @@ std::string_view format_name(Format format) {
 
 [[noreturn]] void refuse_game(const Images& images, std::string_view name) {
   if (find_game(name)) {
-    throw Refusal(Code::kUnknownGame, "the image of " + std::string(name) +
-                                          " is not here; games lists those that are; load inline takes one");
+    throw RequestError(ErrorCode::kUnknownGame,
+                       "the image of " + std::string(name) +
+                           " is not here; games lists those that are; load inline takes one");
   }
   std::string meant = did_you_mean(name, images.names());
   if (meant.empty()) meant = did_you_mean(name, game_names());
-  throw Refusal(Code::kUnknownGame, "there is no game " + quote(name) + ';' +
-                                        (meant.empty() ? " games lists those that are here" : meant));
+  throw RequestError(
+      ErrorCode::kUnknownGame,
+      "there is no game " + quote(name) + ';' + (meant.empty() ? " games lists those that are here" : meant));
 }
 
 void describe_game(Session& session, std::string_view name) {
@@ -99,13 +101,14 @@ LoadWords sorted(Words words) {
 }
 
 std::shared_ptr<const Image> sent_image(const LoadWords& words) {
-  if (!words.image) throw Refusal(Code::kBadArguments, "load inline needs image=BASE64");
+  if (!words.image) throw RequestError(ErrorCode::kBadArguments, "load inline needs image=BASE64");
   auto bytes = bytes_of_base64(*words.image);
-  if (!bytes) throw Refusal(Code::kBadImage, "the image is not base64 (A-Z a-z 0-9 + / and = at the end)");
+  if (!bytes)
+    throw RequestError(ErrorCode::kBadImage, "the image is not base64 (A-Z a-z 0-9 + / and = at the end)");
   try {
     return make_image(std::move(*bytes), std::string(kInline));
   } catch (const InvalidInput& error) {
-    throw Refusal(Code::kBadImage, error.what());
+    throw RequestError(ErrorCode::kBadImage, error.what());
   }
 }
 
@@ -114,7 +117,7 @@ Cartridge find_cartridge(const Session& session, std::string_view name, const Lo
   if (name == kInline) {
     cartridge.image = sent_image(words);
   } else {
-    if (words.image) throw Refusal(Code::kBadArguments, "image= goes with load inline");
+    if (words.image) throw RequestError(ErrorCode::kBadArguments, "image= goes with load inline");
     const Cartridge* found = session.service.images->find(name);
     if (found == nullptr) refuse_game(*session.service.images, name);
     cartridge = *found;
@@ -122,9 +125,9 @@ Cartridge find_cartridge(const Session& session, std::string_view name, const Lo
   if (words.as) {
     cartridge.game = find_game(*words.as);
     if (!cartridge.game)
-      throw Refusal(Code::kUnknownGame, "there are no rules for " + quote(*words.as) + ';' +
-                                            did_you_mean(*words.as, game_names()) +
-                                            " games all lists those that there are");
+      throw RequestError(ErrorCode::kUnknownGame, "there are no rules for " + quote(*words.as) + ';' +
+                                                      did_you_mean(*words.as, game_names()) +
+                                                      " games all lists those that there are");
   } else if (name == kInline) {
     cartridge.game = recognise(*cartridge.image).game;
   }
@@ -132,7 +135,7 @@ Cartridge find_cartridge(const Session& session, std::string_view name, const Lo
 }
 
 void append_loaded(Session& session) {
-  const Environment& machine = session.player->machine();
+  const Environment& machine = session.loaded->machine();
   std::string& out = session.out;
   out += "ok";
   append_pair(out, "game", machine.game().name);
@@ -161,20 +164,20 @@ void run_load(Session& session, Words arguments) {
   read_settings(words.settings, settings, kKeysOfImages);
   if (settings.machine.random_seed == 0) settings.machine.random_seed = fresh_seed();
   Cartridge cartridge = find_cartridge(session, arguments[0], words);
-  std::unique_ptr<Player> player;
+  std::unique_ptr<LoadedMachine> loaded;
   try {
     session.allow_resets(1);
-    session.memory.check(Player::footprint(session.fields) + (arguments[0] == kInline ? kOwnImage : 0),
+    session.memory.check(LoadedMachine::footprint(session.fields) + (arguments[0] == kInline ? kOwnImage : 0),
                          "a machine");
-    player = std::make_unique<Player>(cartridge, settings, session.fields, session.pacer);
+    loaded = std::make_unique<LoadedMachine>(cartridge, settings, session.fields, session.pacer);
   } catch (const InvalidInput& error) {
     const bool sent = arguments[0] == kInline && !settings.mode && !settings.difficulty;
-    throw Refusal(sent ? Code::kBadImage : Code::kBadValue, error.what());
+    throw RequestError(sent ? ErrorCode::kBadImage : ErrorCode::kBadValue, error.what());
   }
   session.recording.reset();
   session.machines.close();
   session.states.clear();
-  session.player = std::move(player);
+  session.loaded = std::move(loaded);
   session.cartridge = std::move(cartridge);
   session.has_own_image = arguments[0] == kInline;
   session.settings = settings;
@@ -188,12 +191,12 @@ void run_set(Session& session, Words arguments) {
   for (const std::string_view word : arguments) {
     const std::string_view key = key_value(word).key;
     if (std::ranges::find(kKeysOfSet, key) != kKeysOfSet.end()) continue;
-    throw Refusal(Code::kBadArguments,
-                  quote(key) + " can't be set while a game runs;" +
-                      advice(key, kKeysOfSet, "there are mode and difficulty; load takes the others"));
+    throw RequestError(ErrorCode::kBadArguments,
+                       quote(key) + " can't be set while a game runs;" +
+                           advice(key, kKeysOfSet, "there are mode and difficulty; load takes the others"));
   }
   read_settings(arguments, changed);
-  Environment& machine = session.player->machine();
+  Environment& machine = session.loaded->machine();
   const int mode = machine.mode();
   if (changed.mode) machine.set_mode(*changed.mode);
   try {
@@ -210,7 +213,7 @@ void run_set(Session& session, Words arguments) {
 }
 
 void run_modes(Session& session, Words) {
-  const Environment& machine = session.player->machine();
+  const Environment& machine = session.loaded->machine();
   session.out += "ok";
   append_pair(session.out, "mode", machine.mode());
   append_pair(session.out, "default", machine.game().default_mode);
@@ -219,7 +222,7 @@ void run_modes(Session& session, Words) {
 }
 
 void run_difficulties(Session& session, Words) {
-  const Environment& machine = session.player->machine();
+  const Environment& machine = session.loaded->machine();
   session.out += "ok";
   append_pair(session.out, "difficulty", machine.difficulty());
   append_pair(session.out, "default", 0);
@@ -227,7 +230,7 @@ void run_difficulties(Session& session, Words) {
 }
 
 void run_actions(Session& session, Words) {
-  const Game& game = session.player->machine().game();
+  const Game& game = session.loaded->machine().game();
   std::string& out = session.out;
   out += "ok";
   append_pair(out, "action_set", name_of(session.settings.action_set));

@@ -54,7 +54,7 @@ const std::vector<OpenRow>& open_rows() {
 [[noreturn]] void refuse_word(std::string_view word) {
   std::string keys;
   for (const OpenRow& row : open_rows()) ((keys += keys.empty() ? "" : " ") += row.name) += '=';
-  throw Refusal(Code::kBadArguments, quote(word) + " is no setting; open takes " + keys);
+  throw RequestError(ErrorCode::kBadArguments, quote(word) + " is no setting; open takes " + keys);
 }
 
 OpenSettings read_open_settings(const Session& session, Words words) {
@@ -65,14 +65,15 @@ OpenSettings read_open_settings(const Session& session, Words words) {
     if (word.find('=') == std::string_view::npos) refuse_word(word);
     const auto [key, value] = key_value(word);
     const auto row = std::ranges::find(open_rows(), key, &OpenRow::name);
-    if (row == open_rows().end()) refuse_name(Code::kBadArguments, "setting", key, names_of(open_rows()));
+    if (row == open_rows().end())
+      refuse_name(ErrorCode::kBadArguments, "setting", key, names_of(open_rows()));
     if (std::ranges::find(given, key) != given.end()) refuse_twice(key);
     given.push_back(key);
     if (row->of_frames) of_frames = key;
     row->set(settings, choice_of(value, key, row->values));
   }
   if (settings.slot.steps == Steps::kActs && !of_frames.empty())
-    throw Refusal(Code::kBadArguments, std::string(of_frames) + "= goes with steps=frames");
+    throw RequestError(ErrorCode::kBadArguments, std::string(of_frames) + "= goes with steps=frames");
   if (std::ranges::find(given, "start") == given.end())
     settings.slot.fire_at_reset = settings.slot.steps == Steps::kFrames;
   return settings;
@@ -82,17 +83,19 @@ std::size_t read_machines(const Session& session, std::string_view word) {
   const auto count = number_within(word, "N", 1, std::numeric_limits<std::int64_t>::max());
   const int most = session.service.limits.machines;
   if (count <= most) return static_cast<std::size_t>(count);
-  throw Refusal(Code::kLimit, "N is " + quote(word) + "; there may be " + std::to_string(most) + " machines");
+  throw RequestError(ErrorCode::kLimit,
+                     "N is " + quote(word) + "; there may be " + std::to_string(most) + " machines");
 }
 
 [[noreturn]] void refuse_count(const Session& session, std::size_t given, const std::string& what) {
-  throw Refusal(Code::kBadArguments, "there are " + std::to_string(session.machines.size()) +
-                                         " machines, but " + std::to_string(given) + " " + what);
+  throw RequestError(ErrorCode::kBadArguments, "there are " + std::to_string(session.machines.size()) +
+                                                   " machines, but " + std::to_string(given) + " " + what);
 }
 
 std::vector<std::uint8_t> read_mask(const Session& session, std::string_view mask) {
   if (mask.find_first_not_of("01") != std::string_view::npos)
-    throw Refusal(Code::kBadValue, quote(mask) + " is no mask; it takes a 0 or a 1 for each machine");
+    throw RequestError(ErrorCode::kBadValue,
+                       quote(mask) + " is no mask; it takes a 0 or a 1 for each machine");
   if (mask.size() != session.machines.size()) refuse_count(session, mask.size(), "digits in the mask");
   std::vector<std::uint8_t> chosen;
   for (const char digit : mask) chosen.push_back(digit == '1');
@@ -108,7 +111,7 @@ void run_open(Session& session, Words arguments) {
 }
 
 void run_step(Session& session, Words arguments) {
-  const AllowedActions allowed = session.player->allowed();
+  const AllowedActions allowed = session.loaded->allowed();
   const std::size_t machines = session.machines.size();
   if (arguments.size() != 1 && arguments.size() != machines)
     refuse_count(session, arguments.size(), "actions; give one each, or one for all");
@@ -116,7 +119,8 @@ void run_step(Session& session, Words arguments) {
   acts.clear();
   for (const std::string_view word : arguments) {
     const Action action = parse_action(word, allowed);
-    if (action.times > 1) throw Refusal(Code::kBadValue, "a step is one act; *TIMES is for act and branch");
+    if (action.times > 1)
+      throw RequestError(ErrorCode::kBadValue, "a step is one act; *TIMES is for act and branch");
     acts.push_back(action.act);
   }
   acts.resize(machines, acts[0]);

@@ -8,18 +8,20 @@ namespace racebeam {
 namespace {
 
 void check_sound(const Session& session, const std::vector<Field>& fields) {
-  if (!session.player || session.settings.machine.sound) return;
+  if (!session.loaded || session.settings.machine.sound) return;
   if (std::ranges::any_of(fields, [](const Field& field) { return field.row->name == "audio"; }))
-    throw Refusal(Code::kBadArguments, "audio needs a game that was loaded with sound=1");
+    throw RequestError(ErrorCode::kBadArguments, "audio needs a game that was loaded with sound=1");
 }
 
 // A single look has no past.
 void check_look(const std::vector<Field>& fields) {
   for (const Field& field : fields) {
     if (field.encoding == Encoding::kDelta)
-      throw Refusal(Code::kBadArguments, "delta is for observe: it tells what changed from reply to reply");
+      throw RequestError(ErrorCode::kBadArguments,
+                         "delta is for observe: it tells what changed from reply to reply");
     if (field.stack && field.stack->depth > 1)
-      throw Refusal(Code::kBadArguments, "a stack is for observe: it is made of what replies have shown");
+      throw RequestError(ErrorCode::kBadArguments,
+                         "a stack is for observe: it is made of what replies have shown");
   }
 }
 
@@ -28,7 +30,7 @@ void append_bytes_of(Session& session, int index, std::size_t count) {
   append_pair(session.out, "index", index);
   append_pair(session.out, "bytes", "");
   Encoder(Encoding::kHex)
-      .append(session.out, session.player->machine().ram().subspan(static_cast<std::size_t>(index), count));
+      .append(session.out, session.loaded->machine().ram().subspan(static_cast<std::size_t>(index), count));
 }
 
 void play(Slot& slot, const std::vector<Action>& actions) {
@@ -63,10 +65,10 @@ void run_observe(Session& session, Words arguments) {
     std::vector<Field> fields = parse_fields(arguments);
     check_sound(session, fields);
     session.memory.check(View::footprint(fields), "a view of these fields");
-    if (session.player) stack_of(fields, session.player->slot());  // it can be made
+    if (session.loaded) stack_of(fields, session.loaded->slot());  // it can be made
     session.machines.observe(fields);
     session.fields = std::move(fields);
-    if (session.player) session.player->observe(session.fields);
+    if (session.loaded) session.loaded->observe(session.fields);
   }
   session.out += "ok fields=";
   for (std::size_t i = 0; i < session.fields.size(); ++i) {
@@ -76,52 +78,52 @@ void run_observe(Session& session, Words arguments) {
 }
 
 void run_look(Session& session, Words arguments) {
-  Player& player = *session.player;
+  LoadedMachine& loaded = *session.loaded;
   if (arguments.empty()) {
     session.out += "ok";
-    return player.append_view(session.out);
+    return loaded.append_view(session.out);
   }
   std::vector<Field> fields = parse_fields(arguments);
   check_sound(session, fields);
   check_look(fields);
-  session.memory.check(View::footprint(fields) + text_size(fields, player.machine()),
+  session.memory.check(View::footprint(fields) + text_size(fields, loaded.machine()),
                        "a look at these fields");
-  const auto stack = stack_of(fields, player.slot());
+  const auto stack = stack_of(fields, loaded.slot());
   session.out += "ok";
   View(std::move(fields))
-      .append(session.out, {player.machine(), player.slot().outcome(), stack ? &*stack : nullptr});
+      .append(session.out, {loaded.machine(), loaded.slot().outcome(), stack ? &*stack : nullptr});
 }
 
 void run_reset(Session& session, Words arguments) {
-  Player& player = *session.player;
+  LoadedMachine& loaded = *session.loaded;
   std::optional<std::uint32_t> seed;
   if (!arguments.empty()) seed = parse_seed(value_of(arguments[0], "seed", "reset"));
   session.allow_resets(1);
-  player.slot().reset(seed);
-  player.slot().begin_request();
+  loaded.slot().reset(seed);
+  loaded.slot().begin_request();
   session.out += "ok";
-  player.append_view(session.out);
+  loaded.append_view(session.out);
 }
 
 // Ends early with the episode.
 void run_act(Session& session, Words arguments) {
-  Player& player = *session.player;
+  LoadedMachine& loaded = *session.loaded;
   std::vector<Action>& actions = session.actions;
   std::int64_t acts = 0;
   actions.clear();
   for (const std::string_view word : arguments) {
-    actions.push_back(parse_action(word, player.allowed()));
+    actions.push_back(parse_action(word, loaded.allowed()));
     acts += actions.back().times;
     if (actions.size() % 256 == 0) session.pacer.breathe();
   }
   session.check_frames(acts);
-  if (session.settings.autoreset && player.slot().finished()) return run_reset(session, {});
-  player.slot().begin_request();
-  play(player.slot(), actions);
-  session.count(player.slot().outcome());
+  if (session.settings.autoreset && loaded.slot().finished()) return run_reset(session, {});
+  loaded.slot().begin_request();
+  play(loaded.slot(), actions);
+  session.count(loaded.slot().outcome());
   session.out += "ok";
   session.append_cut();
-  player.append_view(session.out);
+  loaded.append_view(session.out);
 }
 
 void run_peek(Session& session, Words arguments) {
@@ -137,12 +139,12 @@ void run_poke(Session& session, Words arguments) {
   const int index = ram_index(arguments[0]);
   const auto bytes = bytes_of_hex(arguments[1]);
   if (bytes.empty() || bytes.size() > static_cast<std::size_t>(kRamSize - index)) {
-    throw Refusal(Code::kBadValue, "HEX has " + std::to_string(bytes.size()) + " bytes; from " +
-                                       std::to_string(index) + " on there is room for 1 to " +
-                                       std::to_string(kRamSize - index));
+    throw RequestError(ErrorCode::kBadValue, "HEX has " + std::to_string(bytes.size()) + " bytes; from " +
+                                                 std::to_string(index) + " on there is room for 1 to " +
+                                                 std::to_string(kRamSize - index));
   }
   for (std::size_t i = 0; i < bytes.size(); ++i)
-    session.player->machine().set_ram(index + static_cast<int>(i), bytes[i]);
+    session.loaded->machine().set_ram(index + static_cast<int>(i), bytes[i]);
   append_bytes_of(session, index, bytes.size());
 }
 

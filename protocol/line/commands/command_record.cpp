@@ -15,13 +15,13 @@ constexpr std::string_view kTaken =
 constexpr std::array<std::string_view, 5> kWords = {"png", "gif", "y4m", "wav", "stop"};
 
 void stop(Session& session) {
-  if (!session.recording) throw Refusal(Code::kRecording, "nothing is being recorded");
+  if (!session.recording) throw RequestError(ErrorCode::kRecording, "nothing is being recorded");
   Recording& recording = session.recording->recording();
   recording.finish();
   await(recording, session.pacer);
   const auto ended = std::move(session.recording);
   const Recording::Result& result = recording.result();
-  if (result.names.empty()) throw Refusal(Code::kRecording, result.failure + "; nothing was kept");
+  if (result.names.empty()) throw RequestError(ErrorCode::kRecording, result.failure + "; nothing was kept");
   session.out += "ok";
   append_pair(session.out, "recorded", result.names);
   append_pair(session.out, "frames", result.frames);
@@ -39,7 +39,8 @@ std::vector<MediaKind> parse_kinds(std::string_view words) {
     const auto kind = media_kind(words);
     if (!kind) {
       const std::string meant = did_you_mean(words, kWords);
-      throw Refusal(Code::kBadArguments, std::string(kTaken) + (meant.empty() ? meant : ';' + meant));
+      throw RequestError(ErrorCode::kBadArguments,
+                         std::string(kTaken) + (meant.empty() ? meant : ';' + meant));
     }
     if (std::ranges::find(kinds, *kind) != kinds.end()) refuse_twice(words);
     kinds.push_back(*kind);
@@ -55,9 +56,10 @@ struct Subject {  // of a recording
 
 // The machine of `load`, or one of `open`.
 Subject subject_of(Session& session, Words arguments) {
-  if (arguments.empty()) return {session.player->machine(), session.player->pacer()};
+  if (arguments.empty()) return {session.loaded->machine(), session.loaded->pacer()};
   const std::string_view number = value_of(arguments[0], "machine", "record");
-  if (session.machines.empty()) throw Refusal(Code::kNoMachines, "machine= needs machines; open some first");
+  if (session.machines.empty())
+    throw RequestError(ErrorCode::kNoMachines, "machine= needs machines; open some first");
   const auto last = static_cast<std::int64_t>(session.machines.size()) - 1;
   const auto machine = static_cast<std::size_t>(number_within(number, "machine", 0, last));
   return {session.machines.machine(machine), session.machines.pacer(machine)};
@@ -75,10 +77,10 @@ std::shared_ptr<Recording> begin(const LineService& service, const std::vector<M
   try {
     return service.recorder->begin(kinds, std::string(name), service.limits.recording, machine,
                                    [&service](std::size_t bytes) { return charge(service, bytes); });
-  } catch (const Refusal&) {
+  } catch (const RequestError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw Refusal(Code::kRecording, error.what());
+    throw RequestError(ErrorCode::kRecording, error.what());
   }
 }
 
@@ -88,7 +90,7 @@ void start(Session& session, const std::vector<MediaKind>& kinds, std::string_vi
   await(*recording, session.pacer);
   if (recording->finished()) {
     session.recording.reset();
-    throw Refusal(Code::kRecording, recording->result().failure);
+    throw RequestError(ErrorCode::kRecording, recording->result().failure);
   }
   session.out += "ok";
   append_pair(session.out, "recording", recording->names());
@@ -99,12 +101,13 @@ void start(Session& session, const std::vector<MediaKind>& kinds, std::string_vi
 void run_record(Session& session, Words arguments) {
   if (arguments[0] == "stop" && arguments.size() == 1) return stop(session);
   const auto kinds = parse_kinds(arguments[0]);
-  if (arguments.size() < 2) throw Refusal(Code::kBadArguments, std::string(kTaken));
+  if (arguments.size() < 2) throw RequestError(ErrorCode::kBadArguments, std::string(kTaken));
   if (!session.service.recorder)
-    throw Refusal(Code::kRecording, "this server does not record; it was started without --record-dir");
+    throw RequestError(ErrorCode::kRecording,
+                       "this server does not record; it was started without --record-dir");
   if (session.recording)
-    throw Refusal(Code::kRecording,
-                  session.recording->names() + " has not been stopped; record stop does it");
+    throw RequestError(ErrorCode::kRecording,
+                       session.recording->names() + " has not been stopped; record stop does it");
   const std::string_view name = checked_name(arguments[1], "recording");
   start(session, kinds, name, subject_of(session, arguments.subspan(2)));
 }

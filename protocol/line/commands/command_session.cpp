@@ -24,7 +24,7 @@ void take_token(Session& session, std::string_view word) {
   if (session.admitted) return;
   if (session.service.admission(token)) return session.admit();
   session.quitting = ++session.wrong_tokens >= kGuesses;
-  throw Refusal(Code::kUnauthorized, "that token is not one of this server's");
+  throw RequestError(ErrorCode::kUnauthorized, "that token is not one of this server's");
 }
 
 }  // namespace

@@ -26,16 +26,16 @@ const Slot::Saved& find_state(const Session& session, std::string_view name) {
   constexpr std::size_t kShown = 20;
   for (const std::string_view known : Words(names).first(std::min(kShown, names.size())))
     (sentence += ' ') += known;
-  throw Refusal(Code::kNoState, sentence + (session.states.empty()  ? " none"
-                                            : names.size() > kShown ? " and more"
-                                                                    : ""));
+  throw RequestError(ErrorCode::kNoState, sentence + (session.states.empty()  ? " none"
+                                                      : names.size() > kShown ? " and more"
+                                                                              : ""));
 }
 
 void check_room(const Session& session, std::size_t more) {
   const auto most = static_cast<std::size_t>(session.service.limits.states);
   if (session.states.size() + more <= most) return;
-  throw Refusal(Code::kLimit, "there is room for " + std::to_string(most) +
-                                  " states; drop some, or save under a name that is in use");
+  throw RequestError(ErrorCode::kLimit, "there is room for " + std::to_string(most) +
+                                            " states; drop some, or save under a name that is in use");
 }
 
 void keep(Session& session, std::string_view name, Slot::Saved place) {
@@ -45,7 +45,8 @@ void keep(Session& session, std::string_view name, Slot::Saved place) {
 }
 
 std::string_view state_name(std::string_view word) {
-  if (word == "all") throw Refusal(Code::kBadValue, "'all' is no name for a state: drop all drops them all");
+  if (word == "all")
+    throw RequestError(ErrorCode::kBadValue, "'all' is no name for a state: drop all drops them all");
   return checked_name(word, "state");
 }
 
@@ -88,17 +89,17 @@ std::int64_t acts_of(const std::vector<Action>& list) {
 
 void run_save(Session& session, Words arguments) {
   const std::string_view name = state_name(arguments[0]);
-  keep(session, name, session.player->slot().save(read_random(arguments.subspan(1))));
+  keep(session, name, session.loaded->slot().save(read_random(arguments.subspan(1))));
   session.out += "ok";
   append_pair(session.out, "state", name);
 }
 
 void run_restore(Session& session, Words arguments) {
   const Slot::Saved& place = find_state(session, arguments[0]);
-  session.player->slot().restore(place);
-  session.player->slot().begin_request();
+  session.loaded->slot().restore(place);
+  session.loaded->slot().begin_request();
   session.out += "ok";
-  session.player->append_view(session.out);
+  session.loaded->append_view(session.out);
 }
 
 void run_drop(Session& session, Words arguments) {
@@ -124,7 +125,7 @@ void run_states(Session& session, Words) {
 }
 
 void run_export(Session& session, Words arguments) {
-  const auto bytes = to_bytes(*find_state(session, arguments[0]).machine, session.player->machine());
+  const auto bytes = to_bytes(*find_state(session, arguments[0]).machine, session.loaded->machine());
   session.out += "ok";
   append_pair(session.out, "state", arguments[0]);
   append_pair(session.out, "bytes", static_cast<std::int64_t>(bytes.size()));
@@ -135,13 +136,14 @@ void run_export(Session& session, Words arguments) {
 void run_import(Session& session, Words arguments) {
   const std::string_view name = state_name(arguments[0]);
   const auto bytes = bytes_of_base64(arguments[1]);
-  if (!bytes) throw Refusal(Code::kBadState, "the state is not base64 (A-Z a-z 0-9 + / and = at the end)");
+  if (!bytes)
+    throw RequestError(ErrorCode::kBadState, "the state is not base64 (A-Z a-z 0-9 + / and = at the end)");
   Slot::Saved place;
   try {
-    place.machine = from_bytes(*bytes, session.player->machine());
+    place.machine = from_bytes(*bytes, session.loaded->machine());
     place.with_random = place.machine->random.has_value();
   } catch (const InvalidInput& error) {
-    throw Refusal(Code::kBadState, error.what());
+    throw RequestError(ErrorCode::kBadState, error.what());
   }
   keep(session, name, std::move(place));
   session.out += "ok";
@@ -155,16 +157,17 @@ void run_branch(Session& session, Words arguments) {
     branch.keep = checked_name(key_value(sequences[0]).value, "state");
     sequences = sequences.subspan(1);
   }
-  if (sequences.empty()) throw Refusal(Code::kBadArguments, "branch takes at least one list of actions");
+  if (sequences.empty())
+    throw RequestError(ErrorCode::kBadArguments, "branch takes at least one list of actions");
   std::int64_t acts = 0;
   for (const std::string_view word : sequences) {
-    branch.lists.push_back(parse_list(word, session.player->allowed()));
+    branch.lists.push_back(parse_list(word, session.loaded->allowed()));
     acts += acts_of(branch.lists.back());
     session.pacer.breathe();
   }
   session.check_frames(acts);
   const std::size_t lists = branch.lists.size();
-  const std::size_t players = session.player->machine().game().has_second_reward() ? 2 : 1;
+  const std::size_t players = session.loaded->machine().game().has_second_reward() ? 2 : 1;
   session.check_reply(128 * lists + 8 * players * static_cast<std::size_t>(acts),
                       std::to_string(lists) + " branches");
   if (!branch.keep.empty()) check_keep(session, branch.keep, lists);

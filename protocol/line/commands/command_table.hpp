@@ -14,6 +14,6 @@ const CommandTable& command_table();
 // Its parts.
 std::span<const Command> commands();
 std::span<const Alias> aliases();
-const Command& find_command(std::string_view name);  // or an alias; throws Refusal
+const Command& find_command(std::string_view name);  // or an alias; throws RequestError
 
 }  // namespace racebeam

@@ -38,7 +38,7 @@ std::string about(const SettingRow& row) {
 std::string about(const PresetRow& row) { return joined({row.name, " (", row.source, ") sets ", row.words}); }
 std::string about(const FieldRow& row) { return plain(joined({row.name, ": ", row.summary})); }
 std::string about(const EncodingRow& row) { return joined({row.name, ": ", row.summary}); }
-std::string about(const CodeRow& row) { return plain(joined({row.name, ": ", row.meaning})); }
+std::string about(const ErrorRow& row) { return plain(joined({row.name, ": ", row.meaning})); }
 
 template <typename Rows>
 HelpText table(std::string_view head, const Rows& rows) {
@@ -105,8 +105,9 @@ template <typename... Rows>
   std::vector<std::string_view> known;
   const auto add = [&known](const auto& names) { known.insert(known.end(), names.begin(), names.end()); };
   (add(names_of(rows)), ...);
-  throw Refusal(Code::kBadArguments, "there is no help on " + quote(name) + ';' + did_you_mean(name, known) +
-                                         " help without a word says what there is");
+  throw RequestError(ErrorCode::kBadArguments, "there is no help on " + quote(name) + ';' +
+                                                   did_you_mean(name, known) +
+                                                   " help without a word says what there is");
 }
 
 constexpr int kNarrowest = 20;

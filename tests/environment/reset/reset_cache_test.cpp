@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "environment/reset/boot_study.hpp"
+#include "environment/reset/boot_analysis.hpp"
 #include "environment/saved_state.hpp"
 #include "tests/environment/steered.hpp"
 #include "tests/support/observation.hpp"
@@ -106,7 +106,7 @@ BootFacts study(std::initializer_list<std::uint8_t> program) {
   Properties properties;
   properties.format = Format::kNtsc;
   const Console console{bytes, properties, generator};
-  return study_boot(console, "4K");
+  return analyze_boot(console, "4K");
 }
 
 TEST_CASE("The study finds what a program overwrites before it reads it") {

@@ -66,7 +66,7 @@ TEST_CASE("A state with a value that no machine has is refused by the field's na
       {"the mode is 2; it must be one of 0, 1, 3", [](Values& v) { v.play.mode = 2; }},
       {"the difficulty is 9; it must be one of", [](Values& v) { v.play.difficulty = 9; }},
       {"the flag of outdated RAM", [](Values& v) { v.play.ram_is_stale = 2; }},
-      {"a variable that the rule does not have", [](Values& v) { v.tally.values.back() = 1; }},
+      {"a variable that the rule does not have", [](Values& v) { v.rule.values.back() = 1; }},
       {"the divider of a sound channel is 32", [](Values& v) { v.sound.channel[1].divider = 32; }},
   };
   for (const Wrong& wrong : wrongs) {

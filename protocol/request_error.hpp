@@ -9,7 +9,7 @@
 
 namespace racebeam {
 
-enum class Code {
+enum class ErrorCode {
   kBadLine,
   kLineTooLong,
   kHalfLine,
@@ -32,23 +32,23 @@ enum class Code {
   kInternal,
 };
 
-struct CodeRow {
-  Code code;
+struct ErrorRow {
+  ErrorCode code;
   std::string_view name;
   std::string_view meaning;
 };
 
-std::span<const CodeRow> codes();  // in the order of Code
-std::string_view name_of(Code code);
+std::span<const ErrorRow> codes();  // in the order of ErrorCode
+std::string_view name_of(ErrorCode code);
 
 // Ends a request with an error; the session continues.
-class Refusal : public std::runtime_error {
+class RequestError : public std::runtime_error {
  public:
-  Refusal(Code code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
-  Code code() const { return code_; }
+  RequestError(ErrorCode code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
+  ErrorCode code() const { return code_; }
 
  private:
-  Code code_;
+  ErrorCode code_;
 };
 
 }  // namespace racebeam

@@ -1,4 +1,4 @@
-// One machine with a game, and what its client sees of it.
+// The machine of `load`: a slot, and the fields that its client observes.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,12 @@
 
 namespace racebeam {
 
-class Player {
+class LoadedMachine {
  public:
-  // Powers on, sets mode and difficulty, and begins an episode. Throws InvalidInput, and what
-  // `pacer` throws, which outlives the player.
-  Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields, Pacer& pacer);
+  // Powers on, sets mode and difficulty, and begins an episode. Throws InvalidInput, and what `pacer` throws.
+  // `pacer` must outlive this object.
+  LoadedMachine(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields,
+                Pacer& pacer);
 
   Pacer& pacer() { return pacer_; }
   Slot& slot() { return slot_; }
@@ -27,7 +28,7 @@ class Player {
   const Environment& machine() const { return slot_.environment(); }
   AllowedActions allowed() const { return {machine().game().name, allowed_}; }
 
-  // Bytes of memory, about, of a player with these fields.
+  // Estimates the bytes of memory that a machine with these fields takes.
   static std::size_t footprint(const std::vector<Field>& fields);
 
   void observe(std::vector<Field> fields);
@@ -40,10 +41,10 @@ class Player {
   View view_;
 };
 
-// What `settings` say of a slot whose steps are acts.
+// The settings of a slot for these settings of `load`. Its steps are acts.
 SlotSettings slot_settings(const PlaySettings& settings);
 
-// Makes the slot draw and stack what the fields show.
+// Makes the slot draw and stack the screens that the fields show.
 void observe(Slot& slot, const std::vector<Field>& fields);
 
 }  // namespace racebeam

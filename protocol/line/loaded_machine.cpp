@@ -1,4 +1,4 @@
-#include "protocol/line/player.hpp"
+#include "protocol/line/loaded_machine.hpp"
 
 #include <algorithm>
 
@@ -23,20 +23,20 @@ void observe(Slot& slot, const std::vector<Field>& fields) {
   slot.set_stack(stacked == fields.end() ? std::nullopt : stacked->stack);
 }
 
-Player::Player(const Cartridge& cartridge, const PlaySettings& settings, std::vector<Field> fields,
-               Pacer& pacer)
+LoadedMachine::LoadedMachine(const Cartridge& cartridge, const PlaySettings& settings,
+                             std::vector<Field> fields, Pacer& pacer)
     : pacer_(pacer), slot_(cartridge, slot_settings(settings), &pacer), view_({}) {
   for (const int action : slot_.actions()) allowed_ |= 1U << action;
   observe(std::move(fields));
 }
 
-// Measured: 190 to 240 KiB, and 80 more where objects flicker (docs/performance.md).
-std::size_t Player::footprint(const std::vector<Field>& fields) {
+// Measured: a machine takes 190 to 240 KiB, and 80 KiB more if objects flicker (docs/performance.md).
+std::size_t LoadedMachine::footprint(const std::vector<Field>& fields) {
   constexpr std::size_t kMachine = std::size_t{384} << 10;
   return kMachine + View::footprint(fields);
 }
 
-void Player::observe(std::vector<Field> fields) {
+void LoadedMachine::observe(std::vector<Field> fields) {
   racebeam::observe(slot_, fields);
   view_ = View(std::move(fields));
 }

@@ -1,4 +1,4 @@
-#include "environment/reset/boot_study.hpp"
+#include "environment/reset/boot_analysis.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,11 +15,11 @@ constexpr std::array<std::string_view, 8> kPlainSchemes = {"2K", "4K", "F8", "F8
                                                            "F6", "F4", "E0", "MB"};
 constexpr unsigned kFirstHotSpot = 0xFC0;  // the lowest of all schemes
 
-struct Unknown {};  // thrown where the study ends
+struct Unknown {};  // thrown where the analysis ends
 
-class Study {
+class BootAnalysis {
  public:
-  explicit Study(const Console& console) : console_(console), pc_(console.state().cpu.PC) {}
+  explicit BootAnalysis(const Console& console) : console_(console), pc_(console.state().cpu.PC) {}
 
   BootFacts facts() {
     try {
@@ -114,7 +114,7 @@ class Study {
 };
 
 // clang-format off
-void Study::execute(std::uint8_t opcode) {
+void BootAnalysis::execute(std::uint8_t opcode) {
   switch (opcode) {
     case 0x78: case 0xD8: case 0xB8: case 0xEA: return;  // SEI CLD CLV NOP
     case 0x18: carry_ = false; return;                   // CLC
@@ -177,9 +177,9 @@ void Study::execute(std::uint8_t opcode) {
 
 }  // namespace
 
-BootFacts study_boot(const Console& console, std::string_view scheme) {
+BootFacts analyze_boot(const Console& console, std::string_view scheme) {
   if (std::ranges::find(kPlainSchemes, scheme) == kPlainSchemes.end()) return {};
-  return Study(console).facts();
+  return BootAnalysis(console).facts();
 }
 
 }  // namespace racebeam

@@ -12,10 +12,10 @@ struct BootFacts {
   bool sets_sound = false;  // all six registers
 };
 
-// Follows the program of a console that was just reset, without running it. The study continues while
+// Follows the program of a console that was just reset, without running it. The analysis continues while
 // everything that the program reads is known: its own bytes, and RAM that it has written. It stops, with what
 // is proven so far, at the first read of anything else, at an unknown instruction, and near a cartridge's hot
 // spots. `scheme` is the cartridge's; nothing is proven for schemes that do not show plain memory.
-BootFacts study_boot(const Console& console, std::string_view scheme);
+BootFacts analyze_boot(const Console& console, std::string_view scheme);
 
 }  // namespace racebeam
