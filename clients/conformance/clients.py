@@ -1,0 +1,37 @@
+"""The clients that hold the conformance conversation. A new client is a row of the table below."""
+
+import dataclasses
+import pathlib
+import shutil
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HERE = pathlib.Path(__file__).resolve().parent
+BUILT = ROOT / "build/clients"
+
+EVERY_WAY = frozenset({"unix", "pipes", "file", "launch", "tls"})
+
+
+@dataclasses.dataclass(frozen=True)
+class Client:
+    name: str
+    runner: tuple[str, ...]        # the command that takes a file of steps; its first word must be installed
+    sources: str                   # a pattern: the files of the client
+    offers: frozenset = EVERY_WAY  # ways to connect beside TCP, as in `section ... needs WAY`
+    build: tuple[str, ...] = ()    # a command
+    needs: tuple[str, ...] = ()    # commands that must succeed for the client to be there
+
+    def missing(self):
+        """What is not installed here, or None."""
+        return next((word for word in (self.runner[0], *self.build[:1], *self.needs) if shutil.which(word) is None), None)
+
+    def lines_of_code(self):
+        """Lines of the client that are neither empty nor comments."""
+        texts = [path.read_text() for path in ROOT.glob(self.sources)]
+        return sum(1 for text in texts for line in text.splitlines() if line.strip() and not line.strip().startswith(COMMENTS))
+
+
+COMMENTS = ("//", "/*", "*", "#", "--")
+
+CLIENTS = (
+    Client("python", ("python3", "-B", str(HERE / "runner.py")), "clients/python/racebeam/wire/client.py"),
+)
