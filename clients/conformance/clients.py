@@ -14,15 +14,19 @@ EVERY_WAY = frozenset({"unix", "pipes", "file", "launch", "tls"})
 @dataclasses.dataclass(frozen=True)
 class Client:
     name: str
-    runner: tuple[str, ...]        # the command that takes a file of steps; its first word must be installed
+    language: str                  # as on its page, in fences
+    runner: tuple[str, ...]        # a command and the program that takes a file of steps
     sources: str                   # a pattern: the files of the client
     offers: frozenset = EVERY_WAY  # ways to connect beside TCP, as in `section ... needs WAY`
     build: tuple[str, ...] = ()    # a command
-    needs: tuple[str, ...] = ()    # commands that must succeed for the client to be there
 
     def missing(self):
         """What is not installed here, or None."""
-        return next((word for word in (self.runner[0], *self.build[:1], *self.needs) if shutil.which(word) is None), None)
+        return next((word for word in (self.runner[0], *self.build[:1]) if shutil.which(word) is None), None)
+
+    @property
+    def page(self):
+        return f"clients/{self.language}/README.md"
 
     def lines_of_code(self):
         """Lines of the client that are neither empty nor comments."""
@@ -33,5 +37,7 @@ class Client:
 COMMENTS = ("//", "/*", "*", "#", "--")
 
 CLIENTS = (
-    Client("python", ("python3", "-B", str(HERE / "runner.py")), "clients/python/racebeam/wire/client.py"),
+    Client("python", "python", ("python3", "-B", str(HERE / "runner.py")), "clients/python/racebeam/wire/client.py"),
+    Client("java", "java", ("java", "-cp", str(BUILT / "java"), str(HERE / "Runner.java")), "clients/java/src/main/java/racebeam/*.java",
+           build=("javac", "-Xlint:all", "-d", str(BUILT / "java"), *map(str, ROOT.glob("clients/java/src/main/java/**/*.java")))),
 )
