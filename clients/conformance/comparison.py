@@ -38,7 +38,7 @@ def run(client, names, racebeam, roms=None, **variables):
     with servers.started(racebeam, roms) as told:
         path = servers.pathlib.Path(told["AUTHORITY"]).parent / "steps.txt"
         path.write_text("".join(steps(names, client.offers)))
-        done = subprocess.run([*client.runner, str(path)], env={**told, **variables}, capture_output=True, text=True,
+        done = subprocess.run([*client.runner, str(path)], env={**told, **dict(client.variables), **variables}, capture_output=True, text=True,
                               timeout=PATIENCE)
     if done.returncode != 0 or done.stderr:
         raise Failed(f"status {done.returncode}: {done.stderr[-2000:]}")

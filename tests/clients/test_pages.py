@@ -22,6 +22,8 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 # The examples: file, arguments, a pattern of what they print.
 EXAMPLES = {
+    "lua": (("clients/lua/examples/gap.lua", (), r"score \d+ in \d+ acts\n"),
+            ("clients/lua/examples/follow.lua", (), r"score \d+, \d\.\d KiB of garbage a step; a screen has 32\.8 KiB\n")),
     "java": (("clients/java/examples/Planner.java", ("10",), r"score \d+, \d+ frames run\n"),
              ("clients/java/examples/Sarsa.java", ("10",), r"episodes 1 to 10: mean score \d+\.\d\n")),
 }
@@ -40,7 +42,7 @@ class Page(unittest.TestCase):
     def setUp(self):
         self.server = Server("serve", "--listen", "tcp://127.0.0.1:0")
         self.addCleanup(self.server.__exit__)
-        self.environment = dict(os.environ, RACEBEAM_ADDRESS=f"tcp://127.0.0.1:{self.server.port()}", RACEBEAM_PROGRAM=BINARY)
+        self.environment = dict(os.environ, **dict(self.client.variables), RACEBEAM_ADDRESS=f"tcp://127.0.0.1:{self.server.port()}", RACEBEAM_PROGRAM=BINARY)
 
     def check(self, program, words, pattern):
         done = subprocess.run([*self.client.runner[:-1], str(program), *words], env=self.environment, stdout=subprocess.PIPE,
