@@ -50,4 +50,5 @@ CLIENTS = (
              probe=(program, "-e", "require 'socket' require 'ssl'"),
              variables=(("LUA_PATH", f"{ROOT}/clients/lua/?.lua;{ROOT}/clients/lua/?/init.lua;;"),))
       for program in ("lua5.1", "lua5.4", "luajit")),
+    Client("javascript", "js", ("node", str(HERE / "runner.mjs")), "clients/js/src/*.js"),
 )

@@ -22,6 +22,7 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 # The examples: file, arguments, a pattern of what they print.
 EXAMPLES = {
+    "js": (("clients/js/examples/many.mjs", (), r"scores (\d+ ?){8}\n"),),
     "lua": (("clients/lua/examples/gap.lua", (), r"score \d+ in \d+ acts\n"),
             ("clients/lua/examples/follow.lua", (), r"score \d+, \d\.\d KiB of garbage a step; a screen has 32\.8 KiB\n")),
     "java": (("clients/java/examples/Planner.java", ("10",), r"score \d+, \d+ frames run\n"),
@@ -58,6 +59,8 @@ class Page(unittest.TestCase):
             with self.subTest(program=number), tempfile.TemporaryDirectory() as folder:
                 path = pathlib.Path(folder, (name[1] if name else "program") + pathlib.Path(self.client.runner[-1]).suffix)
                 path.write_text(body)
+                (path.parent / "node_modules").mkdir()  # where Node looks for packages; others do not mind
+                (path.parent / "node_modules/racebeam").symlink_to(SOURCE / "clients/js")
                 self.check(path, (), ".*" if expected is None else re.escape(expected).replace(r"\.\.\.", ".*"))
 
     def test_its_examples_play(self):
