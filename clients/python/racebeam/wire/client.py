@@ -1,7 +1,7 @@
 """A client of the racebeam line protocol (protocol/PROTOCOL.md). This file needs the standard library only, and can be
 copied alone.
 
-    with launch() as game:                                       # or connect("tcp://HOST:PORT"), connect("unix:PATH")
+    with launch() as game:                                       # or connect("tcp://HOST:PORT"), or another address
         game.load("beamfall", seed=7, frame_skip=4)
         game.observe("reward", "ends", "ram", "screen:delta")
         while True:
@@ -17,21 +17,28 @@ server that has gone is a ConnectionError, and one that does not answer in time 
 from __future__ import annotations
 
 import base64
+import binascii
+import collections
+import os
 import re
 import shutil
 import socket
 import ssl
 import subprocess
+import sys
+import time
 import zlib
 from collections.abc import Callable, Iterable
 from typing import IO, Any
 
 PROTOCOL = 1  # the version that this client speaks
+LONGEST_REPLY = 1 << 28  # bytes; a server that sends a longer line is taken for broken
 
 # What bytes are written in when `observe` does not say.
 USUAL_ENCODING = {"ram": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
 
 STACK = re.compile(r"(?:grey|rgb)(\d+)x(\d+)x(\d+)")  # fields such as grey100x50x4
+NUMBER = re.compile(r"-?(0|[1-9]\d{0,14})(\.\d+)?")
 
 Texts = dict[str, str]
 Values = dict[str, Any]
@@ -54,7 +61,7 @@ def decode_runs(data: bytes) -> bytes:
 
 
 def apply_delta(array: bytearray, text: str) -> None:
-    """Changes `array` by the text of a delta; it grows to what the text reaches."""
+    """Changes `array` by the text of a delta. Raises ValueError, and may have changed the array, if it does not fit."""
     data, at, place = bytes.fromhex(text), 0, 0
     while at < len(data):
         place += data[at] << 8 | data[at + 1]
@@ -62,7 +69,7 @@ def apply_delta(array: bytearray, text: str) -> None:
         for _ in range(runs):
             value, length, at = data[at], data[at + 1], at + 2
             if place + length > len(array):
-                array.extend(bytes(place + length - len(array)))
+                raise ValueError(f"a delta reaches byte {place + length} of {len(array)}")
             array[place:place + length] = bytes([value]) * length
             place += length
 
@@ -85,13 +92,10 @@ DECODERS: dict[str, Callable[[str], bytes]] = {
 
 
 def number(text: str) -> int | float | str:
-    """The number that a text is, or the text."""
-    for kind in (int, float):
-        try:
-            return kind(text)
-        except ValueError:
-            continue
-    return text
+    """The number that a text is, or the text. An MD5 is none, nor are bytes such as 0046."""
+    if not NUMBER.fullmatch(text):
+        return text
+    return float(text) if "." in text else int(text)
 
 
 def launch(*options: str, program: str | None = None, arrays: bool = False) -> Session:
@@ -104,25 +108,29 @@ def launch(*options: str, program: str | None = None, arrays: bool = False) -> S
     return Session.start(program or _program(), *quiet, *options, arrays=arrays)
 
 
-def connect(address: str, *, token: str | None = None, tls: ssl.SSLContext | None = None, timeout: float | None = None,
-            arrays: bool = False) -> Session:
-    """A session of the server at `address`: "tcp://HOST:PORT", "tls://HOST:PORT" or "unix:PATH".
+def connect(address: str | None = None, *, token: str | None = None, tls: ssl.SSLContext | None = None,
+            timeout: float | None = None, longest_reply: int = LONGEST_REPLY, arrays: bool = False) -> Session:
+    """A session of the server at `address`; None: at that of the variable RACEBEAM_ADDRESS.
 
+    address: one of
+      tcp://HOST:PORT, tls://HOST:PORT, unix:PATH
+      pipes:PREFIX   the named pipes PREFIX_out and PREFIX_in
+      stdio          standard input and output of this process
+      file:PATH      the first address in the server's --ready-file that is one of these
     token: for servers that ask for one. tls: trusts the server's certificate; None: the system's authorities do. timeout:
-    seconds to wait for a connection, and for each reply; None: for ever. Raises ValueError for another address, OSError when
-    nothing answers there, and Refused for a wrong token.
+    seconds to wait for a connection, and for each reply, on sockets; None: for ever. longest_reply: bytes.
+
+    Raises ValueError for another address, OSError when nothing answers there, and Refused for a wrong token.
     """
-    connection = _open(address, tls, timeout)
+    address = _in_file(address or os.environ.get("RACEBEAM_ADDRESS", ""))
+    session = _open(address, tls, timeout, arrays)
     try:
-        session = Session.connected(connection, arrays=arrays)
-    except BaseException:
-        connection.close()
-        raise
-    try:
-        session.address, session._again = address, lambda: connect(address, token=token, tls=tls, timeout=timeout, arrays=arrays)
+        session.address, session.longest_reply = address, longest_reply
+        session._again = lambda: connect(address, token=token, tls=tls, timeout=timeout, longest_reply=longest_reply,
+                                         arrays=arrays)
         said = session.hello(token)
-        if said["protocol"] != PROTOCOL:
-            raise ConnectionError(f"{address} speaks version {said['protocol']} of the protocol; this client speaks {PROTOCOL}")
+        if said.get("protocol") != PROTOCOL:
+            raise ConnectionError(f"{address} speaks version {said.get('protocol')} of the protocol; this client speaks {PROTOCOL}")
         return session
     except BaseException:
         session.close_connection()
@@ -140,7 +148,30 @@ def _program() -> str:
     return program.path()
 
 
-def _open(address: str, tls: ssl.SSLContext | None, timeout: float | None) -> socket.socket:
+def _in_file(address: str) -> str:
+    """The address that a ready file names first; another address as it is."""
+    if not address.startswith("file:"):
+        return address
+    with open(address.removeprefix("file:")) as file:
+        for line in file:
+            if line.startswith(("tcp://", "tls://", "unix:", "pipes:")):
+                return line.strip()
+    raise ValueError(f"{address} names no address that this client can use")
+
+
+def _open(address: str, tls: ssl.SSLContext | None, timeout: float | None, arrays: bool) -> Session:
+    """A session at `address`, without a greeting."""
+    if address == "stdio":
+        return Session(sys.stdin.buffer, sys.stdout.buffer, lambda: None, arrays)
+    kind, _, rest = address.partition(":")
+    if kind == "pipes" and rest:
+        reader = open(f"{rest}_out", "rb")  # in this order, as the server opens them
+        writer = open(f"{rest}_in", "wb")
+        return Session(reader, writer, lambda: _close(writer, reader), arrays)
+    return Session.connected(_socket(address, tls, timeout), arrays)
+
+
+def _socket(address: str, tls: ssl.SSLContext | None, timeout: float | None) -> socket.socket:
     kind, _, rest = address.partition(":")
     host, _, port = rest.removeprefix("//").rpartition(":")
     if kind == "unix" and rest:
@@ -153,7 +184,8 @@ def _open(address: str, tls: ssl.SSLContext | None, timeout: float | None) -> so
             raise
         return connection
     if kind not in ("tcp", "tls") or not rest.startswith("//") or not host or not port.isdecimal():
-        raise ValueError(f"the address is {address!r}; it takes tcp://HOST:PORT, tls://HOST:PORT or unix:PATH")
+        raise ValueError(f"the address is {address!r}; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio "
+                         "or file:PATH, also in RACEBEAM_ADDRESS")
     host = host.removeprefix("[").removesuffix("]")
     connection = socket.create_connection((host, int(port)), timeout)
     connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -166,12 +198,65 @@ def _open(address: str, tls: ssl.SSLContext | None, timeout: float | None) -> so
         raise
 
 
+def _close(*ends: IO[bytes] | socket.socket) -> None:
+    for end in ends:
+        try:
+            end.close()
+        except OSError:  # what was not sent cannot be
+            continue
+
+
+class _Lines:
+    """Reads lines from a socket, each within the time limit of the socket."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        self.connection, self.limit, self.data = connection, connection.gettimeout(), b""
+
+    def readline(self, most: int) -> bytes:
+        """As that of a file. Raises TimeoutError if the line takes longer than the limit."""
+        until = None if self.limit is None else time.monotonic() + self.limit
+        pieces, length = [self.data], len(self.data)
+        while (end := pieces[-1].find(b"\n")) < 0 and length < most:
+            if until is not None:
+                self.connection.settimeout(max(until - time.monotonic(), 1e-6))
+            pieces.append(self.connection.recv(1 << 16))
+            length += len(pieces[-1])
+            if not pieces[-1]:
+                break
+        if until is not None:
+            self.connection.settimeout(self.limit)
+        last, self.data = pieces[-1][:end + 1], pieces[-1][end + 1:]
+        return b"".join([*pieces[:-1], last])
+
+    def close(self) -> None:
+        self.connection.close()
+
+
+class Stack:
+    """A stack of screens that the client makes, as the server does for grey84xN: of the last `depth`, oldest first, zeros
+    where there was none. For `observe("grey84:delta")`, of which a reply has fewer bytes than of a stack."""
+
+    def __init__(self, depth: int) -> None:
+        self._screens: collections.deque[bytes] = collections.deque(maxlen=depth)
+
+    def clear(self) -> None:
+        """Begins anew, as after a reset."""
+        self._screens.clear()
+
+    def push(self, screen: bytes) -> bytes:
+        """Adds a screen. Returns the stack."""
+        self._screens.append(screen)
+        return bytes(len(screen)) * ((self._screens.maxlen or 0) - len(self._screens)) + b"".join(self._screens)
+
+
 class Session:
     """One session. connect() and launch() make them."""
 
-    def __init__(self, reader: IO[bytes], writer: IO[bytes], close: Callable[[], object], arrays: bool = False) -> None:
+    def __init__(self, reader: IO[bytes] | _Lines, writer: IO[bytes], close: Callable[[], object], arrays: bool = False) -> None:
         self.reader, self.writer, self._close = reader, writer, close
         self.arrays_wanted = arrays
+        self.longest_reply = LONGEST_REPLY
+        self.unanswered: collections.deque[list[str]] = collections.deque()  # the words of requests
         self.encodings: dict[str, str] = {}  # of the fields that observe chose
         self.height = 0
         self.arrays: dict[tuple[int, str], bytearray] = {}  # (machine, field): what deltas have made so far
@@ -198,25 +283,18 @@ class Session:
     @classmethod
     def tcp(cls, host: str, port: int, tls: ssl.SSLContext | None = None) -> Session:
         """A TCP connection without a greeting. `tls`: trusts the server's certificate."""
-        return cls.connected(_open(f"{'tls' if tls else 'tcp'}://{host}:{port}", tls, None))
+        return cls.connected(_socket(f"{'tls' if tls else 'tcp'}://{host}:{port}", tls, None))
 
     @classmethod
     def unix(cls, path: str) -> Session:
         """A Unix socket, without a greeting."""
-        return cls.connected(_open(f"unix:{path}", None, None))
+        return cls.connected(_socket(f"unix:{path}", None, None))
 
     @classmethod
     def connected(cls, connection: socket.socket, arrays: bool = False) -> Session:
         """A session on a socket, which it closes."""
-        reader, writer = connection.makefile("rb"), connection.makefile("wb")
-
-        def close() -> None:
-            for end in (reader, writer, connection):
-                try:
-                    end.close()
-                except OSError:  # what was not sent cannot be
-                    continue
-        return cls(reader, writer, close, arrays)
+        writer = connection.makefile("wb")
+        return cls(_Lines(connection), writer, lambda: _close(writer, connection), arrays)
 
     def __enter__(self) -> Session:
         return self
@@ -242,10 +320,11 @@ class Session:
     def send(self, *words: object, **settings: object) -> None:
         """A request without waiting for its reply; receive() gives the replies in their order."""
         line = " ".join([*map(str, words), *(f"{key}={value}" for key, value in settings.items())])
-        if "\n" in line:
-            raise ValueError(f"a request is one line; this has more: {line!r}")
+        if "\n" in line or line.lstrip(" ").startswith("#"):
+            raise ValueError(f"a request is one line, and no comment: {line!r}")
         if self._is_closed:
             raise ConnectionError("the session was closed")
+        self.unanswered.append(line.split())
         try:
             self.writer.write(f"{line}\n".encode())
         except OSError as error:
@@ -253,39 +332,80 @@ class Session:
 
     def receive(self) -> list[Texts]:
         """The groups of the next reply, each a dictionary of texts."""
-        status, _, rest = self._line().partition(" ")
-        if status == "error":
+        return self._receive()[1]
+
+    def received(self) -> list[Values]:
+        """The groups of the next reply, with numbers and bytes."""
+        words, groups = self._receive()
+        encodings = self._encodings(words[1:]) if words[:1] == ["look"] and len(words) > 1 else None
+        return [self.decoded(texts, machine, encodings) for machine, texts in enumerate(groups)]
+
+    def _receive(self) -> tuple[list[str], list[Texts]]:
+        """The words of the oldest request without a reply, and the groups of its reply."""
+        line = self._line()
+        words = self.unanswered.popleft() if self.unanswered else [""]  # without one, the server says why it ends
+        status, _, rest = line.partition(" ")
+        if status == "error" and rest:
             code, _, sentence = rest.partition(" ")
             raise Refused(code, sentence)
-        groups = f" {rest}".split(" |")
-        return [dict(word.split("=", 1) for word in group.split(" ") if "=" in word) for group in groups]
+        if status != "ok":
+            raise self._lost(ConnectionError(f"it sent {line[:60]!r}, which is no reply"))
+        groups = [dict(word.split("=", 1) for word in group.split(" ") if "=" in word) for group in f" {rest}".split(" |")]
+        self._follow(words, groups[0])
+        return words, groups
+
+    def _follow(self, words: list[str], told: Texts) -> None:
+        """Remembers what a request that was granted changes about later replies."""
+        command, *fields = words or [""]
+        if command == "observe" and fields:
+            self.encodings = self._encodings(fields)
+            self.arrays.clear()
+        elif command == "load":
+            self.height = int(told["height"])
+            self.arrays.clear()
+        elif command == "open":
+            self.arrays = {key: array for key, array in self.arrays.items() if key[0] == 0}
 
     def _line(self) -> str:
         if self._is_closed:
             raise ConnectionError("the session was closed")
         try:
-            self.writer.flush()
-            line = self.reader.readline()
+            try:
+                self.writer.flush()
+            except ConnectionError:
+                pass  # the server may have said why it ends, before it did
+            line = self.reader.readline(self.longest_reply)
         except OSError as error:  # a TimeoutError is one, too: half a reply may have been read
             raise self._lost(error) from error
         except BaseException:
             self.close_connection()  # a reply that is read later would be taken for another's
             raise
         if not line.endswith(b"\n"):
-            raise self._lost(None)
-        return line.decode().rstrip("\n")
+            long = ConnectionError(f"its reply is longer than {self.longest_reply} bytes")
+            raise self._lost(long if len(line) >= self.longest_reply else None)
+        return line.decode("latin-1").rstrip("\n")
 
     def _lost(self, error: OSError | None) -> OSError:
         self.close_connection()
         at = f" at {self.address}" if self.address else ""
         if isinstance(error, TimeoutError):
             return TimeoutError(f"the server{at} did not answer in time; the session has ended")
-        return ConnectionError(f"the server{at} has closed the session" + (f": {error}" if error else ""))
+        return ConnectionError(f"the session of the server{at} has ended" + (f": {error}" if error else ""))
 
     def ask(self, *words: object, **settings: object) -> list[Texts]:
         """A request and its reply."""
-        self.send(*words, **settings)
+        self._send_alone(*words, **settings)
         return self.receive()
+
+    def request(self, *words: object, **settings: object) -> list[Values]:
+        """A request and its reply, with numbers and bytes: what the methods below do, for any request."""
+        self._send_alone(*words, **settings)
+        return self.received()
+
+    def _send_alone(self, *words: object, **settings: object) -> None:
+        if self.unanswered:
+            raise ValueError(f"{len(self.unanswered)} requests were sent ahead; receive their replies first")
+        self.send(*words, **settings)
 
     def values(self, *words: object, **settings: object) -> Values:
         """The first group of a reply, with numbers."""
@@ -301,7 +421,10 @@ class Session:
     def decoded(self, texts: Texts, machine: int = 0, encodings: dict[str, str] | None = None) -> Values:
         """The fields of one group, as numbers and bytes."""
         encodings = self.encodings if encodings is None else encodings
-        return {key: self._value(machine, key.removeprefix("final_"), text, encodings) for key, text in texts.items()}
+        try:
+            return {key: self._value(machine, key.removeprefix("final_"), text, encodings) for key, text in texts.items()}
+        except (ValueError, IndexError, zlib.error, binascii.Error) as error:
+            raise self._lost(ConnectionError(f"a field of its reply is damaged: {error}")) from error
 
     def _value(self, machine: int, field: str, text: str, encodings: dict[str, str]) -> Any:
         encoding = encodings.get(field)
@@ -358,6 +481,7 @@ class Session:
 
     def help(self, *words: str) -> str:
         self.send("help", *words)
+        self.unanswered.pop()
         return self._line().partition(" ")[2]
 
     def games(self, *words: str) -> list[str]:
@@ -373,10 +497,7 @@ class Session:
             settings["as"] = settings.pop("as_")
         if image is not None:
             settings["image"] = base64.b64encode(image).decode()
-        loaded = self.values("load", game, **settings)
-        self.height = loaded["height"]
-        self.arrays.clear()
-        return loaded
+        return self.values("load", game, **settings)
 
     def settings(self) -> Values:
         return self.values("settings")
@@ -399,11 +520,7 @@ class Session:
         return {int(action): name for action, name in pairs}
 
     def observe(self, *fields: str) -> list[str]:
-        chosen = self.list_of("fields", "observe", *fields)
-        if fields:
-            self.encodings = self._encodings(fields)
-            self.arrays.clear()
-        return chosen
+        return self.list_of("fields", "observe", *fields)
 
     def look(self, *fields: str) -> Values:
         texts = self.ask("look", *fields)[0]
@@ -453,7 +570,6 @@ class Session:
                 for texts in self.ask("branch", name, *words)[1:]]
 
     def open(self, count: int, autoreset: str = "next-step", **settings: object) -> list[Values]:
-        self.arrays.clear()
         return self._machines("open", count, autoreset=autoreset, **settings)
 
     def step(self, *actions: object) -> list[Values]:

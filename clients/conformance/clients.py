@@ -1,0 +1,54 @@
+"""The clients that hold the conformance conversation. A new client is a row of the table below."""
+
+import dataclasses
+import pathlib
+import shutil
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HERE = pathlib.Path(__file__).resolve().parent
+BUILT = ROOT / "build/clients"
+
+EVERY_WAY = frozenset({"unix", "pipes", "file", "launch", "tls"})
+
+
+@dataclasses.dataclass(frozen=True)
+class Client:
+    name: str
+    language: str                  # as on its page, in fences
+    runner: tuple[str, ...]        # a command and the program that takes a file of steps
+    sources: str                   # a pattern: the files of the client
+    offers: frozenset = EVERY_WAY  # ways to connect beside TCP, as in `section ... needs WAY`
+    build: tuple[str, ...] = ()    # a command
+    probe: tuple[str, ...] = ()    # a command that succeeds where the runner has what it needs
+    variables: tuple[tuple[str, str], ...] = ()
+
+    def missing(self):
+        """What is not installed here, or None."""
+        absent = next((word for word in (self.runner[0], *self.build[:1]) if shutil.which(word) is None), None)
+        if absent is None and self.probe and subprocess.run(self.probe, capture_output=True).returncode != 0:
+            return f"success of {' '.join(self.probe)}"
+        return absent
+
+    @property
+    def page(self):
+        return f"clients/{self.language}/README.md"
+
+    def lines_of_code(self):
+        """Lines of the client that are neither empty nor comments."""
+        texts = [path.read_text() for path in ROOT.glob(self.sources)]
+        return sum(1 for text in texts for line in text.splitlines() if line.strip() and not line.strip().startswith(COMMENTS))
+
+
+COMMENTS = ("//", "/*", "*", "#", "--")
+
+CLIENTS = (
+    Client("python", "python", ("python3", "-B", str(HERE / "runner.py")), "clients/python/racebeam/wire/client.py"),
+    Client("java", "java", ("java", "-cp", str(BUILT / "java"), str(HERE / "Runner.java")), "clients/java/src/main/java/racebeam/*.java",
+           build=("javac", "-Xlint:all", "-d", str(BUILT / "java"), *map(str, ROOT.glob("clients/java/src/main/java/**/*.java")))),
+    *(Client(program, "lua", (program, str(HERE / "runner.lua")), "clients/lua/racebeam/*.lua",
+             probe=(program, "-e", "require 'socket' require 'ssl'"),
+             variables=(("LUA_PATH", f"{ROOT}/clients/lua/?.lua;{ROOT}/clients/lua/?/init.lua;;"),))
+      for program in ("lua5.1", "lua5.4", "luajit")),
+    Client("javascript", "js", ("node", str(HERE / "runner.mjs")), "clients/js/src/*.js"),
+)

@@ -1,0 +1,34 @@
+package racebeam;
+
+import java.util.List;
+
+/**
+ * What a list of actions of {@code branch} led to.
+ *
+ * @param rewards the reward of each act
+ * @param rewardsB those of player B; empty where the game's rules have none
+ * @param group the whole group: reward, acts, terminated, truncated, lives, and state with {@code keep}
+ */
+public record Branch(List<Long> rewards, List<Long> rewardsB, Group group) {
+  static Branch of(Group group) {
+    return new Branch(rewards(group, "rewards"), rewards(group, "rewards_b"), group);
+  }
+
+  /**
+   * The sum of the rewards.
+   *
+   * @return the field reward
+   */
+  public long reward() {
+    return group.reward();
+  }
+
+  private static List<Long> rewards(Group group, String key) {
+    List<Long> rewards = new java.util.ArrayList<>();
+    for (String run : group.has(key) ? group.list(key) : List.<String>of()) {
+      String[] parts = run.split("\\*");
+      rewards.addAll(java.util.Collections.nCopies(parts.length == 1 ? 1 : Integer.parseInt(parts[1]), Long.valueOf(parts[0])));
+    }
+    return rewards;
+  }
+}

@@ -1,0 +1,95 @@
+package racebeam;
+
+import java.io.Closeable;
+import java.io.IOException;
+import java.io.InputStream;
+import java.io.OutputStream;
+import java.net.SocketTimeoutException;
+import java.nio.charset.StandardCharsets;
+import java.time.Duration;
+import java.util.Arrays;
+
+/** Lines to and from a server. */
+final class Connection implements Closeable {
+  /** A stream of bytes whose reads can be limited in time. */
+  interface Source {
+    /** As {@link InputStream#read(byte[], int, int)}; waits for at most {@code milliseconds}, or for ever if 0. */
+    int read(byte[] data, int at, int length, int milliseconds) throws IOException;
+  }
+
+  private final Source source;
+  private final OutputStream output;
+  private final Closeable end;
+  private final Duration timeout;
+  private final int longest;
+  private byte[] data = new byte[1 << 16];
+  private int begin;
+  private int filled;
+
+  Connection(Source source, OutputStream output, Closeable end, Options options) {
+    this.source = source;
+    this.output = output;
+    this.end = end;
+    this.timeout = options.timeout();
+    this.longest = options.longestReply();
+  }
+
+  void write(String line) throws IOException {
+    output.write((line + "\n").getBytes(StandardCharsets.ISO_8859_1)); // in one write
+    output.flush();
+  }
+
+  /** The next line, without its end. */
+  String readLine() throws IOException {
+    long start = System.nanoTime();
+    int searched = begin;
+    while (true) {
+      for (; searched < filled; ++searched) {
+        if (data[searched] == '\n') {
+          String line = new String(data, begin, searched - begin, StandardCharsets.ISO_8859_1);
+          begin = searched + 1;
+          return line;
+        }
+      }
+      searched -= makeRoom();
+      int read = source.read(data, filled, data.length - filled, remaining(start));
+      if (read < 0) {
+        throw new IOException("the server has closed the connection");
+      }
+      filled += read;
+    }
+  }
+
+  /** Makes room behind what was read. Returns how far it moved to the front. */
+  private int makeRoom() throws IOException {
+    int moved = begin;
+    if (filled - begin > longest) {
+      throw new IOException("the reply of the server is longer than " + longest + " bytes");
+    }
+    if (begin > 0) {
+      System.arraycopy(data, begin, data, 0, filled - begin);
+      filled -= begin;
+      begin = 0;
+    }
+    if (filled == data.length) {
+      data = Arrays.copyOf(data, data.length * 2);
+    }
+    return moved;
+  }
+
+  private int remaining(long start) throws SocketTimeoutException {
+    if (timeout == null) {
+      return 0;
+    }
+    long milliseconds = timeout.toMillis() - (System.nanoTime() - start) / 1_000_000;
+    if (milliseconds <= 0) {
+      throw new SocketTimeoutException("the server did not answer in " + timeout);
+    }
+    return (int) Math.min(milliseconds, Integer.MAX_VALUE);
+  }
+
+  @Override
+  public void close() throws IOException {
+    end.close();
+  }
+}

@@ -1,0 +1,109 @@
+package racebeam;
+
+import java.util.List;
+import java.util.Map;
+import java.util.NoSuchElementException;
+
+/**
+ * A group of a reply: its pairs of key and value.
+ *
+ * @param texts the values that are no bytes, in the order of the reply
+ * @param bytes the decoded fields that are bytes, such as screen and ram
+ */
+public record Group(Map<String, String> texts, Map<String, byte[]> bytes) {
+  /**
+   * Whether the group has a key. Some, such as {@code over}, are not always there.
+   *
+   * @param key the key
+   * @return whether it is there
+   */
+  public boolean has(String key) {
+    return texts.containsKey(key) || bytes.containsKey(key);
+  }
+
+  /**
+   * A value as it was sent.
+   *
+   * @param key the key
+   * @return its value
+   * @throws NoSuchElementException if the group does not have it
+   */
+  public String text(String key) {
+    return found(texts.get(key), key);
+  }
+
+  /**
+   * A whole number.
+   *
+   * @param key the key
+   * @return its value
+   */
+  public long number(String key) {
+    return Long.parseLong(text(key));
+  }
+
+  /**
+   * A number, such as the setting sticky.
+   *
+   * @param key the key
+   * @return its value
+   */
+  public double real(String key) {
+    return Double.parseDouble(text(key));
+  }
+
+  /**
+   * A list whose elements are separated by commas.
+   *
+   * @param key the key
+   * @return its elements
+   */
+  public List<String> list(String key) {
+    String text = text(key);
+    return text.isEmpty() ? List.of() : List.of(text.split(","));
+  }
+
+  /**
+   * A field that consists of bytes. The array belongs to the caller.
+   *
+   * @param field the field
+   * @return its bytes
+   */
+  public byte[] bytes(String field) {
+    return found(bytes.get(field), field);
+  }
+
+  /**
+   * The field reward.
+   *
+   * @return the sum of the request's rewards
+   */
+  public long reward() {
+    return number("reward");
+  }
+
+  /**
+   * The field lives.
+   *
+   * @return the lives that are left
+   */
+  public int lives() {
+    return (int) number("lives");
+  }
+
+  /**
+   * The fields terminated and truncated together.
+   *
+   * @return whether the episode has ended
+   */
+  public boolean isOver() {
+    return number("terminated") == 1 || number("truncated") == 1;
+  }
+
+  private <T> T found(T value, String key) {
+    if (value == null) {
+      throw new NoSuchElementException("the reply has no '" + key + "'; it has " + texts.keySet() + " and " + bytes.keySet());
+    }
+    return value;
+  }
+}

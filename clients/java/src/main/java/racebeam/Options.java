@@ -1,0 +1,57 @@
+package racebeam;
+
+import java.time.Duration;
+import javax.net.ssl.SSLContext;
+
+/**
+ * How to connect.
+ *
+ * @param token for servers that require one, or null
+ * @param timeout the longest wait for a connection and for each reply, on sockets; null: for ever
+ * @param tls what decides which certificates are trusted; null: the JDK's default
+ * @param longestReply bytes; a server that sends a longer line is taken for broken
+ */
+public record Options(String token, Duration timeout, SSLContext tls, int longestReply) {
+  /** No token, no time limit, the default certificates, replies of at most 256 MiB. */
+  public static final Options DEFAULT = new Options(null, null, null, 1 << 28);
+
+  /**
+   * The same with a token.
+   *
+   * @param value the token
+   * @return changed options
+   */
+  public Options withToken(String value) {
+    return new Options(value, timeout, tls, longestReply);
+  }
+
+  /**
+   * The same with a time limit.
+   *
+   * @param value the limit, or null
+   * @return changed options
+   */
+  public Options withTimeout(Duration value) {
+    return new Options(token, value, tls, longestReply);
+  }
+
+  /**
+   * The same with other trust.
+   *
+   * @param value what decides which certificates are trusted
+   * @return changed options
+   */
+  public Options withTls(SSLContext value) {
+    return new Options(token, timeout, value, longestReply);
+  }
+
+  /**
+   * The same with another limit of replies.
+   *
+   * @param value bytes
+   * @return changed options
+   */
+  public Options withLongestReply(int value) {
+    return new Options(token, timeout, tls, value);
+  }
+}

@@ -1,0 +1,617 @@
+package racebeam;
+
+import java.io.IOException;
+import java.util.ArrayDeque;
+import java.util.ArrayList;
+import java.util.Arrays;
+import java.util.Base64;
+import java.util.Deque;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.stream.Collectors;
+
+/**
+ * One session, with a method for each command. Threads may share it: each request gets its own reply.
+ *
+ * <p>Every method that asks throws {@link RefusedException} if the server refuses the request, and the session continues.
+ * It throws {@link IOException} if the server has gone, does not answer in time, or sends what is no reply. The session has
+ * then ended.
+ */
+public final class Session implements AutoCloseable {
+  /** Bytes of requests without a reply. A server that cannot send its replies stops reading, so this must fit in its pipe. */
+  private static final int MOST_AHEAD = 1 << 15;
+
+  private record Outcome(Reply reply, RefusedException refusal) {
+    Reply get() {
+      if (refusal != null) {
+        throw refusal;
+      }
+      return reply;
+    }
+  }
+
+  private final Connection connection;
+  private final Fields fields = new Fields();
+  private final Deque<String> unanswered = new ArrayDeque<>();
+  private final Deque<Outcome> arrived = new ArrayDeque<>(); // replies that were read to make room for a request
+  private int ahead; // bytes of `unanswered`
+  private volatile boolean closed;
+
+  Session(Connection connection) {
+    this.connection = connection;
+  }
+
+  /** Ends the session. More than once does nothing. */
+  @Override
+  public void close() {
+    if (!closed) {
+      closed = true;
+      try {
+        connection.close();
+      } catch (IOException ignored) {
+        return; // what was not sent cannot be
+      }
+    }
+  }
+
+  // Requests and replies
+
+  /**
+   * Sends a request, and returns its reply. Replies of requests that were sent ahead stay to be received.
+   *
+   * @param line such as {@code act FIRE}
+   * @return its reply
+   * @throws IOException if the session has ended
+   */
+  public synchronized Reply request(String line) throws IOException {
+    send(line);
+    while (unanswered.size() > 1) {
+      arrived.add(outcome());
+    }
+    return outcome().get();
+  }
+
+  /**
+   * Sends a request without waiting for its reply.
+   *
+   * @param line such as {@code act FIRE}
+   * @throws IOException if the session has ended
+   */
+  public synchronized void send(String line) throws IOException {
+    if (line.indexOf('\n') >= 0 || line.stripLeading().startsWith("#")) {
+      throw new IllegalArgumentException("a request is one line, and no comment: '" + line + "'");
+    }
+    while (ahead > 0 && ahead + line.length() > MOST_AHEAD) {
+      arrived.add(outcome());
+    }
+    if (closed) {
+      throw new IOException("the session has ended");
+    }
+    unanswered.add(line);
+    ahead += line.length();
+    try {
+      connection.write(line);
+    } catch (IOException ignored) {
+      return; // the server may have said why it ends, before it did: outcome() reads that
+    }
+  }
+
+  /**
+   * The next reply to a request that was sent ahead.
+   *
+   * @return the reply
+   * @throws IOException if the session has ended
+   */
+  public synchronized Reply receive() throws IOException {
+    return (arrived.isEmpty() ? outcome() : arrived.remove()).get();
+  }
+
+  private Outcome outcome() throws IOException {
+    if (closed) {
+      throw new IOException("the session has ended");
+    }
+    try {
+      String line = connection.readLine();
+      String request = unanswered.isEmpty() ? "" : unanswered.remove(); // without one, the server says why it ends
+      ahead -= request.length();
+      if (line.startsWith("error ")) {
+        String[] parts = line.split(" ", 3);
+        return new Outcome(null, new RefusedException(parts[1], parts.length > 2 ? parts[2] : ""));
+      }
+      if (!line.equals("ok") && !line.startsWith("ok ")) {
+        throw new IOException("the server sent what is no reply: '" + line.substring(0, Math.min(60, line.length())) + "'");
+      }
+      return new Outcome(new Reply(fields.follow(List.of(request.strip().split(" +")), groups(line)), line), null);
+    } catch (IOException failure) {
+      close(); // half a reply may have been read
+      throw failure;
+    } catch (RuntimeException damaged) {
+      close();
+      throw new IOException("a reply of the server is damaged: " + damaged.getMessage(), damaged);
+    }
+  }
+
+  private static List<Map<String, String>> groups(String line) {
+    List<Map<String, String>> groups = new ArrayList<>();
+    groups.add(new LinkedHashMap<>());
+    for (int at = 2; at < line.length(); ) {
+      int end = line.indexOf(' ', at + 1);
+      String word = line.substring(at + 1, end < 0 ? line.length() : end);
+      int equals = word.indexOf('=');
+      if (word.equals("|")) {
+        groups.add(new LinkedHashMap<>());
+      } else if (equals >= 0) {
+        groups.get(groups.size() - 1).put(word.substring(0, equals), word.substring(equals + 1));
+      }
+      at = end < 0 ? line.length() : end;
+    }
+    return groups;
+  }
+
+  private Group first(String line) throws IOException {
+    return request(line).first();
+  }
+
+  private static String words(String command, String... words) {
+    return words.length == 0 ? command : command + " " + String.join(" ", words);
+  }
+
+  // Commands
+
+  /**
+   * Name and limits of the server.
+   *
+   * @return what protocol/PROTOCOL.md lists
+   * @throws IOException if the session has ended
+   */
+  public Group hello() throws IOException {
+    return first("hello");
+  }
+
+  /**
+   * The same, with a token.
+   *
+   * @param token that the server requires
+   * @return name and limits of the server
+   * @throws IOException if the session has ended
+   */
+  public Group hello(String token) throws IOException {
+    return first("hello token=" + token);
+  }
+
+  /**
+   * The games whose images the server has.
+   *
+   * @return their names
+   * @throws IOException if the session has ended
+   */
+  public List<String> games() throws IOException {
+    return first("games").list("games");
+  }
+
+  /**
+   * One game.
+   *
+   * @param name its name
+   * @return what the server knows about it
+   * @throws IOException if the session has ended
+   */
+  public Group game(String name) throws IOException {
+    return first("games " + name);
+  }
+
+  /**
+   * Powers on and begins an episode, with default settings.
+   *
+   * @param game its name, or the MD5 of its image
+   * @return the settings in effect
+   * @throws IOException if the session has ended
+   */
+  public Group load(String game) throws IOException {
+    return load(game, Map.of());
+  }
+
+  /**
+   * Powers on and begins an episode.
+   *
+   * @param game its name, or the MD5 of its image
+   * @param settings such as {@code Map.of("seed", 7, "preset", "dqn2015")}
+   * @return the settings in effect
+   * @throws IOException if the session has ended
+   */
+  public Group load(String game, Map<String, ?> settings) throws IOException {
+    return first("load " + game + Racebeam.pairs(settings));
+  }
+
+  /**
+   * Powers on with an image of the client's.
+   *
+   * @param image the bytes of a cartridge
+   * @param settings as of {@link #load(String, Map)}; {@code as} names the game whose rules apply
+   * @return the settings in effect
+   * @throws IOException if the session has ended
+   */
+  public Group load(byte[] image, Map<String, ?> settings) throws IOException {
+    return first("load inline image=" + Base64.getEncoder().encodeToString(image) + Racebeam.pairs(settings));
+  }
+
+  /**
+   * The settings in effect.
+   *
+   * @return the settings
+   * @throws IOException if the session has ended
+   */
+  public Group settings() throws IOException {
+    return first("settings");
+  }
+
+  /**
+   * Changes mode or difficulty.
+   *
+   * @param settings mode, difficulty or both
+   * @return both
+   * @throws IOException if the session has ended
+   */
+  public Group set(Map<String, Integer> settings) throws IOException {
+    return first("set" + Racebeam.pairs(settings));
+  }
+
+  /**
+   * The game's modes for one player.
+   *
+   * @return their numbers
+   * @throws IOException if the session has ended
+   */
+  public List<Integer> modes() throws IOException {
+    return first("modes").list("modes").stream().map(Integer::valueOf).toList();
+  }
+
+  /**
+   * The game's difficulties.
+   *
+   * @return their numbers
+   * @throws IOException if the session has ended
+   */
+  public List<Integer> difficulties() throws IOException {
+    return first("difficulties").list("difficulties").stream().map(Integer::valueOf).toList();
+  }
+
+  /**
+   * The actions that {@code act} accepts.
+   *
+   * @return names by number
+   * @throws IOException if the session has ended
+   */
+  public Map<Integer, String> actions() throws IOException {
+    Map<Integer, String> actions = new LinkedHashMap<>();
+    for (String pair : first("actions").list("actions")) {
+      actions.put(Integer.valueOf(pair.substring(0, pair.indexOf(':'))), pair.substring(pair.indexOf(':') + 1));
+    }
+    return actions;
+  }
+
+  /**
+   * Chooses what replies carry; without fields, asks what was chosen.
+   *
+   * @param fields such as {@code "reward", "screen:delta"}
+   * @return the fields
+   * @throws IOException if the session has ended
+   */
+  public List<String> observe(String... fields) throws IOException {
+    return first(words("observe", fields)).list("fields");
+  }
+
+  /**
+   * What the machine shows.
+   *
+   * @param fields to show; without, those of {@code observe}
+   * @return the fields
+   * @throws IOException if the session has ended
+   */
+  public Group look(String... fields) throws IOException {
+    return first(words("look", fields));
+  }
+
+  /**
+   * The colours of the field screen.
+   *
+   * @return a palette
+   * @throws IOException if the session has ended
+   */
+  public Palette palette() throws IOException {
+    return new Palette(look("palette").bytes("palette"));
+  }
+
+  /**
+   * Plays actions until the episode ends.
+   *
+   * @param actions such as {@code "FIRE", "UP*3", "5/LEFT@0.5"}
+   * @return the chosen fields
+   * @throws IOException if the session has ended
+   */
+  public Group act(String... actions) throws IOException {
+    return first(words("act", actions));
+  }
+
+  /**
+   * Plays an action.
+   *
+   * @param action its number
+   * @return the chosen fields
+   * @throws IOException if the session has ended
+   */
+  public Group act(int action) throws IOException {
+    return first("act " + action);
+  }
+
+  /**
+   * Begins an episode; what is random goes on.
+   *
+   * @return the chosen fields
+   * @throws IOException if the session has ended
+   */
+  public Group reset() throws IOException {
+    return first("reset");
+  }
+
+  /**
+   * Powers on anew with a seed.
+   *
+   * @param seed 0 to 4294967295
+   * @return the chosen fields
+   * @throws IOException if the session has ended
+   */
+  public Group reset(long seed) throws IOException {
+    return first("reset seed=" + seed);
+  }
+
+  /**
+   * Reads RAM.
+   *
+   * @param index of the first byte, 0 to 127
+   * @param count bytes
+   * @return the bytes
+   * @throws IOException if the session has ended
+   */
+  public byte[] peek(int index, int count) throws IOException {
+    return Encoding.HEX.decode(first("peek " + index + " " + count).text("bytes"));
+  }
+
+  /**
+   * Writes RAM.
+   *
+   * @param index of the first byte
+   * @param bytes to write
+   * @throws IOException if the session has ended
+   */
+  public void poke(int index, byte... bytes) throws IOException {
+    StringBuilder hex = new StringBuilder();
+    for (byte value : bytes) {
+      hex.append(String.format("%02X", value));
+    }
+    request("poke " + index + " " + hex);
+  }
+
+  /**
+   * Keeps the state.
+   *
+   * @param name of the state
+   * @throws IOException if the session has ended
+   */
+  public void save(String name) throws IOException {
+    request("save " + name);
+  }
+
+  /**
+   * Keeps the state with the generator of what is random.
+   *
+   * @param name of the state
+   * @throws IOException if the session has ended
+   */
+  public void saveWithRandom(String name) throws IOException {
+    request("save " + name + " random=1");
+  }
+
+  /**
+   * Returns to a state.
+   *
+   * @param name of the state
+   * @return the chosen fields
+   * @throws IOException if the session has ended
+   */
+  public Group restore(String name) throws IOException {
+    return first("restore " + name);
+  }
+
+  /**
+   * Forgets states.
+   *
+   * @param names of states, or {@code "all"}
+   * @throws IOException if the session has ended
+   */
+  public void drop(String... names) throws IOException {
+    request(words("drop", names));
+  }
+
+  /**
+   * The states.
+   *
+   * @return their names
+   * @throws IOException if the session has ended
+   */
+  public List<String> states() throws IOException {
+    return first("states").list("states");
+  }
+
+  /**
+   * A state for later, or for another process.
+   *
+   * @param name of the state
+   * @return its bytes
+   * @throws IOException if the session has ended
+   */
+  public byte[] exportState(String name) throws IOException {
+    return Encoding.BASE64.decode(first("export " + name).text("data"));
+  }
+
+  /**
+   * Keeps a state that was exported.
+   *
+   * @param name for it
+   * @param state its bytes
+   * @throws IOException if the session has ended
+   */
+  public void importState(String name, byte[] state) throws IOException {
+    request("import " + name + " " + Base64.getEncoder().encodeToString(state));
+  }
+
+  /**
+   * Plays lists of actions from a state. The session stays where it is.
+   *
+   * @param state its name
+   * @param lists of actions
+   * @return what each list led to
+   * @throws IOException if the session has ended
+   */
+  public List<Branch> branch(String state, List<List<String>> lists) throws IOException {
+    return branches("branch " + state, lists);
+  }
+
+  /**
+   * The same, and keeps the states in which the lists ended.
+   *
+   * @param state its name
+   * @param keep the beginning of the new names, which end in 0, 1 and so on
+   * @param lists of actions
+   * @return what each list led to
+   * @throws IOException if the session has ended
+   */
+  public List<Branch> branch(String state, String keep, List<List<String>> lists) throws IOException {
+    return branches("branch " + state + " keep=" + keep, lists);
+  }
+
+  private List<Branch> branches(String command, List<List<String>> lists) throws IOException {
+    String line = lists.stream().map(list -> " " + String.join(",", list)).collect(Collectors.joining("", command, ""));
+    return request(line).rest().stream().map(Branch::of).toList();
+  }
+
+  /**
+   * Opens machines with the game and the settings that are loaded.
+   *
+   * @param count machines
+   * @param settings such as {@code Map.of("autoreset", "same-step")}
+   * @return the chosen fields of each
+   * @throws IOException if the session has ended
+   */
+  public List<Group> open(int count, Map<String, ?> settings) throws IOException {
+    return request("open " + count + Racebeam.pairs(settings)).rest();
+  }
+
+  /**
+   * An action for each machine, or one for all.
+   *
+   * @param actions of the machines
+   * @return the chosen fields of each machine
+   * @throws IOException if the session has ended
+   */
+  public List<Group> step(String... actions) throws IOException {
+    return request(words("step", actions)).rest();
+  }
+
+  /**
+   * Actions by their numbers.
+   *
+   * @param actions one for each machine, or one for all
+   * @return the chosen fields of each machine
+   * @throws IOException if the session has ended
+   */
+  public List<Group> step(int... actions) throws IOException {
+    return step(Arrays.stream(actions).mapToObj(Integer::toString).toArray(String[]::new));
+  }
+
+  /**
+   * Resets machines.
+   *
+   * @param words a mask such as {@code "0110"}, and {@code "seed=N"}; each may be left out
+   * @return the chosen fields of each machine
+   * @throws IOException if the session has ended
+   */
+  public List<Group> restart(String... words) throws IOException {
+    return request(words("restart", words)).rest();
+  }
+
+  /**
+   * Gives the machines of {@link #open} back: the command close.
+   *
+   * @throws IOException if the session has ended
+   */
+  public void closeMachines() throws IOException {
+    request("close");
+  }
+
+  /**
+   * Begins a recording below the server's folder.
+   *
+   * @param kinds such as {@code "y4m,wav"}
+   * @param name of the files
+   * @return what is recorded
+   * @throws IOException if the session has ended
+   */
+  public Group record(String kinds, String name) throws IOException {
+    return first("record " + kinds + " " + name);
+  }
+
+  /**
+   * Begins a recording of a machine of {@link #open}.
+   *
+   * @param kinds such as {@code "y4m,wav"}
+   * @param name of the files
+   * @param machine 0 is the first
+   * @return what is recorded
+   * @throws IOException if the session has ended
+   */
+  public Group record(String kinds, String name, int machine) throws IOException {
+    return first("record " + kinds + " " + name + " machine=" + machine);
+  }
+
+  /**
+   * Ends the recording.
+   *
+   * @return what was kept
+   * @throws IOException if the session has ended
+   */
+  public Group stopRecording() throws IOException {
+    return first("record stop");
+  }
+
+  /**
+   * What this session has done.
+   *
+   * @return counts
+   * @throws IOException if the session has ended
+   */
+  public Group stats() throws IOException {
+    return first("stats");
+  }
+
+  /**
+   * Explains a command, setting, field, preset, encoding or error code, for people.
+   *
+   * @param word to explain, or nothing
+   * @return a sentence
+   * @throws IOException if the session has ended
+   */
+  public String help(String... word) throws IOException {
+    return request(words("help", word)).line().substring("ok ".length());
+  }
+
+  /**
+   * Ends the session, as the server sees it.
+   *
+   * @throws IOException if the session has ended
+   */
+  public void quit() throws IOException {
+    request("quit");
+  }
+}

@@ -1,0 +1,191 @@
+package racebeam;
+
+import java.io.FileInputStream;
+import java.io.FileOutputStream;
+import java.io.IOException;
+import java.io.InputStream;
+import java.net.InetSocketAddress;
+import java.net.Socket;
+import java.net.SocketTimeoutException;
+import java.net.StandardProtocolFamily;
+import java.net.UnixDomainSocketAddress;
+import java.nio.ByteBuffer;
+import java.nio.channels.Channels;
+import java.nio.channels.SelectionKey;
+import java.nio.channels.Selector;
+import java.nio.channels.SocketChannel;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.List;
+import java.util.concurrent.TimeUnit;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+import javax.net.ssl.SSLContext;
+import javax.net.ssl.SSLParameters;
+import javax.net.ssl.SSLSocket;
+
+/** Opens connections. */
+final class Transports {
+  private static final Pattern NETWORK = Pattern.compile("(tcp|tls)://\\[?(.+?)]?:([0-9]{1,5})");
+  private static final Pattern USABLE = Pattern.compile("(tcp:|tls:|unix:|pipes:).*");
+  private static final int SECONDS_TO_END = 10; // for a server of its own
+
+  private Transports() {}
+
+  static Connection open(String address, Options options) throws IOException {
+    Matcher network = NETWORK.matcher(address);
+    if (network.matches() && Integer.parseInt(network.group(3)) < 65536) {
+      return network(network.group(1).equals("tls"), network.group(2), Integer.parseInt(network.group(3)), options);
+    }
+    if (address.equals("stdio")) {
+      return new Connection(untimed(System.in), System.out, () -> {}, options);
+    }
+    int colon = address.indexOf(':') + 1;
+    String rest = address.substring(colon);
+    String kind = rest.isEmpty() ? "" : address.substring(0, colon);
+    return switch (kind) {
+      case "unix:" -> unix(rest, options);
+      case "pipes:" -> pipes(rest, options);
+      case "file:" -> open(inFile(rest), options);
+      default -> throw new IllegalArgumentException("the address is '" + address + "'; it takes tcp://HOST:PORT, tls://HOST:PORT, "
+          + "unix:PATH, pipes:PREFIX, stdio or file:PATH, also in RACEBEAM_ADDRESS");
+    };
+  }
+
+  private static String inFile(String path) throws IOException {
+    return Files.readAllLines(Path.of(path)).stream().filter(line -> USABLE.matcher(line).matches()).findFirst().orElseThrow(
+        () -> new IllegalArgumentException(path + " names no address that this client can use"));
+  }
+
+  private static int milliseconds(Duration timeout) {
+    return timeout == null ? 0 : (int) Math.max(1, Math.min(timeout.toMillis(), Integer.MAX_VALUE));
+  }
+
+  private static Connection network(boolean tls, String host, int port, Options options) throws IOException {
+    Socket plain = new Socket();
+    try {
+      plain.connect(new InetSocketAddress(host, port), milliseconds(options.timeout()));
+      plain.setTcpNoDelay(true);
+      Socket socket = tls ? secured(plain, host, port, options) : plain;
+      InputStream input = socket.getInputStream();
+      Connection.Source source = (data, at, length, limit) -> {
+        socket.setSoTimeout(limit);
+        return input.read(data, at, length);
+      };
+      return new Connection(source, socket.getOutputStream(), socket, options);
+    } catch (IOException | RuntimeException failure) {
+      plain.close();
+      throw failure;
+    }
+  }
+
+  private static Socket secured(Socket plain, String host, int port, Options options) throws IOException {
+    try {
+      SSLContext context = options.tls() != null ? options.tls() : SSLContext.getDefault();
+      SSLSocket socket = (SSLSocket) context.getSocketFactory().createSocket(plain, host, port, true);
+      SSLParameters parameters = socket.getSSLParameters();
+      parameters.setEndpointIdentificationAlgorithm("HTTPS"); // the certificate must be that of the host
+      socket.setSSLParameters(parameters);
+      socket.setSoTimeout(milliseconds(options.timeout()));
+      socket.startHandshake();
+      return socket;
+    } catch (java.security.NoSuchAlgorithmException failure) {
+      throw new IOException(failure);
+    }
+  }
+
+  private static Connection unix(String path, Options options) throws IOException {
+    SocketChannel channel = SocketChannel.open(StandardProtocolFamily.UNIX);
+    try {
+      channel.connect(UnixDomainSocketAddress.of(path));
+      if (options.timeout() == null) {
+        return new Connection(untimed(Channels.newInputStream(channel)), Channels.newOutputStream(channel), channel, options);
+      }
+      return timed(channel, options);
+    } catch (IOException | RuntimeException failure) {
+      channel.close();
+      throw failure;
+    }
+  }
+
+  /** A channel has no time limits; a selector has. Writes block, since a limited amount is sent ahead. */
+  private static Connection timed(SocketChannel channel, Options options) throws IOException {
+    channel.configureBlocking(false);
+    Selector readable = Selector.open();
+    Selector writable = Selector.open();
+    channel.register(readable, SelectionKey.OP_READ);
+    channel.register(writable, SelectionKey.OP_WRITE);
+    Connection.Source source = (data, at, length, limit) -> {
+      int read;
+      while ((read = channel.read(ByteBuffer.wrap(data, at, length))) == 0) {
+        await(readable, limit);
+      }
+      return read;
+    };
+    var output = new java.io.OutputStream() {
+      @Override
+      public void write(int value) throws IOException {
+        write(new byte[] {(byte) value}, 0, 1);
+      }
+
+      @Override
+      public void write(byte[] data, int at, int length) throws IOException {
+        ByteBuffer rest = ByteBuffer.wrap(data, at, length);
+        while (channel.write(rest) == 0 || rest.hasRemaining()) {
+          await(writable, milliseconds(options.timeout()));
+        }
+      }
+    };
+    return new Connection(source, output, () -> {
+      channel.close();
+      readable.close();
+      writable.close();
+    }, options);
+  }
+
+  private static void await(Selector selector, int limit) throws IOException {
+    if (selector.select(limit) == 0) {
+      throw new SocketTimeoutException("the server did not answer in time");
+    }
+    selector.selectedKeys().clear();
+  }
+
+  private static Connection pipes(String prefix, Options options) throws IOException {
+    FileInputStream input = new FileInputStream(prefix + "_out"); // in this order, as the server opens them
+    try {
+      FileOutputStream output = new FileOutputStream(prefix + "_in");
+      return new Connection(untimed(input), output, () -> {
+        output.close();
+        input.close();
+      }, options);
+    } catch (IOException failure) {
+      input.close();
+      throw failure;
+    }
+  }
+
+  /** A process that speaks the protocol on its standard streams. It ends when its input does. */
+  static Connection process(List<String> command, Options options) throws IOException {
+    Process process = new ProcessBuilder(command).redirectError(ProcessBuilder.Redirect.INHERIT).start();
+    return new Connection(untimed(process.getInputStream()), process.getOutputStream(), () -> end(process), options);
+  }
+
+  private static void end(Process process) throws IOException {
+    try {
+      process.getOutputStream().close();
+      if (!process.waitFor(SECONDS_TO_END, TimeUnit.SECONDS)) {
+        process.destroyForcibly();
+      }
+    } catch (InterruptedException interrupted) {
+      process.destroyForcibly();
+      Thread.currentThread().interrupt();
+    } finally {
+      process.getInputStream().close();
+    }
+  }
+
+  private static Connection.Source untimed(InputStream input) {
+    return (data, at, length, limit) -> input.read(data, at, length);
+  }
+}

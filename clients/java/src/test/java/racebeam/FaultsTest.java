@@ -1,0 +1,189 @@
+package racebeam;
+
+import static org.junit.jupiter.api.Assertions.assertEquals;
+import static org.junit.jupiter.api.Assertions.assertThrows;
+import static org.junit.jupiter.api.Assertions.assertTimeoutPreemptively;
+import static org.junit.jupiter.api.Assertions.assertTrue;
+
+import java.io.BufferedReader;
+import java.io.IOException;
+import java.io.InputStreamReader;
+import java.net.ServerSocket;
+import java.net.Socket;
+import java.net.SocketTimeoutException;
+import java.net.StandardProtocolFamily;
+import java.net.UnixDomainSocketAddress;
+import java.nio.ByteBuffer;
+import java.nio.channels.ServerSocketChannel;
+import java.nio.charset.StandardCharsets;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.time.Duration;
+import java.util.NoSuchElementException;
+import java.util.concurrent.CompletableFuture;
+import java.util.function.Function;
+import org.junit.jupiter.api.Test;
+import org.junit.jupiter.api.io.TempDir;
+
+/** Servers that misbehave, and bad input of the caller. No server of racebeam is needed. */
+class FaultsTest {
+  private static final String HELLO = "ok server=test protocol=1\n";
+
+  /** A server that answers each line as it is told; null closes the connection. */
+  private static final class Server implements AutoCloseable {
+    private final ServerSocket listener;
+
+    Server(Function<String, String> answer) throws IOException {
+      listener = new ServerSocket(0);
+      Thread thread = new Thread(() -> serve(answer));
+      thread.setDaemon(true);
+      thread.start();
+    }
+
+    private void serve(Function<String, String> answer) {
+      while (!listener.isClosed()) {
+        try (Socket socket = listener.accept()) {
+          var lines = new BufferedReader(new InputStreamReader(socket.getInputStream(), StandardCharsets.US_ASCII));
+          for (String line; (line = lines.readLine()) != null; ) {
+            String text = line.startsWith("hello") ? HELLO : answer.apply(line);
+            if (text == null) {
+              break;
+            }
+            socket.getOutputStream().write(text.getBytes(StandardCharsets.ISO_8859_1));
+          }
+        } catch (IOException ended) {
+          continue;
+        }
+      }
+    }
+
+    Session connect(Options options) throws IOException {
+      return Racebeam.connect("tcp://127.0.0.1:" + listener.getLocalPort(), options);
+    }
+
+    @Override
+    public void close() throws IOException {
+      listener.close();
+    }
+  }
+
+  private static void endsWith(Class<? extends IOException> kind, String answer) throws IOException {
+    try (Server server = new Server(line -> answer);
+        Session session = server.connect(Options.DEFAULT.withTimeout(Duration.ofMillis(500)).withLongestReply(1 << 16))) {
+      assertTimeoutPreemptively(Duration.ofSeconds(20), () -> {
+        assertThrows(kind, () -> session.request("act FIRE"));
+        assertThrows(IOException.class, () -> session.request("act FIRE"), "the session has ended");
+      });
+    }
+  }
+
+  @Test
+  void whatIsNoReplyEndsTheSession() throws IOException {
+    endsWith(IOException.class, null);
+    endsWith(IOException.class, "220 mail.example.org\n");
+    endsWith(IOException.class, "\u00ff\u0080\n");
+    endsWith(IOException.class, "ok a=" + "0".repeat(1 << 17));
+    endsWith(SocketTimeoutException.class, "ok half a line");
+    endsWith(SocketTimeoutException.class, "");
+  }
+
+  @Test
+  void anErrorInAPipelineLeavesTheOthers() throws IOException {
+    try (Server server = new Server(line -> line.equals("bad") ? "error bad-action it is\n" : "ok n=" + line + "\n");
+        Session session = server.connect(Options.DEFAULT)) {
+      for (String line : new String[] {"1", "bad", "2"}) {
+        session.send(line);
+      }
+      assertEquals(3, session.request("3").first().number("n")); // its own reply, though others wait
+      assertEquals(1, session.receive().first().number("n"));
+      RefusedException refused = assertThrows(RefusedException.class, session::receive);
+      assertEquals("bad-action", refused.code());
+      assertEquals(2, session.receive().first().number("n"));
+    }
+  }
+
+  @Test
+  void anyNumberOfRequestsCanBeSentAhead() throws IOException {
+    String reply = "ok a=" + "0".repeat(10_000) + "\n"; // in all 200 MB, more than all buffers hold
+    try (Server server = new Server(line -> reply); Session session = server.connect(Options.DEFAULT)) {
+      assertTimeoutPreemptively(Duration.ofSeconds(60), () -> {
+        for (int n = 0; n < 20_000; ++n) {
+          session.send("act " + n);
+        }
+        for (int n = 0; n < 20_000; ++n) {
+          session.receive();
+        }
+      });
+    }
+  }
+
+  @Test
+  void threadsGetTheirOwnReplies() throws Exception {
+    try (Server server = new Server(line -> "ok n=" + line + "\n"); Session session = server.connect(Options.DEFAULT)) {
+      CompletableFuture<?>[] threads = new CompletableFuture<?>[2];
+      for (int thread = 0; thread < threads.length; ++thread) {
+        int first = 100_000 * thread;
+        threads[thread] = CompletableFuture.runAsync(() -> {
+          for (int n = first; n < first + 500; ++n) {
+            try {
+              assertEquals(n, session.request("" + n).first().number("n"));
+            } catch (IOException failure) {
+              throw new AssertionError(failure);
+            }
+          }
+        });
+      }
+      CompletableFuture.allOf(threads).get();
+    }
+  }
+
+  @Test
+  void closingWakesAThreadThatWaits() throws Exception {
+    try (Server server = new Server(line -> ""); Session session = server.connect(Options.DEFAULT)) {
+      CompletableFuture<Void> waiting = CompletableFuture.runAsync(
+          () -> assertThrows(IOException.class, () -> session.request("act FIRE")));
+      Thread.sleep(100);
+      session.close();
+      waiting.get(20, java.util.concurrent.TimeUnit.SECONDS);
+    }
+  }
+
+  @Test
+  void aUnixSocketHasATimeLimit(@TempDir Path folder) throws IOException {
+    Path path = folder.resolve("socket");
+    try (var listener = ServerSocketChannel.open(StandardProtocolFamily.UNIX).bind(UnixDomainSocketAddress.of(path))) {
+      CompletableFuture.runAsync(() -> {
+        try (var channel = listener.accept()) {
+          channel.write(ByteBuffer.wrap(HELLO.getBytes(StandardCharsets.US_ASCII)));
+          channel.read(ByteBuffer.allocate(100));
+          Thread.sleep(20_000);
+        } catch (IOException | InterruptedException ended) {
+          return;
+        }
+      });
+      Options options = Options.DEFAULT.withTimeout(Duration.ofMillis(300));
+      try (Session session = Racebeam.connect("unix:" + path, options)) {
+        assertThrows(SocketTimeoutException.class, () -> session.request("act FIRE"));
+      }
+    }
+    assertThrows(IOException.class, () -> Racebeam.connect("unix:" + folder.resolve("nothing")));
+  }
+
+  @Test
+  void theCallersWordsAreChecked(@TempDir Path folder) throws IOException {
+    for (String address : new String[] {"", "nonsense", "tcp://host", "tcp://host:99999", "unix:", "http://host:1"}) {
+      assertThrows(IllegalArgumentException.class, () -> Racebeam.connect(address), address);
+    }
+    Path ready = folder.resolve("ready");
+    Files.writeString(ready, "# addresses\nclassic+unix:x\n");
+    assertThrows(IllegalArgumentException.class, () -> Racebeam.connect("file:" + ready));
+    assertThrows(IOException.class, () -> Racebeam.connect("file:" + folder.resolve("nothing")));
+    assertThrows(IOException.class, () -> Racebeam.launchProgram("/nonexistent/racebeam"));
+    try (Server server = new Server(line -> "ok\n"); Session session = server.connect(Options.DEFAULT)) {
+      assertThrows(IllegalArgumentException.class, () -> session.request("act\nact"));
+      assertThrows(IllegalArgumentException.class, () -> session.request("# a comment"));
+      NoSuchElementException missing = assertThrows(NoSuchElementException.class, () -> session.act("FIRE").reward());
+      assertTrue(missing.getMessage().contains("reward"));
+    }
+  }
+}

@@ -1,0 +1,104 @@
+// Connections: { input, output, end() }, two streams of Node and what ends them.
+
+import { spawn } from "node:child_process";
+import { open } from "node:fs";
+import { readFile } from "node:fs/promises";
+import net from "node:net";
+import tls from "node:tls";
+import { promisify } from "node:util";
+import { LostError, TimeoutError } from "./errors.js";
+
+const USABLE = /^(tcp|tls|unix|pipes):/;
+const openFile = promisify(open); // a plain descriptor, which a socket then owns
+
+/** Waits for a socket to connect; `event` says that it has. */
+function connected(socket, event, address, timeout) {
+  return new Promise((resolve, reject) => {
+    const fail = (error) => {
+      clearTimeout(timer);
+      socket.destroy();
+      reject(error);
+    };
+    const timer = timeout && setTimeout(() => fail(new TimeoutError(`${address} did not answer in ${timeout} ms`)), timeout);
+    socket.once("error", (error) => fail(new LostError(`no server answers at ${address}: ${error.message}`, { cause: error })));
+    socket.once(event, () => {
+      clearTimeout(timer);
+      resolve({ input: socket, output: socket, end: () => socket.destroy() });
+    });
+  });
+}
+
+async function pipes(prefix) {
+  try {
+    const input = new net.Socket({ fd: await openFile(`${prefix}_out`, "r"), readable: true, writable: false }); // in this order
+    const output = new net.Socket({ fd: await openFile(`${prefix}_in`, "w"), readable: false, writable: true });
+    return {
+      input,
+      output,
+      end() {
+        output.destroy();
+        input.destroy();
+      },
+    };
+  } catch (error) {
+    throw new LostError(error.message, { cause: error });
+  }
+}
+
+/** A process that speaks the protocol on its standard streams. It ends when its input does. */
+export function processOf(program, options) {
+  const child = spawn(program, ["serve", "--stdio", "--log-level", "warning", ...options], { stdio: ["pipe", "pipe", "inherit"] });
+  const ended = new Promise((resolve) => child.once("close", resolve).once("error", resolve));
+  child.once("error", (error) => child.stdout.destroy(error));
+  return {
+    input: child.stdout,
+    output: child.stdin,
+    end() {
+      child.stdin.destroy();
+      return ended;
+    },
+  };
+}
+
+async function inFile(path) {
+  let text;
+  try {
+    text = await readFile(path, "utf8");
+  } catch (error) {
+    throw new LostError(error.message, { cause: error });
+  }
+  const address = text.split("\n").find((line) => USABLE.test(line));
+  if (address === undefined) {
+    throw new TypeError(`${path} names no address that this client can use`);
+  }
+  return address;
+}
+
+/** A connection to the server at an address. */
+export async function openAddress(address, { timeout, tls: trust = {} }) {
+  const network = /^(tcp|tls):\/\/\[?(.+?)\]?:(\d{1,5})$/.exec(address);
+  if (network && network[3] < 65536) {
+    const [, kind, host, port] = network;
+    const where = { host, port: Number(port), noDelay: true };
+    if (kind === "tcp") {
+      return connected(net.connect(where), "connect", address, timeout);
+    }
+    const servername = net.isIP(host) ? "" : host;
+    return connected(tls.connect({ ...where, servername, minVersion: "TLSv1.2", ...trust }), "secureConnect", address, timeout);
+  }
+  if (address === "stdio") {
+    return { input: process.stdin, output: process.stdout, end: () => process.stdin.destroy() };
+  }
+  const [, kind, rest] = /^(unix|pipes|file):(.+)$/.exec(address) ?? [];
+  switch (kind) {
+    case "unix":
+      return connected(net.connect({ path: rest }), "connect", address, timeout);
+    case "pipes":
+      return pipes(rest);
+    case "file":
+      return openAddress(await inFile(rest), { timeout, tls: trust });
+    default:
+      throw new TypeError(`the address is '${address}'; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio `
+        + "or file:PATH, also in RACEBEAM_ADDRESS");
+  }
+}

@@ -1,0 +1,119 @@
+// Servers that misbehave, and bad input of the caller. No server of racebeam is needed.
+
+import assert from "node:assert/strict";
+import { once } from "node:events";
+import { mkdtempSync, writeFileSync } from "node:fs";
+import net from "node:net";
+import os from "node:os";
+import path from "node:path";
+import readline from "node:readline";
+import test from "node:test";
+import { connect, launch, LostError, RefusedError, TimeoutError } from "../src/index.js";
+
+const HELLO = "ok server=test protocol=1\n";
+
+/** A session of a server that answers each line as it is told; undefined closes the connection. Both end with the test. */
+async function served(context, answer, options = { timeout: 500, longestReply: 65536 }) {
+  const sockets = new Set();
+  const server = net.createServer((socket) => {
+    sockets.add(socket.on("error", () => {}).on("close", () => sockets.delete(socket)));
+    readline.createInterface({ input: socket }).on("line", (line) => {
+      const told = line.startsWith("hello") ? HELLO : answer(line);
+      if (told === undefined) {
+        socket.destroySoon();
+      } else if (socket.writable) {
+        socket.write(told, "latin1");
+      }
+    });
+  }).listen(0, "127.0.0.1");
+  await once(server, "listening");
+  context.after(() => {
+    sockets.forEach((socket) => socket.destroy());
+    server.close();
+  });
+  const session = await connect(`tcp://127.0.0.1:${server.address().port}`, options);
+  context.after(() => session.disconnect());
+  return { session, sockets };
+}
+
+const faults = {
+  "a server that closes": [undefined, LostError],
+  "what is no reply": ["220 mail.example.org\n", LostError],
+  "binary data": ["\u00ff\u0080\n", LostError],
+  "an endless line": [`ok a=${"0".repeat(1 << 17)}`, LostError],
+  "half a line": ["ok rew", TimeoutError],
+  "silence": ["", TimeoutError],
+};
+for (const [name, [answer, kind]] of Object.entries(faults)) {
+  test(`${name} ends the session`, async (context) => {
+    const { session } = await served(context, () => answer);
+    await assert.rejects(session.act("FIRE"), kind);
+    await assert.rejects(session.act("FIRE"), (error) => error instanceof LostError && !(error instanceof TimeoutError));
+  });
+}
+
+test("an error in a pipeline leaves the others", async (context) => {
+  const { session } = await served(context, (line) => (line === "bad" ? "error bad-action it is\n" : `ok n=${line}\n`));
+  const replies = await Promise.allSettled(["1", "bad", "2"].map((line) => session.request(line)));
+  assert.deepEqual(replies.map((reply) => reply.value?.[0].n ?? reply.reason.code), [1, "bad-action", 2]);
+  assert.ok(replies[1].reason instanceof RefusedError);
+  assert.equal(replies[1].reason.message, "bad-action: it is");
+});
+
+test("all that waits is rejected when the server dies", async (context) => {
+  const { session } = await served(context, (line) => (line === "die" ? undefined : "ok\n"));
+  const replies = await Promise.allSettled(["1", "die", "3"].map((line) => session.request(line)));
+  assert.deepEqual(replies.map(({ status }) => status), ["fulfilled", "rejected", "rejected"]);
+});
+
+test("any number of requests can be sent ahead", async (context) => {
+  const { session } = await served(context, () => `ok a=${"0".repeat(10000)}\n`, {});
+  const replies = await Promise.all(Array.from({ length: 5000 }, () => session.request("act FIRE")));
+  assert.equal(replies.length, 5000);
+});
+
+test("why a server ends is told to the next request", async (context) => {
+  const { session, sockets } = await served(context, () => "ok\n");
+  for (const socket of sockets) {
+    socket.end("error stopping the server stops\n");
+  }
+  await new Promise((resolve) => setTimeout(resolve, 50));
+  await assert.rejects(session.act("FIRE"), { code: "stopping" });
+  await assert.rejects(session.act("FIRE"), LostError);
+});
+
+test("use after disconnect() is refused", async (context) => {
+  const { session } = await served(context, () => "");
+  const waiting = session.act("FIRE");
+  await session.disconnect();
+  await session.disconnect();
+  await assert.rejects(waiting, LostError);
+  await assert.rejects(session.act("FIRE"), LostError);
+});
+
+test("connections leave nothing open", async (context) => {
+  const { sockets } = await served(context, () => undefined);
+  for (let n = 0; n < 50; ++n) {
+    const { session } = await served(context, () => "ok\n");
+    await session.disconnect();
+  }
+  await new Promise((resolve) => setTimeout(resolve, 50));
+  assert.equal(sockets.size, 1);
+});
+
+test("the caller's words are checked", async (context) => {
+  for (const address of ["", "nonsense", "tcp://host", "tcp://host:99999", "unix:", "http://host:1"]) {
+    await assert.rejects(connect(address), TypeError, address);
+  }
+  const folder = mkdtempSync(path.join(os.tmpdir(), "racebeam-"));
+  writeFileSync(path.join(folder, "ready"), "# addresses\nclassic+unix:x\n");
+  await assert.rejects(connect(`file:${folder}/ready`), TypeError);
+  for (const address of [`file:${folder}/nothing`, `unix:${folder}/nothing`, `pipes:${folder}/nothing`]) {
+    await assert.rejects(connect(address), LostError, address);
+  }
+  await assert.rejects(launch({ program: "/nonexistent/racebeam" }).hello(), LostError);
+  const { session } = await served(context, () => "ok\n");
+  await assert.rejects(session.request("act\nact"), TypeError);
+  await assert.rejects(session.request("# a comment"), TypeError);
+  await session.act("FIRE");
+});

@@ -1,0 +1,81 @@
+// A method for each command, with a server of its own: the program that RACEBEAM_PROGRAM names.
+
+import assert from "node:assert/strict";
+import { mkdtempSync } from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import test from "node:test";
+import { launch, LostError } from "../src/index.js";
+
+const skip = process.env.RACEBEAM_PROGRAM ? false : "RACEBEAM_PROGRAM names no program";
+
+function launched(context, ...options) {
+  const session = launch({ options });
+  context.after(() => session.disconnect());
+  return session;
+}
+
+test("each command has a method", { skip }, async (context) => {
+  const game = launched(context, "--record-dir", mkdtempSync(path.join(os.tmpdir(), "racebeam-")));
+  assert.match((await game.hello()).server, /^racebeam\//);
+  assert.match(await game.help("act"), /act A/);
+  assert.deepEqual(await game.games(), ["beamfall", "updraft"]);
+  assert.equal((await game.game("beamfall")).here, 1);
+  assert.equal((await game.load("beamfall", { seed: 3, sticky: 0, preset: "paper2013" })).frame_skip, 5);
+  assert.equal((await game.settings()).seed, 3);
+  assert.equal((await game.set({ difficulty: 1 })).difficulty, 1);
+  assert.deepEqual(await game.modes(), [0]);
+  assert.deepEqual(await game.difficulties(), [0, 1]);
+  assert.equal((await game.actions()).get(17), "DOWNLEFTFIRE");
+  assert.deepEqual(await game.observe("reward", "ends", "frame"), ["reward", "terminated", "truncated", "frame"]);
+  assert.equal((await game.act("UP", "FIRE*2")).frame, 15);
+  await game.poke(5, [0x12, 0xf4]);
+  assert.deepEqual(await game.peek(5, 2), Uint8Array.of(0x12, 0xf4));
+  await game.save("a");
+  await game.save("r", { random: 1 });
+  await game.importState("b", await game.exportState("a"));
+  assert.deepEqual(await game.states(), ["a", "b", "r"]);
+  await game.drop("a", "r");
+  assert.equal((await game.restore("b")).frame, 15);
+  const branches = await game.branch("b", [["FIRE*4", "UP"], [0]], { keep: "leaf" });
+  assert.deepEqual(branches.map((branch) => branch.rewards.length), [5, 1]);
+  assert.equal(branches[1].state, "leaf1");
+  assert.equal((await game.record("gif", "film")).recording, "film.gif");
+  await game.act("FIRE");
+  assert.equal((await game.stopRecording()).frames, 5);
+  assert.equal((await game.open(3, { autoreset: "same-step" })).length, 3);
+  await game.record("png", "pictures", { machine: 2 });
+  assert.deepEqual((await game.step("UP", "FIRE", "NOOP")).map(({ frame }) => frame), [5, 5, 5]);
+  assert.equal((await game.restart("010", { seed: 4 })).length, 3);
+  await game.closeMachines();
+  assert.equal((await game.reset()).reward, 0);
+  assert.equal((await game.reset(9)).reward, 0);
+  assert.ok((await game.stats()).requests > 20);
+  await game.quit();
+  await assert.rejects(game.act("FIRE"), LostError);
+});
+
+test("screens have colours", { skip }, async (context) => {
+  const game = launched(context);
+  await game.load("beamfall");
+  const { screen, rgb } = await game.look("screen:zlib", "rgb");
+  const colours = await game.palette();
+  for (let at = 0; at < screen.length; ++at) {
+    assert.equal(colours[screen[at]], (0xff000000 | (rgb[3 * at + 2] << 16) | (rgb[3 * at + 1] << 8) | rgb[3 * at]) >>> 0);
+  }
+});
+
+test("a refusal has a code and leaves the session", { skip }, async (context) => {
+  const game = launched(context);
+  await assert.rejects(game.load("nothing"), { code: "unknown-game" });
+  await assert.rejects(game.load("inline", { image: Uint8Array.of(1, 2, 3) }), { code: "bad-image" });
+  assert.equal((await game.load("beamfall")).game, "beamfall");
+});
+
+test("requests are sent ahead by not awaiting them", { skip }, async (context) => {
+  const game = launched(context);
+  await game.load("beamfall");
+  await game.observe("frame");
+  const shown = await Promise.all(Array.from({ length: 100 }, () => game.act("NOOP")));
+  assert.deepEqual(shown.map(({ frame }) => frame), Array.from({ length: 100 }, (_, n) => n + 1));
+});

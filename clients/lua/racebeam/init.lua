@@ -1,0 +1,394 @@
+-- A client of the racebeam line protocol, for Lua 5.1 to 5.4 and LuaJIT.
+--
+--   local racebeam = require("racebeam")
+--   local game = racebeam.connect("tcp://127.0.0.1:7800")
+--   game:load("beamfall", { seed = 7, frame_skip = 4 })
+--   game:observe("reward", "ends", "screen:delta")
+--   local shown = game:act("FIRE")      -- { reward = 0, terminated = 0, truncated = 0, screen = "..." }
+--   game:close_connection()
+--
+-- Numbers come as numbers, and bytes as strings. racebeam/fault.lua says what is raised. README.md is the page of this client.
+
+local decode = require("racebeam.decode")
+local fault = require("racebeam.fault")
+local new_fields = require("racebeam.fields")
+local transport = require("racebeam.transport")
+
+local racebeam = { _VERSION = "0.1.0", PROTOCOL = 1, decode = decode }
+
+local LONGEST_REPLY = 2 ^ 28 -- bytes; a server that sends a longer line is taken for broken
+local MOST_AHEAD = 2 ^ 15 -- bytes of requests without a reply; a server that cannot send its replies stops reading
+
+local Session = {}
+Session.__index = Session
+
+local function session(connection, options)
+  return setmetatable({ connection = connection, fields = new_fields(options.arrays), timeout = options.timeout,
+    longest = options.longest_reply or LONGEST_REPLY, unanswered = {}, first = 1, last = 0, ahead = 0, arrived = {} }, Session)
+end
+
+-- A session of the server at `address`; without one, at that of the variable RACEBEAM_ADDRESS.
+--
+-- address: tcp://HOST:PORT, tls://HOST:PORT and unix:PATH (with LuaSocket and LuaSec), pipes:PREFIX (named pipes), stdio, or
+-- file:PATH (the first address in the server's ready file). options:
+--   token          for servers that require one
+--   timeout        seconds to wait for a connection and for each reply, on sockets
+--   tls            a file of certificates to trust, or parameters of LuaSec
+--   longest_reply  bytes
+--   arrays         true: fields observed with :delta are given as the array that the client keeps, whose first byte is [0]
+function racebeam.connect(address, options)
+  options = options or {}
+  address = address or os.getenv("RACEBEAM_ADDRESS") or ""
+  local made = session(transport.open(address, options), options)
+  local done, problem = pcall(function()
+    local hello = made:hello(options.token)
+    if hello.protocol ~= racebeam.PROTOCOL then
+      fault("lost", ("%s speaks version %s of the protocol; this client speaks %d"):format(address, tostring(hello.protocol),
+        racebeam.PROTOCOL))
+    end
+  end)
+  if not done then
+    made:close_connection()
+    error(problem, 0)
+  end
+  return made
+end
+
+-- A session of a server of its own, which ends with the session. options: as of connect; `program` (default: RACEBEAM_PROGRAM,
+-- or racebeam of the PATH). The other arguments are those of `racebeam serve`. Needs no module.
+function racebeam.launch(options, ...)
+  options = options or {}
+  local program = options.program or os.getenv("RACEBEAM_PROGRAM") or "racebeam"
+  return session(transport.launch(program, { ... }), options)
+end
+
+-- Ends the session. More than once does nothing.
+function Session:close_connection()
+  if not self.closed then
+    self.closed = true
+    self.connection:close()
+  end
+end
+
+-- Requests and replies
+
+local function line_of(...)
+  local words = { ... }
+  for at, word in ipairs(words) do
+    if type(word) == "table" then -- settings
+      local pairs_ = {}
+      for key, setting in pairs(word) do
+        pairs_[#pairs_ + 1] = ("%s=%s"):format(key, tostring(setting))
+      end
+      table.sort(pairs_)
+      words[at] = table.concat(pairs_, " ")
+    else
+      words[at] = tostring(word)
+    end
+  end
+  return (table.concat(words, " "):gsub(" +$", ""))
+end
+
+-- A request without waiting for its reply; receive() gives the replies in their order. Words are joined by blanks, and a table
+-- stands for settings.
+function Session:send(...)
+  local line = line_of(...)
+  if line:find("\n", 1, true) or line:find("^ *#") then
+    fault("invalid", ("a request is one line, and no comment: '%s'"):format(line))
+  end
+  while self.ahead > 0 and self.ahead + #line > MOST_AHEAD do
+    self.arrived[#self.arrived + 1] = self:outcome()
+  end
+  if self.closed then
+    fault("lost", "the session has ended")
+  end
+  self.last = self.last + 1
+  self.unanswered[self.last] = line
+  self.ahead = self.ahead + #line
+  self.connection:send(line)
+end
+
+local function lost(self, kind, sentence)
+  self:close_connection()
+  fault(kind, "the session has ended: " .. sentence)
+end
+
+-- The next reply that arrives: its groups and its line, or the code and the sentence of a refusal.
+function Session:outcome()
+  if self.closed then
+    fault("lost", "the session has ended")
+  end
+  local line, problem = self.connection:receive(self.timeout, self.longest)
+  if not line then
+    lost(self, problem == "timeout" and "timeout" or "lost", problem)
+  end
+  local request = self.unanswered[self.first] or "" -- without one, the server says why it ends
+  self.unanswered[self.first] = nil
+  self.first = math.min(self.first, self.last) + 1
+  self.ahead = self.ahead - #request
+  local code, sentence = line:match("^error (%S+) ?(.*)$")
+  if code then
+    return { code = code, sentence = sentence }
+  elseif line ~= "ok" and line:sub(1, 3) ~= "ok " then
+    lost(self, "lost", ("the server sent what is no reply: '%s'"):format(line:sub(1, 60)))
+  end
+  local words = {}
+  for word in request:gmatch("%S+") do
+    words[#words + 1] = word
+  end
+  local done, groups = pcall(self.fields.groups, self.fields, words, line)
+  if not done then
+    lost(self, "lost", "a reply is damaged: " .. tostring(groups))
+  end
+  return { groups = groups, line = line }
+end
+
+local function granted(outcome)
+  if outcome.code then
+    fault("refused", outcome.sentence, outcome.code)
+  end
+  return outcome.groups, outcome.line
+end
+
+-- The groups of the next reply to a request that was sent ahead, and its line.
+function Session:receive()
+  return granted(table.remove(self.arrived, 1) or self:outcome())
+end
+
+-- A request and its reply: groups, and the line. Replies of requests that were sent ahead stay to be received.
+function Session:request(...)
+  self:send(...)
+  while self.first < self.last do
+    self.arrived[#self.arrived + 1] = self:outcome()
+  end
+  return granted(self:outcome())
+end
+
+local function first(self, ...)
+  return self:request(...)[1]
+end
+
+local function rest(self, ...)
+  local groups = self:request(...)
+  table.remove(groups, 1)
+  return groups
+end
+
+local function split(text)
+  local found = {}
+  for part in tostring(text):gmatch("[^,]+") do
+    found[#found + 1] = part
+  end
+  return found
+end
+
+local function numbers(texts)
+  for at, text in ipairs(texts) do
+    texts[at] = tonumber(text)
+  end
+  return texts
+end
+
+-- Commands
+
+function Session:hello(token)
+  return first(self, "hello", token and { token = token } or "")
+end
+
+function Session:help(...)
+  local _, line = self:request("help", ...)
+  return line:sub(4)
+end
+
+function Session:games(...)
+  return split(first(self, "games", ...).games)
+end
+
+function Session:game(name)
+  return first(self, "games", name)
+end
+
+-- settings.image: the bytes of a cartridge, when `game` is "inline".
+function Session:load(game, settings)
+  local words = {}
+  for key, setting in pairs(settings or {}) do
+    words[key] = key == "image" and decode.to_base64(setting) or setting
+  end
+  return first(self, "load", game, words)
+end
+
+function Session:settings()
+  return first(self, "settings")
+end
+
+function Session:set(settings)
+  return first(self, "set", settings)
+end
+
+function Session:modes()
+  return numbers(split(first(self, "modes").modes))
+end
+
+function Session:difficulties()
+  return numbers(split(first(self, "difficulties").difficulties))
+end
+
+-- Names by number.
+function Session:actions()
+  local found = {}
+  for _, pair in ipairs(split(first(self, "actions").actions)) do
+    local number, name = pair:match("(%d+):(.*)")
+    found[tonumber(number)] = name
+  end
+  return found
+end
+
+function Session:observe(...)
+  return split(first(self, "observe", ...).fields)
+end
+
+function Session:look(...)
+  return first(self, "look", ...)
+end
+
+-- { red, green, blue } of each value of a pixel, the first of them at 0.
+function Session:palette()
+  local bytes, colours = self:look("palette").palette, {}
+  for value = 0, 255 do
+    colours[value] = { bytes:byte(3 * value + 1, 3 * value + 3) }
+  end
+  return colours
+end
+
+function Session:act(...)
+  return first(self, "act", ...)
+end
+
+function Session:reset(seed)
+  return first(self, "reset", seed and { seed = seed } or "")
+end
+
+function Session:peek(index, count)
+  return decode.hex(tostring(self:request_text("bytes", "peek", index, count or 1)))
+end
+
+-- A value of the reply as it was sent.
+function Session:request_text(key, ...)
+  local _, line = self:request(...)
+  return (line .. " "):match(" " .. key .. "=(%S*) ")
+end
+
+function Session:poke(index, bytes)
+  self:request("poke", index, (bytes:gsub(".", function(byte)
+    return ("%02X"):format(byte:byte())
+  end)))
+end
+
+function Session:save(name, settings)
+  self:request("save", name, settings or "")
+end
+
+function Session:restore(name)
+  return first(self, "restore", name)
+end
+
+function Session:drop(...)
+  self:request("drop", ...)
+end
+
+function Session:states()
+  return split(first(self, "states").states)
+end
+
+function Session:export_state(name)
+  return decode.base64(self:request_text("data", "export", name))
+end
+
+function Session:import_state(name, bytes)
+  self:request("import", name, decode.to_base64(bytes))
+end
+
+-- A list from R,R*TIMES,...
+local function rewards(text)
+  local found = {}
+  for _, run in ipairs(split(text)) do
+    local reward, times = run:match("^(%-?%d+)%*?(%d*)$")
+    for _ = 1, tonumber(times) or 1 do
+      found[#found + 1] = tonumber(reward)
+    end
+  end
+  return found
+end
+
+-- lists: of actions. Returns a table for each, in which `rewards` is a list.
+function Session:branch(name, lists, settings)
+  local words = {}
+  for at, actions in ipairs(lists) do
+    words[at] = table.concat(actions, ",")
+  end
+  local branches = rest(self, "branch", name, settings or "", table.concat(words, " "))
+  for _, branch in ipairs(branches) do
+    branch.rewards = rewards(branch.rewards)
+    branch.rewards_b = branch.rewards_b and rewards(branch.rewards_b)
+  end
+  return branches
+end
+
+function Session:open(count, settings)
+  return rest(self, "open", count, settings or "")
+end
+
+function Session:step(...)
+  return rest(self, "step", ...)
+end
+
+-- A mask such as "0110", settings such as { seed = 9 }, or both.
+function Session:restart(...)
+  return rest(self, "restart", ...)
+end
+
+-- Gives the machines of open() back.
+function Session:close()
+  self:request("close")
+end
+
+function Session:record(kinds, name, settings)
+  return first(self, "record", kinds, name, settings or "")
+end
+
+function Session:stop_recording()
+  return first(self, "record", "stop")
+end
+
+function Session:stats()
+  return first(self, "stats")
+end
+
+function Session:quit()
+  self:request("quit")
+end
+
+-- A stack of screens that the client makes, as the server does for grey84xN: of the last `depth`, oldest first, zeros where
+-- there was none. For observe("grey84:delta"), of which a reply has fewer bytes than of a stack.
+local Stack = {}
+Stack.__index = Stack
+
+function racebeam.stack(depth)
+  return setmetatable({ depth = depth, screens = {} }, Stack)
+end
+
+-- Begins anew, as after a reset.
+function Stack:clear()
+  self.screens = {}
+end
+
+-- Adds a screen. Returns the stack.
+function Stack:push(screen)
+  table.insert(self.screens, screen)
+  if #self.screens > self.depth then
+    table.remove(self.screens, 1)
+  end
+  return ("\0"):rep(#screen * (self.depth - #self.screens)) .. table.concat(self.screens)
+end
+
+return racebeam

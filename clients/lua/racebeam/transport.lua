@@ -1,0 +1,231 @@
+-- Connections: tables with send(line), which returns nothing, receive(timeout, longest), which returns a line without its
+-- end, or nil and "timeout" or another sentence, and close().
+
+local fault = require("racebeam.fault")
+
+local transport = {}
+
+-- Sockets, with LuaSocket.
+
+local Socket = {}
+Socket.__index = Socket
+
+function Socket:send(line)
+  self.socket:settimeout(self.timeout)
+  self.socket:send(line .. "\n") -- if this fails, receive() tells why
+end
+
+function Socket:receive(timeout, longest)
+  local socket = self.socket
+  local until_ = timeout and self.clock() + timeout
+  socket:settimeout(0)
+  local pieces, length = { self.held }, #self.held
+  while true do
+    local last = pieces[#pieces]
+    local stop = last:find("\n", 1, true)
+    if stop then
+      self.held = last:sub(stop + 1)
+      pieces[#pieces] = last:sub(1, stop - 1)
+      return table.concat(pieces)
+    end
+    if length > longest then
+      return nil, ("its reply is longer than %d bytes"):format(longest)
+    end
+    local all, problem, some = socket:receive(65536)
+    local piece = all or some
+    if piece and #piece > 0 then
+      pieces[#pieces + 1] = piece
+      length = length + #piece
+    elseif problem ~= "timeout" and problem ~= "wantread" then
+      return nil, problem
+    end
+    local left = until_ and until_ - self.clock()
+    if left and left <= 0 then
+      return nil, "timeout"
+    end
+    if not piece or #piece == 0 then
+      self.select({ socket }, nil, left)
+    end
+  end
+end
+
+function Socket:close()
+  self.socket:close()
+end
+
+local function needed(module, kind)
+  local found, value = pcall(require, module)
+  if not found then
+    fault("invalid", ("%s needs the module %s, which is not installed"):format(kind, module))
+  end
+  return value
+end
+
+local function connected(socket, timeout, ...)
+  local core = needed("socket", "this address")
+  socket:settimeout(timeout)
+  local done, problem = socket:connect(...)
+  if not done then
+    socket:close()
+    fault(problem == "timeout" and "timeout" or "lost", "no server answers: " .. tostring(problem))
+  end
+  return setmetatable({ socket = socket, held = "", clock = core.gettime, select = core.select, timeout = timeout }, Socket)
+end
+
+-- Whether a certificate is that of a host. LuaSec looks only at who signed it.
+local function names(certificate, host)
+  local alternatives = certificate:extensions()["2.5.29.17"] or {}
+  for _, kind in ipairs({ "dNSName", "iPAddress" }) do
+    for _, name in ipairs(alternatives[kind] or {}) do
+      if name == host or name:sub(1, 2) == "*." and name:sub(2) == host:match("%..*$") then
+        return true
+      end
+    end
+  end
+  return false
+end
+
+-- `trust`: a file of certificates, or parameters of LuaSec.
+local function secure(connection, host, trust)
+  local ssl = needed("ssl", "tls://")
+  local parameters = { mode = "client", protocol = "any", options = { "all", "no_sslv2", "no_sslv3", "no_tlsv1", "no_tlsv1_1" },
+    verify = "peer", capath = "/etc/ssl/certs" }
+  if type(trust) == "string" then
+    parameters.cafile = trust
+  end
+  for key, value in pairs(type(trust) == "table" and trust or {}) do
+    parameters[key] = value
+  end
+  local socket, problem = ssl.wrap(connection.socket, parameters)
+  if socket then
+    socket:settimeout(connection.timeout)
+    socket:sni(host)
+    local done
+    done, problem = socket:dohandshake()
+    if done and not names(socket:getpeercertificate(), host) then
+      done, problem = false, "its certificate is not that of " .. host
+    end
+    if done then
+      connection.socket = socket
+      return connection
+    end
+    socket:close()
+  end
+  connection:close()
+  fault("lost", "the server is not trusted: " .. tostring(problem))
+end
+
+local function network(kind, rest, options)
+  local host, port = rest:match("^//%[?(.-)%]?:(%d+)$")
+  if not host or host == "" or tonumber(port) > 65535 then
+    return nil
+  end
+  local core = needed("socket", kind .. "://")
+  local socket = core.tcp()
+  local connection = connected(socket, options.timeout, host, tonumber(port))
+  socket:setoption("tcp-nodelay", true)
+  return kind == "tls" and secure(connection, host, options.tls) or connection
+end
+
+local function unix(path, options)
+  local module = needed("socket.unix", "unix:")
+  local make = type(module) == "table" and (module.stream or module) or module
+  return connected(make(), options.timeout, path)
+end
+
+-- Streams, with plain Lua. There are no time limits.
+
+local Streams = {}
+Streams.__index = Streams
+
+function Streams:send(line)
+  self.output:write(line, "\n")
+  self.output:flush()
+end
+
+function Streams:receive()
+  local line = self.input:read("*L")
+  if line and line:sub(-1) == "\n" then
+    return line:sub(1, -2)
+  end
+  return nil, "it has closed the connection"
+end
+
+-- Lua 5.1 has no "*L".
+if _VERSION == "Lua 5.1" and not rawget(_G, "jit") then
+  function Streams:receive()
+    local line = self.input:read("*l")
+    return line, "it has closed the connection"
+  end
+end
+
+function Streams:close()
+  if self.output ~= io.stdout then
+    self.output:close()
+    self.input:close()
+  end
+  if self.fifo then
+    os.remove(self.fifo)
+  end
+end
+
+local function opened(path, mode)
+  local file, problem = io.open(path, mode)
+  return file or fault("lost", problem)
+end
+
+-- The pipe for requests is opened for reading, too: without a reader, a write would end this process.
+local function pipes(prefix)
+  local input = opened(prefix .. "_out", "rb")
+  return setmetatable({ input = input, output = opened(prefix .. "_in", "r+b") }, Streams)
+end
+
+local function quoted(word)
+  return "'" .. word:gsub("'", "'\\''") .. "'"
+end
+
+-- A server of one's own. Its input is a named pipe, and its output is read with io.popen.
+function transport.launch(program, options)
+  local fifo = os.tmpname()
+  os.remove(fifo)
+  local made = os.execute("mkfifo -m 600 " .. quoted(fifo))
+  if made ~= 0 and made ~= true then
+    fault("lost", "no pipe can be made at " .. fifo)
+  end
+  local words = { "exec", quoted(program), "serve --stdio --log-level warning" }
+  for _, option in ipairs(options) do
+    words[#words + 1] = quoted(option)
+  end
+  local input = io.popen(table.concat(words, " ") .. " <" .. quoted(fifo), "r")
+  return setmetatable({ input = input, output = opened(fifo, "r+b"), fifo = fifo }, Streams)
+end
+
+local function in_file(path)
+  for line in opened(path, "r"):lines() do
+    if line:match("^tcp:") or line:match("^tls:") or line:match("^unix:") or line:match("^pipes:") then
+      return line
+    end
+  end
+  fault("invalid", path .. " names no address that this client can use")
+end
+
+-- A connection to the server at an address.
+function transport.open(address, options)
+  local kind, rest = address:match("^(%w+):(.+)$")
+  local found
+  if address == "stdio" then
+    found = setmetatable({ input = io.stdin, output = io.stdout }, Streams)
+  elseif kind == "tcp" or kind == "tls" then
+    found = network(kind, rest, options)
+  elseif kind == "unix" then
+    found = unix(rest, options)
+  elseif kind == "pipes" then
+    found = pipes(rest)
+  elseif kind == "file" then
+    found = transport.open(in_file(rest), options)
+  end
+  return found or fault("invalid", ("the address is '%s'; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, "
+    .. "stdio or file:PATH, also in RACEBEAM_ADDRESS"):format(address))
+end
+
+return transport

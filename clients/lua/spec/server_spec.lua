@@ -1,0 +1,116 @@
+-- A method for each command, with a server of its own: the program that RACEBEAM_PROGRAM names. No module is needed.
+
+local racebeam = require("racebeam")
+
+if not os.getenv("RACEBEAM_PROGRAM") then
+  pending("RACEBEAM_PROGRAM names no program")
+  return
+end
+
+-- A session that ends with the test.
+local function launched(options, ...)
+  local game = racebeam.launch(options, ...)
+  finally(function()
+    game:close_connection()
+  end)
+  return game
+end
+
+local function refused(call, ...)
+  local done, problem = pcall(call, ...)
+  assert.is_false(done)
+  assert.equal("refused", problem.kind)
+  return problem.code
+end
+
+describe("a server of one's own", function()
+  it("has a method for each command", function()
+    local folder = os.tmpname()
+    os.remove(folder)
+    os.execute("mkdir " .. folder)
+    local game = launched(nil, "--record-dir", folder)
+    assert.matches("^racebeam/", game:hello().server)
+    assert.matches("act A", game:help("act"))
+    assert.same({ "beamfall", "updraft" }, game:games())
+    assert.equal(1, game:game("beamfall").here)
+    assert.equal(5, game:load("beamfall", { seed = 3, sticky = 0, preset = "paper2013" }).frame_skip)
+    assert.equal(3, game:settings().seed)
+    assert.equal(1, game:set({ difficulty = 1 }).difficulty)
+    assert.same({ 0 }, game:modes())
+    assert.same({ 0, 1 }, game:difficulties())
+    assert.equal("DOWNLEFTFIRE", game:actions()[17])
+    assert.same({ "reward", "terminated", "truncated", "frame" }, game:observe("reward", "ends", "frame"))
+    assert.equal(15, game:act("UP", "FIRE*2").frame)
+    game:poke(5, "\18\244")
+    assert.equal("\18\244", game:peek(5, 2))
+    assert.equal("\18", game:peek(5))
+    game:save("a")
+    game:save("r", { random = 1 })
+    game:import_state("b", game:export_state("a"))
+    assert.same({ "a", "b", "r" }, game:states())
+    game:drop("a", "r")
+    assert.equal(15, game:restore("b").frame)
+    local branches = game:branch("b", { { "FIRE*4", "UP" }, { 0 } }, { keep = "leaf" })
+    assert.equal(5, #branches[1].rewards)
+    assert.equal("leaf1", branches[2].state)
+    assert.equal("film.gif", game:record("gif", "film").recording)
+    game:act("FIRE")
+    assert.equal(5, game:stop_recording().frames)
+    assert.equal(3, #game:open(3, { autoreset = "same-step" }))
+    game:record("png", "pictures", { machine = 2 })
+    assert.equal(5, game:step("UP", "FIRE", "NOOP")[3].frame)
+    assert.equal(3, #game:restart("010", { seed = 4 }))
+    game:close()
+    assert.equal(0, game:reset().reward)
+    assert.equal(0, game:reset(9).reward)
+    assert.is_true(game:stats().requests > 20)
+    game:quit()
+    assert.equal("lost", select(2, pcall(game.act, game, "FIRE")).kind)
+  end)
+
+  it("takes an image, and refuses with a code", function()
+    local game = launched()
+    assert.equal("unknown-game", refused(game.load, game, "nothing"))
+    assert.equal("bad-image", refused(game.load, game, "inline", { image = "abc" }))
+    local file = assert(io.open("../../games/homebrew/updraft.bin", "rb"))
+    local image = file:read("*a")
+    file:close()
+    assert.equal("updraft", game:load("inline", { image = image }).game)
+  end)
+
+  it("shows colours", function()
+    local game = launched()
+    game:load("beamfall")
+    local shown, palette = game:look("screen:zlib", "rgb"), game:palette()
+    for at = 1, #shown.screen do
+      assert.same(palette[shown.screen:byte(at)], { shown.rgb:byte(3 * at - 2, 3 * at) })
+    end
+  end)
+
+  it("keeps arrays on request", function()
+    local game, strings = launched({ arrays = true }), launched()
+    for _, one in ipairs({ game, strings }) do
+      one:load("beamfall", { seed = 7, sticky = 0, frame_skip = 4 })
+      one:observe("screen:delta")
+    end
+    local first = game:act("FIRE").screen
+    strings:act("FIRE")
+    for _ = 1, 5 do
+      local array, text = game:act("UP").screen, strings:act("UP").screen
+      assert.equal(first, array) -- the same array
+      for at = 0, #text - 1 do
+        if array[at] ~= text:byte(at + 1) then
+          error("byte " .. at .. " differs")
+        end
+      end
+    end
+  end)
+
+  it("that is not there is noticed", function()
+    local done, problem = pcall(function()
+      racebeam.launch({ program = "/nonexistent/racebeam" }):hello()
+    end)
+    assert.is_false(done)
+    assert.equal("lost", problem.kind)
+  end)
+end)

@@ -1,0 +1,79 @@
+"""The page of a client: each program on it prints what the page says. The examples play. Usage: test_pages.py CLIENT.
+
+A program is a block fenced with the language's name. A block fenced as `text` after it is what it prints; `...` stands for any
+text within a line.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(SOURCE / "tests/server"), str(SOURCE / "clients/conformance")]
+
+from clients import CLIENTS  # noqa: E402
+from harness import BINARY, PATIENCE, SKIPPED, Server  # noqa: E402
+
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+# The examples: file, arguments, a pattern of what they print.
+EXAMPLES = {
+    "js": (("clients/js/examples/many.mjs", (), r"scores (\d+ ?){8}\n"),),
+    "lua": (("clients/lua/examples/gap.lua", (), r"score \d+ in \d+ acts\n"),
+            ("clients/lua/examples/follow.lua", (), r"score \d+, \d\.\d KiB of garbage a step; a screen has 32\.8 KiB\n")),
+    "java": (("clients/java/examples/Planner.java", ("10",), r"score \d+, \d+ frames run\n"),
+             ("clients/java/examples/Sarsa.java", ("10",), r"episodes 1 to 10: mean score \d+\.\d\n")),
+}
+
+
+def programs(text, language):
+    """Pairs of a program and what it prints, if the page says so."""
+    blocks = BLOCK.findall(text) + [("", "")]
+    return [(body, after if kind == "text" else None)
+            for (name, body), (kind, after) in zip(blocks, blocks[1:]) if name == language]
+
+
+class Page(unittest.TestCase):
+    client = CLIENTS[0]
+
+    def setUp(self):
+        self.server = Server("serve", "--listen", "tcp://127.0.0.1:0")
+        self.addCleanup(self.server.__exit__)
+        self.environment = dict(os.environ, **dict(self.client.variables), RACEBEAM_ADDRESS=f"tcp://127.0.0.1:{self.server.port()}", RACEBEAM_PROGRAM=BINARY)
+
+    def check(self, program, words, pattern):
+        done = subprocess.run([*self.client.runner[:-1], str(program), *words], env=self.environment, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, timeout=PATIENCE * 5)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertRegex(done.stdout, f"\\A{pattern}\\Z")
+
+    def test_its_programs_print_what_it_says(self):
+        found = programs((SOURCE / self.client.page).read_text(), self.client.language)
+        self.assertTrue(found)
+        for number, (body, expected) in enumerate(found):
+            name = re.search(r"public class (\w+)", body)
+            with self.subTest(program=number), tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, (name[1] if name else "program") + pathlib.Path(self.client.runner[-1]).suffix)
+                path.write_text(body)
+                (path.parent / "node_modules").mkdir()  # where Node looks for packages; others do not mind
+                (path.parent / "node_modules/racebeam").symlink_to(SOURCE / "clients/js")
+                self.check(path, (), ".*" if expected is None else re.escape(expected).replace(r"\.\.\.", ".*"))
+
+    def test_its_examples_play(self):
+        for path, words, pattern in EXAMPLES[self.client.language]:
+            with self.subTest(path=path):
+                self.check(SOURCE / path, words, pattern)
+
+
+if __name__ == "__main__":
+    Page.client = next(client for client in CLIENTS if client.name == sys.argv[1])
+    if missing := Page.client.missing():
+        print(f"SKIPPED: there is no {missing}")
+        sys.exit(SKIPPED)
+    if Page.client.build:
+        subprocess.run(Page.client.build, check=True)
+    unittest.main(argv=sys.argv[:1], verbosity=2)
