@@ -1,6 +1,7 @@
 #include "environment/vector/batch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <condition_variable>
 #include <mutex>
@@ -44,7 +45,6 @@ void check_act(const Act& act) {
 // Bytes of a machine that has played, beside its stack and results; measured (docs/performance.md).
 constexpr std::size_t kMachine = std::size_t{240} << 10;
 
-// Before any memory is taken: a system that promises more than it has ends the process later.
 std::size_t checked_size(std::size_t machines, const BatchSettings& settings) {
   refuse_unless(machines > 0, [&] { return "there are 0 machines; there must be 1 or more"; });
   refuse_unless(settings.batch_size <= machines, [&] {
@@ -55,11 +55,7 @@ std::size_t checked_size(std::size_t machines, const BatchSettings& settings) {
   refuse_unless(stack.depth >= 0, [&] {
     return "the stack has " + std::to_string(stack.depth) + " screens; it must have 0 or more";
   });
-  const std::uint64_t bytes = machines * kMachine, all = usable_memory().amount;
-  refuse_unless(bytes <= all, [&] {
-    return count_of(machines, "machines") + " take about " +
-           count_of(bytes >> 20, "MiB; this process may use ") + count_of(all >> 20, "MiB");
-  });
+  check_memory(machines);
   return settings.batch_size == 0 ? machines : settings.batch_size;
 }
 
@@ -70,26 +66,26 @@ void put(std::span<T> array, std::size_t position, std::int64_t value) {
 
 }  // namespace
 
+// Before any is taken: a system that promises more than it has ends the process later.
+void check_memory(std::size_t machines) {
+  const std::uint64_t bytes = machines * kMachine, all = usable_memory().amount;
+  refuse_unless(bytes <= all, [&] {
+    return count_of(machines, "machines") + " take about " +
+           count_of(bytes >> 20, "MiB; this process may use ") + count_of(all >> 20, "MiB");
+  });
+}
+
 BatchArrays BatchResults::arrays() {
-  return {observations,
-          final_observations,
-          final_lives,
-          final_frames,
-          final_episode_frames,
-          screens,
-          ram,
-          rewards,
-          rewards_b,
-          raw_rewards,
-          raw_rewards_b,
-          terminated,
-          truncated,
-          finished,
-          game_over,
-          lives,
-          frames,
-          episode_frames,
-          numbers};
+  return {observations,   final_observations,
+          final_ram,      final_lives,
+          final_frames,   final_episode_frames,
+          screens,        ram,
+          rewards,        rewards_b,
+          raw_rewards,    raw_rewards_b,
+          terminated,     truncated,
+          finished,       game_over,
+          lives,          frames,
+          episode_frames, numbers};
 }
 
 struct Batch::Impl final : VectorHost {
@@ -137,6 +133,7 @@ struct Batch::Impl final : VectorHost {
 
   std::span<const Act> acts_of(std::span<const int> actions, auto machine_of);
   void check_free() const;
+  void check_free(std::size_t machine) const;
   void check_machines(std::span<const std::int32_t> machines) const;
   void begin(std::span<const std::size_t> numbers);
   void play(std::size_t number);
@@ -147,12 +144,14 @@ struct Batch::Impl final : VectorHost {
     BatchArrays arrays() {
       BatchArrays to;
       to.final_observations = observation;
+      to.final_ram = ram;
       to.final_lives = {&lives, 1};
       to.final_frames = {&frames, 1};
       to.final_episode_frames = {&episode_frames, 1};
       return to;
     }
     std::vector<std::uint8_t> observation;
+    std::array<std::uint8_t, kRamSize> ram{};
     std::int32_t lives = 0, frames = 0, episode_frames = 0;
   };
 
@@ -209,6 +208,8 @@ void Batch::Impl::put_stack(const Slot& slot, std::span<std::uint8_t> observatio
 
 void Batch::Impl::write_final(const Slot& slot, std::size_t position, const BatchArrays& arrays) const {
   if (slot.stack() != nullptr) put_stack(slot, arrays.final_observations, position);
+  if (!arrays.final_ram.empty())
+    std::ranges::copy(slot.environment().ram(), &arrays.final_ram[position * kRamSize]);
   put(arrays.final_lives, position, slot.environment().lives());
   put(arrays.final_frames, position, slot.environment().frame_number());
   put(arrays.final_episode_frames, position, slot.environment().episode_frame_number());
@@ -219,6 +220,7 @@ void Batch::Impl::pass_final(std::size_t number, std::size_t position, const Bat
   put(arrays.final_lives, position, final.lives);
   put(arrays.final_frames, position, final.frames);
   put(arrays.final_episode_frames, position, final.episode_frames);
+  if (!arrays.final_ram.empty()) std::ranges::copy(final.ram, &arrays.final_ram[position * kRamSize]);
   if (arrays.final_observations.empty()) return;
   std::ranges::copy(final.observation, arrays.final_observations.begin() +
                                            static_cast<std::ptrdiff_t>(position * observation_size()));
@@ -268,6 +270,11 @@ void Batch::Impl::check_free() const {
   refuse_unless(busy == 0, [&] {
     return count_of(static_cast<std::size_t>(busy), "machines play; receive them first");
   });
+}
+
+void Batch::Impl::check_free(std::size_t machine) const {
+  refuse_unless(playing[machine] == 0,
+                [&] { return "machine " + std::to_string(machine) + " plays; receive it first"; });
 }
 
 void Batch::Impl::check_machines(std::span<const std::int32_t> machines) const {
@@ -324,6 +331,7 @@ std::span<const std::size_t> Batch::Impl::await_batch() {
   const auto end = done.begin() + static_cast<std::ptrdiff_t>(batch_size);
   received.assign(done.begin(), end);
   done.erase(done.begin(), end);
+  if (batch_size == vector.size()) std::ranges::sort(received);
   for (const std::size_t number : received) playing[number] = 0;
   return received;
 }
@@ -340,7 +348,10 @@ std::size_t Batch::batch_size() const { return impl_->batch_size; }
 int Batch::height() const { return impl_->height; }
 std::size_t Batch::observation_size() const { return impl_->observation_size(); }
 unsigned Batch::threads() const { return impl_->pool.threads(); }
-Slot& Batch::slot(std::size_t machine) { return impl_->vector.slot(machine); }
+Slot& Batch::slot(std::size_t machine) {
+  impl_->check_free(machine);
+  return impl_->vector.slot(machine);
+}
 const std::vector<int>& Batch::actions(std::size_t machine) const {
   return impl_->vector.slot(machine).actions();
 }
@@ -351,6 +362,7 @@ BatchResults Batch::make_results() const {
   results.observations.resize(count * observation_size());
   if (impl_->settings.autoreset == Autoreset::kSameStep) {
     results.final_observations.resize(count * observation_size());
+    results.final_ram.resize(count * kRamSize);
     for (auto* numbers : {&results.final_lives, &results.final_frames, &results.final_episode_frames})
       numbers->resize(count);
   }

@@ -30,7 +30,7 @@ struct BatchArrays {
   std::span<std::uint8_t> observations;  // machines x stack x height x width [x 3], oldest first
   // The same of the episodes that ended, with Autoreset::kSameStep; the other machines' parts are not
   // written.
-  std::span<std::uint8_t> final_observations;
+  std::span<std::uint8_t> final_observations, final_ram;
   std::span<std::int32_t> final_lives, final_frames, final_episode_frames;  // the same
   std::span<std::uint8_t> screens;  // machines x tallest height x 160 palette indices
   std::span<std::uint8_t> ram;      // machines x 128
@@ -44,7 +44,7 @@ struct BatchArrays {
 
 // Memory for all of them.
 struct BatchResults {
-  std::vector<std::uint8_t> observations, final_observations;
+  std::vector<std::uint8_t> observations, final_observations, final_ram;
   std::vector<std::int32_t> final_lives, final_frames, final_episode_frames;
   std::vector<std::uint8_t> screens, ram;
   std::vector<std::int32_t> rewards, rewards_b, raw_rewards, raw_rewards_b;
@@ -53,6 +53,9 @@ struct BatchResults {
 
   BatchArrays arrays();
 };
+
+// Throws InvalidInput if so many machines take more memory than the process may use.
+void check_memory(std::size_t machines);
 
 class Batch {
  public:
@@ -72,7 +75,8 @@ class Batch {
 
   // A machine's, of which a step's action is an index: player A's numbers.
   const std::vector<int>& actions(std::size_t machine) const;
-  // A machine: for its states, and what else it can tell. Not while it plays, from send() to receive().
+  // A machine: for its states, and what else it can tell. Throws InvalidInput while it plays, from send() to
+  // receive().
   Slot& slot(std::size_t machine);
 
   // One act each; `out` is of all machines. Throws InvalidInput, and does nothing, when there are not as many
@@ -93,8 +97,8 @@ class Batch {
   // The same in two halves, for batch_size() below size(): while some machines play, the caller works with
   // the results of others. send() begins a step of each machine of `machines`, none of which plays;
   // send_resets() begins resets of all. receive() returns the results of those batch_size() machines that
-  // have finished first. Throw InvalidInput, and do nothing, when that can't be; receive() throws a machine's
-  // failure.
+  // have finished first; of all machines, by their numbers. Throw InvalidInput, and do nothing, when that
+  // can't be; receive() throws a machine's failure.
   void send(std::span<const Act> acts, std::span<const std::int32_t> machines);
   void send(std::span<const int> actions, std::span<const std::int32_t> machines);
   void send_resets(std::span<const std::int64_t> seeds = {});
