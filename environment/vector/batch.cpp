@@ -44,8 +44,7 @@ void check_act(const Act& act) {
 // Bytes of a machine that has played, without its stack and results; measured (docs/performance.md).
 constexpr std::size_t kMachine = std::size_t{240} << 10;
 
-// Returns the batch size. Checks before it allocates, since a system that overcommits memory kills the
-// process only later.
+// Returns the batch size.
 std::size_t checked_size(std::size_t machines, const BatchSettings& settings) {
   refuse_unless(machines > 0, [&] { return "there are 0 machines; there must be 1 or more"; });
   refuse_unless(settings.batch_size <= machines, [&] {
@@ -56,15 +55,20 @@ std::size_t checked_size(std::size_t machines, const BatchSettings& settings) {
   refuse_unless(stack.depth >= 0, [&] {
     return "the stack has " + std::to_string(stack.depth) + " screens; it must have 0 or more";
   });
+  check_memory(machines);
+  return settings.batch_size == 0 ? machines : settings.batch_size;
+}
+
+}  // namespace
+
+// Before anything is allocated, since a system that overcommits memory kills the process only later.
+void check_memory(std::size_t machines) {
   const std::uint64_t bytes = machines * kMachine, all = usable_memory().amount;
   refuse_unless(bytes <= all, [&] {
     return count_of(machines, "machines") + " take about " +
            count_of(bytes >> 20, "MiB; this process may use ") + count_of(all >> 20, "MiB");
   });
-  return settings.batch_size == 0 ? machines : settings.batch_size;
 }
-
-}  // namespace
 
 struct Batch::Impl final : VectorHost {
   Impl(std::span<const Cartridge> cartridges, const BatchSettings& given)
@@ -102,6 +106,7 @@ struct Batch::Impl final : VectorHost {
 
   std::span<const Act> acts_of(std::span<const int> actions, auto machine_of);
   void check_free() const;
+  void check_free(std::size_t machine) const;
   void check_machines(std::span<const std::int32_t> machines) const;
   void begin(std::span<const std::size_t> numbers);
   void play(std::size_t number);
@@ -160,6 +165,11 @@ void Batch::Impl::check_free() const {
   });
 }
 
+void Batch::Impl::check_free(std::size_t machine) const {
+  refuse_unless(playing[machine] == 0,
+                [&] { return "machine " + std::to_string(machine) + " plays; receive it first"; });
+}
+
 void Batch::Impl::check_machines(std::span<const std::int32_t> machines) const {
   std::vector<std::uint8_t> taken = playing;
   for (const std::int32_t machine : machines) {
@@ -214,6 +224,7 @@ std::span<const std::size_t> Batch::Impl::await_batch() {
   const auto end = done.begin() + static_cast<std::ptrdiff_t>(batch_size);
   received.assign(done.begin(), end);
   done.erase(done.begin(), end);
+  if (batch_size == vector.size()) std::ranges::sort(received);
   for (const std::size_t number : received) playing[number] = 0;
   return received;
 }
@@ -230,7 +241,10 @@ std::size_t Batch::batch_size() const { return impl_->batch_size; }
 int Batch::height() const { return impl_->layout.height(); }
 std::size_t Batch::observation_size() const { return impl_->layout.observation_size(); }
 unsigned Batch::threads() const { return impl_->pool.threads(); }
-Slot& Batch::slot(std::size_t machine) { return impl_->vector.slot(machine); }
+Slot& Batch::slot(std::size_t machine) {
+  impl_->check_free(machine);
+  return impl_->vector.slot(machine);
+}
 const std::vector<int>& Batch::actions(std::size_t machine) const {
   return impl_->vector.slot(machine).actions();
 }

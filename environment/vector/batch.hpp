@@ -26,6 +26,9 @@ struct BatchSettings {
   std::chrono::microseconds busy_poll{50};
 };
 
+// Throws InvalidInput if so many machines take more memory than the process may use.
+void check_memory(std::size_t machines);
+
 class Batch {
  public:
   // Makes a machine for each cartridge, powers it on and resets it. Throws InvalidInput if the settings or an
@@ -44,7 +47,8 @@ class Batch {
 
   // The action set of a machine: numbers of player A's actions. step(indices) takes indices into it.
   const std::vector<int>& actions(std::size_t machine) const;
-  // Gives access to a machine, for example to its states. Do not use it from send() to receive().
+  // Gives access to a machine, for example to its states. Throws InvalidInput while it plays, from send() to
+  // receive().
   Slot& slot(std::size_t machine);
 
   // Steps every machine once; `out` has room for all. Throws InvalidInput, and does nothing, unless there is

@@ -10,11 +10,17 @@ void put(std::span<T> array, std::size_t position, std::int64_t value) {
   if (!array.empty()) array[position] = static_cast<T>(value);
 }
 
+void put_ram(std::span<const std::uint8_t, kRamSize> ram, std::span<std::uint8_t> array,
+             std::size_t position) {
+  if (!array.empty()) std::ranges::copy(ram, &array[position * kRamSize]);
+}
+
 }  // namespace
 
 BatchArrays BatchResults::arrays() {
   return {observations,
           final_observations,
+          final_ram,
           final_lives,
           final_frames,
           final_episode_frames,
@@ -51,6 +57,7 @@ BatchResults ResultLayout::make_results(std::size_t count) const {
   results.observations.resize(count * observation_size());
   if (finals_) {
     results.final_observations.resize(count * observation_size());
+    results.final_ram.resize(count * kRamSize);
     for (auto* numbers : {&results.final_lives, &results.final_frames, &results.final_episode_frames})
       numbers->resize(count);
   }
@@ -92,7 +99,7 @@ void ResultLayout::write(const Slot& slot, std::size_t number, std::size_t posit
   put(arrays.frames, position, environment.frame_number());
   put(arrays.episode_frames, position, environment.episode_frame_number());
   put(arrays.numbers, position, static_cast<std::int64_t>(number));
-  if (!arrays.ram.empty()) std::ranges::copy(environment.ram(), &arrays.ram[position * kRamSize]);
+  put_ram(environment.ram(), arrays.ram, position);
   write_stack(slot, arrays.observations, position);
   if (arrays.screens.empty()) return;
   const auto own = arrays.screens.subspan(position * whole_screen(), whole_screen());
@@ -102,6 +109,7 @@ void ResultLayout::write(const Slot& slot, std::size_t number, std::size_t posit
 
 void ResultLayout::write_final(const Slot& slot, std::size_t position, const BatchArrays& arrays) const {
   write_stack(slot, arrays.final_observations, position);
+  put_ram(slot.environment().ram(), arrays.final_ram, position);
   put(arrays.final_lives, position, slot.environment().lives());
   put(arrays.final_frames, position, slot.environment().frame_number());
   put(arrays.final_episode_frames, position, slot.environment().episode_frame_number());
@@ -111,6 +119,7 @@ void FinalResult::keep(const ResultLayout& layout, const Slot& slot) {
   observation_.resize(layout.observation_size());
   BatchArrays own;
   own.final_observations = observation_;
+  own.final_ram = ram_;
   own.final_lives = {&lives_, 1};
   own.final_frames = {&frames_, 1};
   own.final_episode_frames = {&episode_frames_, 1};
@@ -121,6 +130,7 @@ void FinalResult::write(std::size_t position, const BatchArrays& arrays) const {
   put(arrays.final_lives, position, lives_);
   put(arrays.final_frames, position, frames_);
   put(arrays.final_episode_frames, position, episode_frames_);
+  put_ram(ram_, arrays.final_ram, position);
   if (!arrays.final_observations.empty())
     std::ranges::copy(observation_, &arrays.final_observations[position * observation_.size()]);
 }

@@ -1,6 +1,7 @@
 // The results of a Batch: arrays in the caller's memory, with a place for each machine.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,9 +14,9 @@ namespace racebeam {
 // empty array is not written.
 struct BatchArrays {
   std::span<std::uint8_t> observations;  // machines x stack x height x width [x 3], oldest first
-  // With Autoreset::kSameStep, the last observation and numbers of each episode that ended in this step. The
+  // With Autoreset::kSameStep, the last observation, RAM and numbers of each episode that ended in this step. The
   // places of the other machines are not written.
-  std::span<std::uint8_t> final_observations;
+  std::span<std::uint8_t> final_observations, final_ram;
   std::span<std::int32_t> final_lives, final_frames, final_episode_frames;
   std::span<std::uint8_t> screens;  // machines x tallest height x 160 palette indices
   std::span<std::uint8_t> ram;      // machines x 128
@@ -29,7 +30,7 @@ struct BatchArrays {
 
 // Owns memory for all arrays.
 struct BatchResults {
-  std::vector<std::uint8_t> observations, final_observations;
+  std::vector<std::uint8_t> observations, final_observations, final_ram;
   std::vector<std::int32_t> final_lives, final_frames, final_episode_frames;
   std::vector<std::uint8_t> screens, ram;
   std::vector<std::int32_t> rewards, rewards_b, raw_rewards, raw_rewards_b;
@@ -75,6 +76,7 @@ class FinalResult {
 
  private:
   std::vector<std::uint8_t> observation_;
+  std::array<std::uint8_t, kRamSize> ram_{};
   std::int32_t lives_ = 0, frames_ = 0, episode_frames_ = 0;
 };
 

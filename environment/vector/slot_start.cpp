@@ -43,7 +43,7 @@ void Slot::reload(std::uint32_t seed) {
   environment_.reload(seed);
   noops_ = Noops(seed, settings_.noop_max);
   if (mode != environment_.mode()) environment_.set_mode(mode);
-  environment_.set_difficulty(difficulty);
+  if (difficulty != environment_.difficulty()) environment_.set_difficulty(difficulty);
 }
 
 void Slot::begin_episode() {

@@ -19,17 +19,19 @@ import ale_py
 import ale_py.env
 import ale_py.registration
 import ale_py.roms
+import ale_py.vector_env
+import gymnasium
 import numpy as np
 from ale_py import _ale_py
 
 import racebeam
 import racebeam.ale_py as drop_in
+import racebeam.ale_py._ale_py
 
 ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
 
-# The vector environment, and the handles of its compiled module (difference 13).
-NOT_YET = {"AtariVectorEnv", "ALEVectorInterface", "AutoresetMode", "VectorXLAReset", "VectorXLAResetGPU", "VectorXLAStep",
-           "VectorXLAStepGPU", "vector_env"}
+# What is below the vector environment (difference 15).
+NOT_YET = {"ALEVectorInterface", "AutoresetMode", "VectorXLAReset", "VectorXLAResetGPU", "VectorXLAStep", "VectorXLAStepGPU"}
 PONG = None if "pong" not in package.roms() else racebeam.find_image("pong")
 
 
@@ -54,9 +56,9 @@ class Names(unittest.TestCase):
         for ours, theirs in ((drop_in, ale_py), (drop_in._ale_py if hasattr(drop_in, "_ale_py") else __import__(
                 "racebeam.ale_py._ale_py", fromlist=["x"]), _ale_py)):
             names = {name for name in dir(theirs) if not name.startswith("_")} - NOT_YET
-            names -= {"importlib", "metadata", "os", "platform", "warnings", "packagedir", "env", "registration", "roms"}
+            names -= {"importlib", "metadata", "os", "platform", "warnings", "packagedir", "env", "registration", "roms", "vector_env"}
             self.assertEqual({name for name in names if not hasattr(ours, name)}, set())
-        for module in ("env", "registration", "roms"):
+        for module in ("env", "registration", "roms", "vector_env"):
             ours = __import__(f"racebeam.ale_py.{module}", fromlist=["x"])
             theirs = sys.modules[f"ale_py.{module}"]
             own = {name for name, value in vars(theirs).items() if getattr(value, "__module__", "").startswith("ale_py.")
@@ -333,9 +335,43 @@ class Differences(unittest.TestCase):
         theirs.close()
         theirs.reset()
 
-    def test_13_what_is_not_there_yet(self):
-        for name in ("AtariVectorEnv", "ALEVectorInterface"):
-            self.assertFalse(hasattr(drop_in, name))
+    def test_13_many_environments_take_more(self):
+        for autoreset in ("NextStep", "Disabled"):
+            envs = drop_in.AtariVectorEnv("pong", 2, autoreset_mode=autoreset, lives="end", render_mode="rgb_array")
+            envs.reset(seed=[3, 4])
+            envs.reset(seed=np.int64(3))
+            self.assertEqual(envs.render()[1].shape, (210, 160, 3))
+            self.assertEqual(set(envs.step(np.zeros(2, np.int64))[4]), {"env_id", "lives", "frame_number", "episode_frame_number"})
+        self.assertRaises(ValueError, ale_py.AtariVectorEnv, "pong", 2, autoreset_mode="Disabled")
+        theirs = ale_py.AtariVectorEnv("pong", 2)
+        for seed in ([3, 4], np.int64(3)):
+            self.assertRaises(TypeError, theirs.reset, seed=seed)
+        self.assertRaises(NotImplementedError, theirs.render)
+        self.assertIs(theirs.metadata, ale_py.AtariVectorEnv.metadata)
+        self.assertIsNot(envs.metadata, drop_in.AtariVectorEnv.metadata)
+
+    def test_14_many_environments_raise(self):
+        both = [module.AtariVectorEnv("pong", 2) for module in (drop_in, ale_py)]
+        for envs in both:
+            envs.reset(seed=1)
+            for actions in ([0, 0], np.zeros(3, np.int64), np.zeros(2, np.float32)):
+                self.assertRaises(AssertionError, envs.step, actions)
+            for mask, error in (([True, False], TypeError), (np.array([True]), ValueError)):
+                self.assertRaises(error, envs.reset, options={"reset_mask": mask})
+            self.assertRaises(ValueError, envs.reset, seed=np.array([1]))
+            self.assertRaises(TypeError, envs.reset, seed="x")
+        self.assertRaises(IndexError, both[0].step, np.array([0, 99]))
+        self.assertRaises(gymnasium.error.Error, drop_in.AtariVectorEnv, "pong", 2, stack_num=0)
+        ale_py.AtariVectorEnv("pong", 2, stack_num=0)
+        for envs in both:
+            envs.close()
+        self.assertRaises(gymnasium.error.ClosedEnvironmentError, both[0].step, np.zeros(2, np.int64))
+        both[1].step(np.zeros(2, np.int64))
+
+    def test_15_what_is_not_there_yet(self):
+        for name in NOT_YET:
+            self.assertFalse(hasattr(drop_in, name) or hasattr(drop_in._ale_py, name), name)
+        self.assertFalse(drop_in.AtariVectorEnv.is_xla_registered)
 
 
 if __name__ == "__main__":

@@ -34,13 +34,13 @@ class Import(unittest.TestCase):
                       "m.PathFinder.find_spec = classmethod(lambda c, name, *a: None if name in hidden else find(name, *a))\n"
                       "import racebeam, racebeam.ale_py\n"
                       "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); ale.act(1); print(ale.getScreenRGB().shape)\n"
-                      "for name in ('AtariEnv', 'register_ale_ids'):\n"
+                      "for name in ('AtariEnv', 'AtariVectorEnv', 'register_ale_ids'):\n"
                       "    try: getattr(racebeam, name)()\n"
                       "    except ImportError as error: print(error)")
         done = python(only_numpy)
         self.assertEqual(done.stdout.splitlines(), ["(210, 160, 3)", *(
             f'racebeam.{name} needs Gymnasium; install it with: pip install "racebeam[gymnasium]"'
-            for name in ("AtariEnv", "register_ale_ids"))], done.stderr)
+            for name in ("AtariEnv", "AtariVectorEnv", "register_ale_ids"))], done.stderr)
 
     def test_nothing_heavy_is_imported_before_it_is_used(self):
         heavy = "'pygame', 'ale_py', 'jax', 'torch', 'stable_baselines3', 'cv2'"
@@ -105,7 +105,7 @@ class Readme(unittest.TestCase):
             for number, example in enumerate(re.findall(r"(?ms)^```python\n(.*?)^```", text)):
                 with self.subTest(document=document, example=number):
                     needs = {module for module in ("gymnasium", "ale_py", "stable_baselines3") if re.search(rf"\b(import|from) {module}\b", example)}
-                    needs |= {"gymnasium"} if "AtariEnv" in example else set()
+                    needs |= {"gymnasium"} if re.search(r"Atari\w*Env", example) else set()
                     if not all(map(has, needs)) or ("Pong" in example and "pong" not in package.roms()):
                         continue
                     done = python(example)

@@ -7,11 +7,13 @@
 namespace racebeam::python {
 namespace {
 
-std::atomic<unsigned> generation{1};  // of this process; a child has another than its parent
+std::atomic<unsigned> generation{1};
 
 [[maybe_unused]] const int forks_are_counted = pthread_atfork(nullptr, nullptr, [] { ++generation; });
 
 }  // namespace
+
+unsigned process_generation() { return generation; }
 
 void Lock::lock() {
   if (!mutex_.try_lock()) {

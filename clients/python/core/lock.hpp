@@ -10,6 +10,9 @@
 
 namespace racebeam::python {
 
+// Of this process; a child has another than its parent.
+unsigned process_generation();
+
 class Lock {
  public:
   // Throws std::runtime_error in a child process whose parent forked while another thread held the lock.

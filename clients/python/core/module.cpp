@@ -25,4 +25,6 @@ NB_MODULE(_core, m) {
   racebeam::python::bind_catalogue(m);
   racebeam::python::bind_state(m);
   racebeam::python::bind_interface(m);
+  racebeam::python::bind_vector_settings(m);
+  racebeam::python::bind_vector(m);
 }

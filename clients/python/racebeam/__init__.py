@@ -25,12 +25,14 @@ from .interface import ALEInterface
 
 if TYPE_CHECKING:
     from .env import AtariEnv
+    from .vector_env import AtariVectorEnv
 
 __version__ = importlib.metadata.version("racebeam")
 
-__all__ = ["ALEInterface", "ALEState", "Action", "AtariEnv", "InvalidInput", "LoggerMode", "MissingImage", "Refused", "Session",
-           "UnknownGame", "connect", "find_image", "find_images", "games", "launch", "register_ale_ids"]
+__all__ = ["ALEInterface", "ALEState", "Action", "AtariEnv", "AtariVectorEnv", "InvalidInput", "LoggerMode", "MissingImage",
+           "Refused", "Session", "UnknownGame", "connect", "find_image", "find_images", "games", "launch", "register_ale_ids"]
 
+_NEED_GYMNASIUM = {"AtariEnv": ".env", "AtariVectorEnv": ".vector_env"}
 _HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
 
 
@@ -48,10 +50,10 @@ def _need_gymnasium(what: str) -> None:
 
 
 def __getattr__(name: str) -> Any:
-    if name != "AtariEnv":
+    if name not in _NEED_GYMNASIUM:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     _need_gymnasium(name)
-    return importlib.import_module(".env", __name__).AtariEnv
+    return getattr(importlib.import_module(_NEED_GYMNASIUM[name], __name__), name)
 
 
 if _HAS_GYMNASIUM:

@@ -16,6 +16,7 @@ from gymnasium.utils import seeding
 
 from . import images
 from ._core import Action, ALEState, View
+from .arguments import check_choice, either, listed
 from .errors import InvalidInput
 from .interface import ALEInterface
 from .presets import preset as preset_of
@@ -110,16 +111,16 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     ) -> None:
         usual = preset_of(preset)
         images.check_name(game)
-        _check_choice("obs_type", obs_type, tuple(VIEWS))
-        _check_choice("render_mode", render_mode, RENDER_MODES)
+        check_choice("obs_type", obs_type, tuple(VIEWS))
+        check_choice("render_mode", render_mode, RENDER_MODES)
         if two_player and continuous:
             raise error.Error("two_player and continuous are both True; a game for two takes indices of actions alone")
         self._game, self._rom = game, rom
         self._game_mode, self._game_difficulty = mode, difficulty
         self._obs_type, self._view = obs_type, VIEWS[obs_type]
-        self._frameskip = _or(frameskip, usual.frameskip)
-        self._noop_max: int = _or(noop_max, usual.noop_max)
-        self._reward_range: tuple[float, float] | None = _or(reward_range, usual.reward_range)
+        self._frameskip = either(frameskip, usual.frameskip)
+        self._noop_max: int = either(noop_max, usual.noop_max)
+        self._reward_range: tuple[float, float] | None = either(reward_range, usual.reward_range)
         self._two_player = two_player
         self.continuous = continuous
         self.continuous_action_threshold = continuous_action_threshold
@@ -134,13 +135,13 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self.ale: Any = ALEInterface() if server is None else RemoteInterface(server)
         self._set_keys(
             rules,
-            _or(repeat_action_probability, usual.repeat_action_probability),
-            _or(max_num_frames_per_episode, usual.max_num_frames_per_episode),
-            bool(_or(life_loss_ends, usual.life_loss_ends)),
+            either(repeat_action_probability, usual.repeat_action_probability),
+            either(max_num_frames_per_episode, usual.max_num_frames_per_episode),
+            bool(either(life_loss_ends, usual.life_loss_ends)),
         )
         self.seed_game()
         self.load_game()
-        self._set_spaces(bool(_or(full_action_space, usual.full_action_space)))
+        self._set_spaces(bool(either(full_action_space, usual.full_action_space)))
         self._open_window()
 
     def _set_keys(self, rules: str, sticky: float, limit: int | None, life_loss_ends: bool) -> None:
@@ -182,7 +183,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         if self._game_mode is None:
             return offered[0]
         if self._game_mode not in offered:
-            raise InvalidInput(f"{self._game} has no mode {self._game_mode} for two; it offers {_listed(offered)}")
+            raise InvalidInput(f"{self._game} has no mode {self._game_mode} for two; it offers {listed(offered)}")
         return self._game_mode
 
     # Spaces
@@ -404,21 +405,8 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             raise error.ClosedEnvironmentError(f"{what}() is not possible: this environment of {self._game} was closed")
 
 
-def _or(given: Any, usual: Any) -> Any:
-    return usual if given is None else given
-
-
-def _listed(values: Any) -> str:
-    return ", ".join(map(str, values))
-
-
 def _keys_of(action: str) -> tuple[str, ...]:
     return tuple(key for part, key in KEYS if part in action) or (KEY_OF_NOOP,)
-
-
-def _check_choice(name: str, value: object, choices: tuple[str | None, ...]) -> None:
-    if not any(value is choice or (isinstance(value, str) and value == choice) for choice in choices):
-        raise error.Error(f"{name} is {value!r}; it takes {_listed(choices)}")
 
 
 def _is_whole(value: object) -> bool:

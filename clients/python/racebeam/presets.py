@@ -28,9 +28,42 @@ PRESETS = {
 }
 
 
+class VectorPreset(NamedTuple):
+    """Arguments of AtariVectorEnv; the defaults are those of ale_py.AtariVectorEnv."""
+
+    frameskip: int = 4
+    repeat_action_probability: float = 0.0
+    full_action_space: bool = False
+    max_num_frames_per_episode: int = 108000
+    noop_max: int = 30
+    use_fire_reset: bool = True
+    lives: str = "ignored"
+    reward_clipping: bool = True
+
+
+# Many environments begin an episode as ale_py has it, except where the literature says how.
+VECTOR_PRESETS = {
+    "ale": VectorPreset(),
+    "gym-v5": VectorPreset(repeat_action_probability=0.25),
+    "paper2013": VectorPreset(5, 0.0, True, 18000, 0, False, reward_clipping=False),
+    "dqn2015": VectorPreset(4, 0.0, False, 18000, 30, False, "end"),
+    "machado2018": VectorPreset(5, 0.25, True, 18000, 0, False, reward_clipping=False),
+}
+
+
 def preset(name: str) -> Preset:
     """Raises InvalidInput for an unknown name."""
-    try:
-        return PRESETS[name]
-    except KeyError:
-        raise InvalidInput(f"there is no preset {name!r}; there are {', '.join(PRESETS)}") from None
+    check_name(name)
+    return PRESETS[name]
+
+
+def vector_preset(name: str) -> VectorPreset:
+    """Raises InvalidInput for an unknown name."""
+    check_name(name)
+    return VECTOR_PRESETS[name]
+
+
+def check_name(name: str) -> None:
+    """Raises InvalidInput for the name of no preset."""
+    if name not in PRESETS:
+        raise InvalidInput(f"there is no preset {name!r}; there are {', '.join(PRESETS)}")

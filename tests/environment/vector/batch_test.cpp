@@ -41,6 +41,7 @@ BatchResults play(Batch& batch, int steps) {
 void check_same(const BatchResults& a, const BatchResults& b) {
   CHECK(a.observations == b.observations);
   CHECK(a.final_observations == b.final_observations);
+  CHECK(a.final_ram == b.final_ram);
   CHECK(a.screens == b.screens);
   CHECK(a.ram == b.ram);
   CHECK(a.rewards == b.rewards);
@@ -182,6 +183,7 @@ TEST_CASE("Machines that are sent and received in any order play as they do toge
         CHECK(results.finished[position] == should.finished[machine]);
         if (autoreset == Autoreset::kSameStep && should.finished[machine] != 0) {
           CHECK(part(results.final_observations, position, 2) == part(should.final_observations, machine, 5));
+          CHECK(part(results.final_ram, position, 2) == part(should.final_ram, machine, 5));
           CHECK(results.final_episode_frames[position] == should.final_episode_frames[machine]);
           CHECK(results.final_frames[position] == should.final_frames[machine]);
           CHECK(should.final_episode_frames[machine] >= 30);
@@ -209,8 +211,31 @@ TEST_CASE("A batch that sends says what can't be sent or received") {
   batch.receive(results.arrays());
   CHECK_THROWS_WITH(batch.receive(results.arrays()),
                     "1 machines play, and a receive takes 2; send some first");
+  const int playing = 3 - results.numbers[0] - results.numbers[1];
+  CHECK_THROWS_WITH(batch.slot(std::size_t(playing)),
+                    "machine " + std::to_string(playing) + " plays; receive it first");
   batch.send(std::vector{0}, std::span(results.numbers).first(1));
   batch.receive(results.arrays());
+}
+
+TEST_CASE("All machines of a batch are received by their numbers, whichever finished first") {
+  auto settings = short_episodes();
+  settings.threads = 2;
+  Batch halves(copies(5), settings), whole(copies(5), settings);
+  BatchResults results = halves.make_results(), expected = whole.make_results();
+  for (int step = 0; step < 20; ++step) {
+    halves.send(std::vector{4, 3, 2, 1, 0}, std::vector{4, 2, 3, 0, 1});
+    halves.receive(results.arrays());
+    whole.step(std::vector{1, 0, 3, 2, 4}, expected.arrays());
+    CHECK(results.numbers == std::vector{0, 1, 2, 3, 4});
+    check_same(results, expected);
+  }
+}
+
+TEST_CASE("More machines than the memory has room for are refused") {
+  CHECK_NOTHROW(check_memory(1));
+  CHECK_THROWS_WITH(check_memory(std::size_t{1} << 30), Catch::Contains("1073741824 machines take about") &&
+                                                            Catch::Contains("this process may use"));
 }
 
 TEST_CASE("A machine of a batch goes back to a state, and plays on as it did") {

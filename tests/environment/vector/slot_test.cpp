@@ -157,6 +157,24 @@ TEST_CASE("A stack begins with zeros or with the first screen, and may live on w
   }
 }
 
+TEST_CASE("A reset with a seed keeps the difficulty, be it one that the game does not offer") {
+  constexpr auto kHard = R"(
+title = "Hard"
+difficulties = [3]
+[rule]
+step = "score = 0; terminal = 0"
+)";
+  Slot begun({test::counter_image(), test::game(kHard, "hard")}, no_noops());
+  CHECK(begun.environment().difficulty() == 0);
+  begun.reset(7);
+  CHECK(begun.environment().difficulty() == 0);
+  SlotSettings settings = no_noops();
+  settings.difficulty = 3;
+  Slot chosen({test::counter_image(), test::game(kHard, "hard")}, settings);
+  chosen.reset(7);
+  CHECK(chosen.environment().difficulty() == 3);
+}
+
 TEST_CASE("A reset that fails leaves a slot as it was") {
   struct Impatient final : Pace {
     void frame() override {

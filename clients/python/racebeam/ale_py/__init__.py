@@ -21,7 +21,12 @@ infos are the same to the byte, for the same seeds and actions. What differs:
     pygame. record_screen_dir and record_sound_filename take only "".
 11. getInt(), getBool(), getFloat() and getString() each know the settings of their type alone.
 12. A closed AtariEnv raises ClosedEnvironmentError.
-13. AtariVectorEnv and ALEVectorInterface are not there yet.
+13. AtariVectorEnv takes what racebeam.AtariVectorEnv takes beyond ale_py's arguments. Seeds may be any integers, or a list.
+    autoreset_mode may be DISABLED, and render() works. metadata is each object's own.
+14. In AtariVectorEnv, an action that is out of range is an IndexError, and a step in a child process after a fork is a
+    RuntimeError; ale_py hangs. A wrong argument is an Error, an InvalidInput or an UnknownGame; ale_py takes some, and ends the
+    process for others. After close(), ClosedEnvironmentError is raised; ale_py goes on.
+15. ALEVectorInterface and XLA are not there yet: AtariVectorEnv has no `ale`, and is_xla_registered is False.
 """
 
 from __future__ import annotations
@@ -38,6 +43,7 @@ if TYPE_CHECKING:
     from ..env import AtariEnvStepMetadata as AtariEnvStepMetadata
     from ..registration import register_v0_v4_envs as register_v0_v4_envs
     from ..registration import register_v5_envs as register_v5_envs
+    from .vector_env import AtariVectorEnv as AtariVectorEnv
 
 __version__ = "0.12.1"
 SDL_SUPPORT = False
@@ -47,6 +53,7 @@ __all__ = ["ALEInterface", "ALEState", "Action", "LoggerMode", "SDL_SUPPORT"]
 _NEED_GYMNASIUM = {
     "AtariEnv": "racebeam.env",
     "AtariEnvStepMetadata": "racebeam.env",
+    "AtariVectorEnv": "racebeam.ale_py.vector_env",
     "register_v0_v4_envs": "racebeam.registration",
     "register_v5_envs": "racebeam.registration",
 }
@@ -62,4 +69,4 @@ if importlib.util.find_spec("gymnasium") is not None:
     from ..registration import register_ale_ids
 
     register_ale_ids()
-    __all__ += ["AtariEnv", "AtariEnvStepMetadata"]
+    __all__ += ["AtariEnv", "AtariEnvStepMetadata", "AtariVectorEnv"]

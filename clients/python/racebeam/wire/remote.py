@@ -37,7 +37,7 @@ class RemoteInterface:
     def __init__(self, server: str, token: str | None = None) -> None:
         self._server, self._token = server, token
         self._keys = ALEInterface()
-        self._session: Session = connect(server, token=token)
+        self.session: Session = connect(server, token=token)
         self._view: View | None = None
         self._colours = np.zeros((256, 3), np.uint8)
         self._greys = np.zeros(256, np.uint8)
@@ -48,22 +48,22 @@ class RemoteInterface:
             return getattr(self._keys, name)
         raise AttributeError(f"RemoteInterface has no attribute {name!r}")
 
-    def _ask(self, method: Any, *words: Any, **settings: Any) -> Any:
+    def ask(self, method: Any, *words: Any, **settings: Any) -> Any:
         try:
             return method(*words, **settings)
         except Refused as refused:
             raise OWN_ERRORS.get(refused.code, InvalidInput)(f"{self._server}: {refused.sentence}") from refused
 
     def _look(self, *fields: str) -> dict[str, Any]:
-        values: dict[str, Any] = self._ask(self._session.look, *fields)
+        values: dict[str, Any] = self.ask(self.session.look, *fields)
         return values
 
     def close(self) -> None:
         """Ends the session."""
-        self._session.close_connection()
+        self.session.close_connection()
 
     def __del__(self) -> None:
-        session = self.__dict__.get("_session")  # there is none where connect() failed
+        session = self.__dict__.get("session")  # there is none where connect() failed
         if session is not None:
             session.close_connection()
 
@@ -87,25 +87,25 @@ class RemoteInterface:
 
     def loadROM(self, rom: Any = None, game: str | None = None) -> None:
         """rom: as ALEInterface.loadROM() takes it, sent to the server; None: the server's own image of `game`."""
-        self._load(rom, game, self._settings())
+        self.load(rom, game, self._settings())
 
-    def _load(self, rom: Any, game: str | None, settings: dict[str, object]) -> None:
+    def load(self, rom: Any, game: str | None, settings: dict[str, object]) -> None:
         if rom is None:
             rom = self._image_to_send(game)
         if rom is None:
-            self._ask(self._session.load, game, **settings)
+            self.ask(self.session.load, game, **settings)
         else:
             named = {"as": game} if game is not None else {}
-            self._ask(self._session.load, "inline", image=_bytes_of(rom), **named, **settings)
+            self.ask(self.session.load, "inline", image=_bytes_of(rom), **named, **settings)
         self._loaded = rom, game, settings
         self._view = None
-        self._colours = np.array(self._session.palette(), np.uint8)
+        self._colours = np.array(self.session.palette(), np.uint8)
         self._greys = np.append(self._colours[1:, 2], np.uint8(0))  # the blue of the entry after it
 
     def _image_to_send(self, game: str | None) -> str | None:
         """None where the server has one itself."""
         images.check_name(str(game))
-        if int(self._session.game(str(game))["here"]) == 1:
+        if int(self.session.game(str(game))["here"]) == 1:
             return None
         try:
             return images.find(str(game))
@@ -113,10 +113,10 @@ class RemoteInterface:
             raise MissingImage(f"{self._server} has no image of {game}, and here {missing}") from missing
 
     def getGame(self) -> str:
-        return str(self._ask(self._session.settings)["game"])
+        return str(self.ask(self.session.settings)["game"])
 
     def _list(self, key: str, command: str) -> list[int]:
-        return [int(number) for number in self._ask(self._session.list_of, key, command)]
+        return [int(number) for number in self.ask(self.session.list_of, key, command)]
 
     def _actions(self, key: str) -> list[Action]:
         return [Action(number) for number in self._list(key, "actions")]
@@ -137,22 +137,22 @@ class RemoteInterface:
         return self._list("difficulties", "difficulties")
 
     def getMode(self) -> int:
-        return int(self._ask(self._session.values, "modes")["mode"])
+        return int(self.ask(self.session.values, "modes")["mode"])
 
     def getDifficulty(self) -> int:
-        return int(self._ask(self._session.values, "difficulties")["difficulty"])
+        return int(self.ask(self.session.values, "difficulties")["difficulty"])
 
     def setMode(self, mode: int) -> None:
-        self._ask(self._session.set, mode=mode)
+        self.ask(self.session.set, mode=mode)
 
     def setDifficulty(self, difficulty: int) -> None:
-        self._ask(self._session.set, difficulty=difficulty)
+        self.ask(self.session.set, difficulty=difficulty)
 
     # Playing
 
     def _observe(self, view: View) -> None:
         if view is not self._view:
-            self._ask(self._session.observe, *ALWAYS, *FIELDS[view])
+            self.ask(self.session.observe, *ALWAYS, *FIELDS[view])
             self._view = view
 
     def step(self, action: int, paddle_strength: float, times: int, view: View, action_b: int = 18,
@@ -160,7 +160,7 @@ class RemoteInterface:
         """As ALEInterface's."""
         self._observe(view)
         word = f"{action}@{paddle_strength:.9g}/{action_b - 18}@{paddle_strength_b:.9g}"
-        shown = self._ask(self._session.act, f"{word}*{times}")
+        shown = self.ask(self.session.act, f"{word}*{times}")
         self._act_after_the_end(word, times - max(shown["acts"], 1))
         return (self._seen(shown, view), float(shown["reward"]), float(shown["reward_b"]), bool(shown["terminated"]),
                 bool(shown["truncated"]), shown["lives"], shown["episode_frame"], shown["frame"])
@@ -168,16 +168,16 @@ class RemoteInterface:
     def _act_after_the_end(self, word: str, acts: int) -> None:
         """Such acts run no frame; but the generator of sticky actions goes on, as it does in this process."""
         for _ in range(acts):
-            self._session.send("act", word)
+            self.session.send("act", word)
         for _ in range(acts):
-            self._session.decoded(self._session.receive()[0])
+            self.session.decoded(self.session.receive()[0])
 
     def act(self, action: int | Action, paddle_strength: float = 1.0) -> int:
         number = action.value if isinstance(action, Action) else action
         return int(self.step(number, paddle_strength, 1, View.NONE)[1])
 
     def reset_game(self) -> None:
-        self._ask(self._session.reset)
+        self.ask(self.session.reset)
 
     def _seen(self, shown: dict[str, Any], view: View) -> Any:
         if view is View.NONE:
@@ -229,7 +229,7 @@ class RemoteInterface:
         return _given(np.frombuffer(self._look("audio")["audio"], np.uint8).copy(), buffer)
 
     def getScreenDims(self) -> tuple[int, int]:
-        return self._session.height, 160
+        return self.session.height, 160
 
     def getRAMSize(self) -> int:
         return 128
@@ -238,7 +238,7 @@ class RemoteInterface:
         return 512
 
     def setRAM(self, index: int, value: int) -> None:
-        self._ask(self._session.poke, index, bytes([value]))
+        self.ask(self.session.poke, index, bytes([value]))
 
     def saveScreenPNG(self, path: str) -> None:
         picture = self.getScreenRGB()
@@ -249,17 +249,17 @@ class RemoteInterface:
 
     def cloneState(self, include_rng: bool = False) -> ALEState:
         """The state comes here; it can be restored in this process, too."""
-        self._ask(self._session.save, STATE, random=int(include_rng))
-        data = self._ask(self._session.export_state, STATE)
-        self._ask(self._session.drop, STATE)
+        self.ask(self.session.save, STATE, random=int(include_rng))
+        data = self.ask(self.session.export_state, STATE)
+        self.ask(self.session.drop, STATE)
         now = self._look("frame", "episode_frame")
         head = STATE_HEAD.pack(b"RBALE001", now["frame"], now["episode_frame"], self.getDifficulty(), self.getMode())
         return ALEState(head + data)
 
     def restoreState(self, state: ALEState) -> None:
-        self._ask(self._session.import_state, STATE, state.serialize()[STATE_HEAD.size:])
-        self._ask(self._session.restore, STATE)
-        self._ask(self._session.drop, STATE)
+        self.ask(self.session.import_state, STATE, state.serialize()[STATE_HEAD.size:])
+        self.ask(self.session.restore, STATE)
+        self.ask(self.session.drop, STATE)
 
     def cloneSystemState(self) -> ALEState:
         return self.cloneState(True)
@@ -275,7 +275,7 @@ class RemoteInterface:
         RemoteInterface.__init__(self, state["server"], state["token"])
         self._keys = state["keys"]
         if state["loaded"]:
-            self._load(*state["loaded"])
+            self.load(*state["loaded"])
             self.restoreState(state["state"])
 
 

@@ -1,0 +1,251 @@
+// VectorMachines: what they show goes into arrays that Python made.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <stdexcept>
+
+#include "clients/python/core/arrays.hpp"
+#include "clients/python/core/bindings.hpp"
+#include "clients/python/core/image_argument.hpp"
+#include "clients/python/core/vector_machines.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam::python {
+namespace {
+
+using namespace nb::literals;
+
+template <class T>
+using Given = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Joysticks = nb::ndarray<const float, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+template <class T>
+using Rows = nb::ndarray<T, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+
+// racebeam.vector_results.Results, whose order this is.
+using Results = std::tuple<std::optional<Buffer>, std::optional<Buffer>, Rows<std::int32_t>, Rows<bool>,
+                           std::optional<Buffer>, std::optional<Rows<std::int32_t>>>;
+
+template <class T>
+std::span<const T> span_of(const Given<T>& array) {
+  return {array.data(), array.size()};
+}
+
+template <class T>
+std::span<const T> span_of(const std::optional<Given<T>>& array) {
+  return array ? span_of(*array) : std::span<const T>();
+}
+
+std::span<std::uint8_t> bytes_of(const std::optional<Buffer>& array, std::size_t size) {
+  if (!array) return {};
+  if (array->size() != size)
+    throw InvalidInput("an array of results has " + std::to_string(array->size()) + " bytes; it must have " +
+                       std::to_string(size));
+  return {array->data(), size};
+}
+
+// Gives each of `parts` a row of `count` values.
+template <class T, class Part, std::size_t size>
+void share_out(const Rows<T>& rows, std::size_t count, const std::array<std::span<Part>*, size>& parts) {
+  static_assert(sizeof(T) == sizeof(Part));
+  if (rows.shape(0) != size || rows.shape(1) != count)
+    throw InvalidInput("an array of results has " + std::to_string(rows.shape(0)) + " rows of " +
+                       std::to_string(rows.shape(1)) + " values; it must have " + std::to_string(size) +
+                       " of " + std::to_string(count));
+  for (std::size_t row = 0; row < size; ++row)
+    *parts[row] = {reinterpret_cast<Part*>(rows.data()) + row * count, count};
+}
+
+BatchArrays arrays_of(const Batch& batch, const Results& results) {
+  const auto& [observations, ram, numbers, flags, final_observations, final_numbers] = results;
+  const std::size_t count = batch.batch_size(), screens = count * batch.observation_size();
+  BatchArrays to;
+  to.observations = bytes_of(observations, screens);
+  to.ram = bytes_of(ram, count * kRamSize);
+  share_out(numbers, count,
+            std::array{&to.rewards, &to.raw_rewards, &to.lives, &to.frames, &to.episode_frames, &to.numbers});
+  share_out(flags, count, std::array{&to.terminated, &to.truncated, &to.finished, &to.game_over});
+  if (screens > 0) {
+    to.final_observations = bytes_of(final_observations, screens);
+  } else {
+    to.final_ram = bytes_of(final_observations, count * kRamSize);
+  }
+  if (final_numbers)
+    share_out(*final_numbers, count, std::array{&to.final_lives, &to.final_frames, &to.final_episode_frames});
+  return to;
+}
+
+// Without the GIL, and one thread at a time.
+template <class Ask>
+void fill(VectorMachines& self, const Results& results, const Ask& ask) {
+  const Turn turn(self.lock());
+  Batch& batch = self.batch();
+  ask(batch, arrays_of(batch, results));
+}
+
+// All machines have as many actions as the first.
+std::vector<int> indices_of(Batch& batch, const Given<std::int64_t>& actions) {
+  const auto end = static_cast<std::int64_t>(batch.actions(0).size());
+  std::vector<int> indices;
+  indices.reserve(actions.size());
+  for (const std::int64_t action : span_of(actions)) {
+    if (action < 0 || action >= end)
+      throw std::out_of_range("action " + std::to_string(action) + " is out of range; there are 0 to " +
+                              std::to_string(end - 1));
+    indices.push_back(static_cast<int>(action));
+  }
+  return indices;
+}
+
+std::vector<Act> acts_of(const Joysticks& joysticks, float threshold) {
+  std::vector<Act> acts;
+  acts.reserve(joysticks.shape(0));
+  for (std::size_t i = 0; i < joysticks.shape(0); ++i)
+    acts.push_back(act_of(joysticks(i, 0), joysticks(i, 1), joysticks(i, 2), threshold));
+  return acts;
+}
+
+void step(VectorMachines& self, const Given<std::int64_t>& actions, const Results& results) {
+  fill(self, results, [&](Batch& batch, const BatchArrays& out) {
+    batch.step(std::span<const int>(indices_of(batch, actions)), out);
+  });
+}
+
+void step_joysticks(VectorMachines& self, const Joysticks& joysticks, float threshold,
+                    const Results& results) {
+  fill(self, results, [&](Batch& batch, const BatchArrays& out) {
+    batch.step(std::span<const Act>(acts_of(joysticks, threshold)), out);
+  });
+}
+
+void send(VectorMachines& self, const Given<std::int64_t>& actions, const Given<std::int32_t>& machines) {
+  const Turn turn(self.lock());
+  Batch& batch = self.batch();
+  batch.send(std::span<const int>(indices_of(batch, actions)), span_of(machines));
+}
+
+void send_joysticks(VectorMachines& self, const Joysticks& joysticks, float threshold,
+                    const Given<std::int32_t>& machines) {
+  const Turn turn(self.lock());
+  self.batch().send(std::span<const Act>(acts_of(joysticks, threshold)), span_of(machines));
+}
+
+void send_resets(VectorMachines& self, const std::optional<Given<std::int64_t>>& seeds) {
+  const Turn turn(self.lock());
+  self.batch().send_resets(span_of(seeds));
+}
+
+void receive(VectorMachines& self, const Results& results) {
+  fill(self, results, [](Batch& batch, const BatchArrays& out) { batch.receive(out); });
+}
+
+void reset(VectorMachines& self, const std::optional<Given<bool>>& chosen,
+           const std::optional<Given<std::int64_t>>& seeds, const Results& results) {
+  const std::span<const bool> mask = span_of(chosen);
+  const std::vector<std::uint8_t> bytes(mask.begin(), mask.end());
+  fill(self, results, [&](Batch& batch, const BatchArrays& out) { batch.reset(out, bytes, span_of(seeds)); });
+}
+
+void show(VectorMachines& self, const Results& results) {
+  fill(self, results, [](Batch& batch, const BatchArrays& out) { batch.show(out); });
+}
+
+// States and screens of one machine
+
+Slot& slot_of(Batch& batch, std::int64_t machine) {
+  if (machine < 0 || static_cast<std::size_t>(machine) >= batch.size())
+    throw std::out_of_range("there is no environment " + std::to_string(machine) + "; there are 0 to " +
+                            std::to_string(batch.size() - 1));
+  return batch.slot(static_cast<std::size_t>(machine));
+}
+
+Slot::Saved save(VectorMachines& self, std::int64_t machine, bool include_rng) {
+  const Turn turn(self.lock());
+  return slot_of(self.batch(), machine).save(include_rng);
+}
+
+void restore(VectorMachines& self, std::int64_t machine, const Slot::Saved& state) {
+  const Turn turn(self.lock());
+  slot_of(self.batch(), machine).restore(state);
+}
+
+Bytes screen(VectorMachines& self, std::int64_t machine) {
+  FreshBytes bytes;
+  std::size_t height = 0;
+  {
+    const Turn turn(self.lock());
+    const Environment& environment = slot_of(self.batch(), machine).environment();
+    height = static_cast<std::size_t>(environment.height());
+    bytes = FreshBytes(height * kScreenWidth * 3);
+    environment.screen_rgb(bytes.span());
+  }
+  return std::move(bytes).array({height, kScreenWidth, 3});
+}
+
+// Making them
+
+using GivenImage = std::pair<ImageArgument, std::string>;  // and the name of its game
+
+Cartridge cartridge_of(const GivenImage& given) {
+  const auto& [where, game] = given;
+  auto image = image_of(where, game);
+  auto rules = recognise(*image, game).game;
+  return {std::move(image), std::move(rules)};
+}
+
+void make(VectorMachines* self, const std::vector<GivenImage>& images, const Given<std::int32_t>& of_machines,
+          const BatchSettings& settings) {
+  const nb::gil_scoped_release other_threads_run;
+  check_memory(of_machines.size());
+  std::vector<Cartridge> games;
+  std::ranges::transform(images, std::back_inserter(games), cartridge_of);
+  std::vector<Cartridge> cartridges;
+  for (const std::int32_t game : span_of(of_machines))
+    cartridges.push_back(games.at(static_cast<std::size_t>(game)));
+  new (self) VectorMachines(cartridges, settings);
+}
+
+std::vector<std::size_t> numbers_of_actions(VectorMachines& self) {
+  const Turn turn(self.lock());
+  std::vector<std::size_t> counts;
+  for (std::size_t machine = 0; machine < self.batch().size(); ++machine)
+    counts.push_back(self.batch().actions(machine).size());
+  return counts;
+}
+
+int height(VectorMachines& self) {
+  const Turn turn(self.lock());
+  return self.batch().height();
+}
+
+}  // namespace
+
+void bind_vector(nb::module_& module) {
+  nb::class_<Slot::Saved>(module, "SavedMachine", "The state of one environment of many.");
+  const auto results = "results"_a.noconvert();
+  nb::class_<VectorMachines>(module, "VectorMachines", "Machines that are stepped together, on threads.")
+      .def("__init__", make, "images"_a, "of_machines"_a.noconvert(), "settings"_a,
+           nb::sig("def __init__(self, images: list[tuple[str | os.PathLike[str] | bytes, str]], "
+                   "of_machines: NDArray[numpy.int32], settings: VectorSettings) -> None"))
+      .def("step", step, "actions"_a.noconvert(), results)
+      .def("step_joysticks", step_joysticks, "joysticks"_a.noconvert(), "threshold"_a, results)
+      .def("send", send, "actions"_a.noconvert(), "machines"_a.noconvert())
+      .def("send_joysticks", send_joysticks, "joysticks"_a.noconvert(), "threshold"_a,
+           "machines"_a.noconvert())
+      .def("send_resets", send_resets, "seeds"_a.none())
+      .def("receive", receive, results)
+      .def("reset", reset, "chosen"_a.none(), "seeds"_a.none(), results)
+      .def("show", show, results)
+      .def("save", save, "machine"_a, "include_rng"_a)
+      .def("restore", restore, "machine"_a, "state"_a)
+      .def("screen", screen, "machine"_a, "The picture of one machine, height x 160 x 3.")
+      .def("numbers_of_actions", numbers_of_actions, "How many actions each machine has.")
+      .def("height", height, "The rows of the tallest machine's screen.");
+}
+
+}  // namespace racebeam::python

@@ -1,0 +1,18 @@
+#include "clients/python/core/vector_machines.hpp"
+
+#include <stdexcept>
+
+namespace racebeam::python {
+
+// A child process leaves the memory as it is: threads that are not there cannot be awaited.
+VectorMachines::~VectorMachines() {
+  if (is_forked()) static_cast<void>(batch_.release());
+}
+
+Batch& VectorMachines::batch() {
+  if (is_forked())
+    throw std::runtime_error("these environments were made before the process forked; make new ones");
+  return *batch_;
+}
+
+}  // namespace racebeam::python

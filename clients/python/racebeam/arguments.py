@@ -1,0 +1,54 @@
+"""Checks of arguments. They raise gymnasium.error.Error, in a sentence with the name, the value and what is accepted."""
+
+from __future__ import annotations
+
+import enum
+import operator
+from typing import Any, TypeVar
+
+from gymnasium import error
+
+Member = TypeVar("Member", bound=enum.Enum)
+
+
+def either(given: Any, usual: Any) -> Any:
+    """What was given, or else what is usual."""
+    return usual if given is None else given
+
+
+def listed(values: Any) -> str:
+    return ", ".join(map(str, values))
+
+
+def check_choice(name: str, value: object, choices: tuple[str | None, ...]) -> None:
+    if not any(value is choice or (isinstance(value, str) and value == choice) for choice in choices):
+        raise error.Error(f"{name} is {value!r}; it takes {listed(choices)}")
+
+
+def member(name: str, word: object, kind: type[Member]) -> Member:
+    """The member of an enumeration whose name is FIRE_NOOPS, of the word "fire-noops"."""
+    by_word = {one.name.lower().replace("_", "-"): one for one in kind}
+    check_choice(name, word, tuple(by_word))
+    return by_word[str(word)]
+
+
+def whole(name: str, value: Any, low: int, high: int) -> int:
+    """A whole number from low to high."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise error.Error(f"{name} is {value!r}; it takes a whole number") from None
+    if not low <= number <= high:
+        raise error.Error(f"{name} is {number}; it takes {low} to {high}")
+    return number
+
+
+def share(name: str, value: Any) -> float:
+    """A number from 0 to 1."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise error.Error(f"{name} is {value!r}; it takes a number from 0 to 1") from None
+    if not 0 <= number <= 1:
+        raise error.Error(f"{name} is {number}; it takes 0 to 1")
+    return number

@@ -1,0 +1,379 @@
+"""AtariVectorEnv: many environments in one, stepped together, in this process or on a server."""
+
+from __future__ import annotations
+
+import operator
+import os
+from collections.abc import Sequence
+from typing import Any, Literal, Protocol, Union
+
+import numpy as np
+import numpy.typing as npt
+from gymnasium import error, spaces
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+
+from . import _core, images
+from .arguments import either, whole
+from .errors import InvalidInput
+from .vector_results import Bools, Numbers, Pixels, Results
+from .vector_settings import SEEDS, autoreset_of, settings_of
+from .wire.remote_machines import RemoteMachines
+
+__all__ = ["AtariVectorEnv"]
+
+Rom = Union[str, os.PathLike[str], bytes]
+Info = dict[str, Any]
+RAM_SIZE, SCREEN_WIDTH = 128, 160
+MOST_ENVS = 2**31 - 1  # the memory sets a lower limit
+
+
+class Machines(Protocol):
+    """What plays: _core.VectorMachines here, RemoteMachines on a server. `seeds`: -1 for none."""
+
+    def step(self, actions: npt.NDArray[np.int64], results: Results) -> None: ...
+    def step_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, results: Results) -> None: ...
+    def send(self, actions: npt.NDArray[np.int64], machines: Numbers) -> None: ...
+    def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None: ...
+    def send_resets(self, seeds: npt.NDArray[np.int64] | None) -> None: ...
+    def receive(self, results: Results) -> None: ...
+    def reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None: ...
+    def show(self, results: Results) -> None: ...
+    def save(self, machine: int, include_rng: bool) -> _core.SavedMachine: ...
+    def restore(self, machine: int, state: _core.SavedMachine) -> None: ...
+    def screen(self, machine: int) -> Pixels: ...
+    def numbers_of_actions(self) -> list[int]: ...
+    def height(self) -> int: ...
+
+
+class AtariVectorEnv(VectorEnv[Any, Any, Any]):
+    """Environments of one game, or of several, on threads. By default, they show what ale_py's AtariVectorEnv shows.
+
+    game: its name, as racebeam.games() has it, or a list of one for each environment. Several games need the same number
+        of actions, which full_action_space gives them.
+    num_envs: how many; with a list of games, its length. batch_size: recv() waits for so many; 0: for all.
+    num_threads: 0: one for each processor that the process may use. thread_affinity_offset: threads are bound to this
+        processor and those after it; -1: to none.
+    max_num_frames_per_episode, repeat_action_probability, full_action_space, continuous, continuous_action_threshold,
+        mode, difficulty: as AtariEnv has them.
+    autoreset_mode: NEXT_STEP, SAME_STEP or DISABLED, as Gymnasium defines them, or their names.
+    img_height, img_width, grayscale, stack_num: an observation is so many screens of this size, oldest first.
+    obs_type: "rgb" or "grayscale" makes them screens of full size instead, and "ram" one array of 128 bytes.
+    frameskip: frames of a step, 1 to 1000; a step stops where the episode ends. maxpool: a screen is the brighter of the
+        last two of them, pixel by pixel.
+    noop_max, use_fire_reset: an episode begins with FIRE, if the game has it, and with up to noop_max - 1 no-ops, drawn.
+    start: their order: "fire-noops", "noops-fire" as EnvPool has it, or "baselines" as Stable-Baselines3.
+    lives: what a lost life does. "ignored"; "told": the step is terminated, the episode goes on (life_loss_info of ale_py);
+        "end": the episode ends, and the next one goes on with the game, as in DQN; "restart": the next one is a new game
+        (episodic_life of ale_py).
+    stack_start: at first a stack has "zeros", or "repeats" the first screen.
+    reward_clipping: the reward of a step is clipped to -1..1.
+    preset: of racebeam.presets; it says what those arguments are that are None.
+    rules: "ale-0.12", or "fixed". rom: the image, a path or its bytes; None: the one that racebeam.find_image() finds.
+    seed: of the first environment, until a reset has another one; the next has one more; None: at random.
+    render_mode: "rgb_array" lets render() return the pictures.
+    server: the environments run there; see racebeam.connect(). They are of one game, and all step together. save(),
+        restore() and show() are not there.
+
+    Rewards are int32. info has env_id, lives, frame_number, episode_frame_number, raw_reward, the reward before it was
+    clipped, and game_over, whatever lives and limits say: an array each. With SAME_STEP, where episodes end, also final_obs,
+    _final_obs, final_info and _final_info, as Gymnasium has them. The arrays are the caller's, and stay as they are.
+
+    Two threads take turns. Raises InvalidInput for what cannot be; TypeError for a wrong type; IndexError for an action or an
+    environment that is not there; ClosedEnvironmentError after close(); RuntimeError in a child process after a fork;
+    with a server, also ConnectionError and TimeoutError, after which the environments are of no use.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 15}
+
+    def __init__(
+        self,
+        game: str | Sequence[str],
+        num_envs: int | None = None,
+        *,
+        batch_size: int = 0,
+        num_threads: int = 0,
+        thread_affinity_offset: int = -1,
+        max_num_frames_per_episode: int | None = None,
+        repeat_action_probability: float | None = None,
+        full_action_space: bool | None = None,
+        continuous: bool = False,
+        continuous_action_threshold: float = 0.5,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        img_height: int = 84,
+        img_width: int = 84,
+        grayscale: bool = True,
+        stack_num: int = 4,
+        frameskip: int | None = None,
+        maxpool: bool = True,
+        noop_max: int | None = None,
+        episodic_life: bool = False,
+        life_loss_info: bool = False,
+        reward_clipping: bool | None = None,
+        use_fire_reset: bool | None = None,
+        preset: str = "ale",
+        mode: int | None = None,
+        difficulty: int | None = None,
+        obs_type: Literal["rgb", "grayscale", "ram"] | None = None,
+        lives: str | None = None,
+        start: str = "fire-noops",
+        stack_start: str = "zeros",
+        rules: str = "ale-0.12",
+        rom: Rom | None = None,
+        seed: int | None = None,
+        render_mode: Literal["rgb_array"] | None = None,
+        server: str | None = None,
+    ) -> None:
+        arguments = locals()
+        names, game_of_env = _games(game, num_envs)
+        settings = settings_of(arguments, len(game_of_env))
+        self.num_envs = len(game_of_env)
+        self.batch_size: int = settings["batch_size"] or self.num_envs
+        self.autoreset_mode = autoreset_of(autoreset_mode)
+        self.metadata = {**type(self).metadata, "autoreset_mode": self.autoreset_mode}
+        self.render_mode = render_mode
+        self.grayscale: bool = not settings["rgb"]
+        self.continuous, self.continuous_action_threshold = continuous, float(continuous_action_threshold)
+        self._shows_ram = obs_type == "ram"
+        self._machines = _machines(names, game_of_env, rom, settings, server)
+        self._make_spaces(settings)
+        self._received = np.arange(self.num_envs, dtype=np.int32)
+        self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
+
+    def _make_spaces(self, settings: dict[str, Any]) -> None:
+        shape: tuple[int, ...] = (RAM_SIZE,)
+        if not self._shows_ram:
+            shape = (settings["stack"], settings["height"] or self._machines.height(), settings["width"] or SCREEN_WIDTH)
+            shape += () if self.grayscale else (3,)
+        self.single_observation_space = spaces.Box(0, 255, shape, np.uint8)
+        counts = sorted(set(self._machines.numbers_of_actions()))
+        if self.continuous:
+            low, high = np.array([0, -np.pi, 0], np.float32), np.array([1, np.pi, 1], np.float32)
+            self.single_action_space: spaces.Space[Any] = spaces.Box(low, high, dtype=np.float32)
+        elif len(counts) == 1:
+            self.single_action_space = spaces.Discrete(counts[0])
+        else:
+            raise InvalidInput(f"the games have {' and '.join(map(str, counts))} actions; full_action_space=True gives them "
+                               "the same")
+        self.observation_space = batch_space(self.single_observation_space, self.batch_size)
+        self.action_space = batch_space(self.single_action_space, self.batch_size)
+        self._shape = (self.batch_size, *shape)
+
+    # Playing
+
+    def reset(self, *, seed: int | Sequence[int | None] | npt.NDArray[np.integer[Any]] | None = None,
+              options: dict[str, Any] | None = None, out: Pixels | None = None) -> tuple[Any, Info]:
+        """New episodes. A seed powers the first environment on anew, and the next with one more; of a list or array, each has
+        its own, and None or -1 is no seed.
+
+        options["reset_mask"]: an array of bools that chooses environments; the others are shown as they are.
+        out: the array that becomes the observations; None: a new one.
+        """
+        self._check_open()
+        seeds, mask = self._seeds(seed), self._mask((options or {}).get("reset_mask"))
+        results = self._room(out)
+        if self.batch_size == self.num_envs:
+            self._machines.reset(mask, seeds, results)
+        elif mask is not None:
+            raise InvalidInput("reset_mask is given, which needs batch_size to be num_envs")
+        else:
+            self._machines.send_resets(seeds)
+            self._machines.receive(results)
+        return self._begun(results)
+
+    def step(self, actions: Any, *, out: Pixels | None = None) -> tuple[Any, Any, Any, Any, Info]:
+        """An action for each environment; with batch_size, for each of those that the last call returned."""
+        self._check_open()
+        meant: Any = self._joysticks(actions) if self.continuous else self._indices(actions)
+        if self.batch_size < self.num_envs:
+            self._send(meant)
+            return self.recv(out=out)
+        results = self._room(out)
+        if self.continuous:
+            self._machines.step_joysticks(meant, self.continuous_action_threshold, results)
+        else:
+            self._machines.step(meant, results)
+        return self._shown(results)
+
+    def send(self, actions: Any) -> None:
+        """Begins a step of the environments that the last call returned."""
+        self._check_open()
+        self._send(self._joysticks(actions) if self.continuous else self._indices(actions))
+
+    def recv(self, *, out: Pixels | None = None) -> tuple[Any, Any, Any, Any, Info]:
+        """What those batch_size environments show that have finished first."""
+        self._check_open()
+        results = self._room(out)
+        self._machines.receive(results)
+        return self._shown(results)
+
+    def _send(self, meant: npt.NDArray[Any]) -> None:
+        if self.continuous:
+            self._machines.send_joysticks(meant, self.continuous_action_threshold, self._received)
+        else:
+            self._machines.send(meant, self._received)
+
+    def show(self) -> tuple[Any, Info]:
+        """What the environments show now, such as after restore()."""
+        self._check_open()
+        results = self._room(None)
+        self._machines.show(results)
+        results.rewards[:] = results.raw_rewards[:] = 0  # nothing was played
+        return self._begun(results)
+
+    # Seeds and actions
+
+    def _seeds(self, seed: Any) -> npt.NDArray[np.int64] | None:
+        if seed is None:
+            return None
+        if not isinstance(seed, (Sequence, np.ndarray)):
+            return _seed(seed) + np.arange(self.num_envs, dtype=np.int64)
+        seeds = [-1 if one is None or one == -1 else _seed(one) for one in seed]
+        if len(seeds) != self.num_envs:
+            raise InvalidInput(f"there are {len(seeds)} seeds for {self.num_envs} environments")
+        return np.array(seeds, np.int64)
+
+    def _mask(self, mask: Any) -> Bools | None:
+        if mask is None:
+            return None
+        if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_:
+            raise TypeError(f"reset_mask is {mask!r}; it takes an array of bools")
+        if mask.shape != (self.num_envs,):
+            raise InvalidInput(f"reset_mask has the shape {mask.shape}; it must have {(self.num_envs,)}")
+        return np.ascontiguousarray(mask)
+
+    def _indices(self, actions: Any) -> npt.NDArray[np.int64]:
+        array = _array(actions)
+        if array.dtype.kind not in "iu":
+            raise TypeError(f"actions have the type {array.dtype}; they must be integers")
+        self._check_shape(array, ())
+        return np.ascontiguousarray(array, np.int64)
+
+    def _joysticks(self, actions: Any) -> npt.NDArray[np.float32]:
+        array = _array(actions)
+        if array.dtype.kind not in "fiu":
+            raise TypeError(f"actions have the type {array.dtype}; they must be numbers: radius, angle and fire")
+        self._check_shape(array, (3,))
+        return np.ascontiguousarray(array, np.float32)
+
+    def _check_shape(self, actions: npt.NDArray[Any], rest: tuple[int, ...]) -> None:
+        if actions.shape != (self.batch_size, *rest):
+            raise InvalidInput(f"actions have the shape {actions.shape}; they must have {(self.batch_size, *rest)}")
+
+    # What is shown
+
+    def _room(self, out: Pixels | None) -> Results:
+        """Memory for what is shown next."""
+        shape = self._shape
+        if out is None:
+            out = np.empty(shape, np.uint8)
+        elif not (isinstance(out, np.ndarray) and out.dtype == np.uint8 and out.shape == shape and out.flags.carray):
+            raise InvalidInput(f"out must be a writable, contiguous array of uint8 with the shape {shape}")
+        finals = np.empty(shape, np.uint8) if self._has_finals else None
+        observations, ram = (None, out) if self._shows_ram else (out, None)
+        return Results.around(observations, ram, self.batch_size, finals)
+
+    def _begun(self, results: Results) -> tuple[Any, Info]:
+        observations, *_, info = self._shown(results)
+        return observations, info
+
+    def _shown(self, results: Results) -> tuple[Any, Any, Any, Any, Info]:
+        self._received = results.env_id
+        observations = results.ram if self._shows_ram else results.observations
+        info = self._info(results)
+        if self._has_finals and results.finished.any():
+            self._add_finals(info, observations, results)
+        return observations, results.rewards, results.terminated, results.truncated, info
+
+    def _info(self, results: Results) -> Info:
+        return {
+            "env_id": results.env_id,
+            "lives": results.lives,
+            "frame_number": results.frames,
+            "episode_frame_number": results.episode_frames,
+            "raw_reward": results.raw_rewards,
+            "game_over": results.game_over,
+        }
+
+    def _add_finals(self, info: Info, _: Any, results: Results) -> None:
+        """As Gymnasium's environments have them: objects, None where no episode ended."""
+        finished, finals = results.finished, results.final_observations
+        assert finals is not None and results.final_numbers is not None
+        objects = np.empty(self.batch_size, object)
+        for env in np.flatnonzero(finished):
+            objects[env] = finals[env].copy()
+        numbers = np.where(finished, results.final_numbers, 0)
+        named = dict(zip(("lives", "frame_number", "episode_frame_number"), numbers))
+        info["final_obs"], info["_final_obs"] = objects, finished
+        info["final_info"], info["_final_info"] = {**named, **{f"_{key}": finished for key in named}}, finished
+
+    def render(self) -> tuple[Pixels, ...] | None:
+        """The picture of each environment, height x 160 x 3."""
+        self._check_open()
+        if self.render_mode is None:
+            raise error.Error("render_mode is None, so render() shows nothing; make the environments with "
+                              "render_mode='rgb_array'")
+        return tuple(self._machines.screen(env) for env in range(self.num_envs))
+
+    # States and the end
+
+    def save(self, env: int, *, include_rng: bool = True) -> _core.SavedMachine:
+        """The state of one environment, with its stack of screens; with include_rng, also of sticky actions' generator."""
+        self._check_open()
+        return self._machines.save(operator.index(env), include_rng)
+
+    def restore(self, env: int, state: _core.SavedMachine) -> None:
+        """Takes an environment to a state of its game. show() shows it. Raises InvalidInput for another game's."""
+        self._check_open()
+        self._machines.restore(operator.index(env), state)
+
+    def close_extras(self, **kwargs: Any) -> None:
+        """Ends the threads, or the session, and gives the memory back."""
+        machines = self.__dict__.pop("_machines", None)  # there are none where the constructor failed
+        if isinstance(machines, RemoteMachines):
+            machines.close()
+
+    def _check_open(self) -> None:
+        if self.closed:
+            raise error.ClosedEnvironmentError("these environments were closed; make new ones")
+
+
+def _games(game: str | Sequence[str], num_envs: int | None) -> tuple[list[str], Numbers]:
+    """The names of the games, and the position among them of each environment's."""
+    if isinstance(game, str):
+        images.check_name(game)
+        return [game], np.zeros(whole("num_envs", either(num_envs, 1), 1, MOST_ENVS), np.int32)
+    if num_envs is not None and num_envs != len(game):
+        raise error.Error(f"game has {len(game)} names, but num_envs is {num_envs!r}")
+    whole("num_envs", len(game), 1, MOST_ENVS)
+    names = list(dict.fromkeys(game))
+    for name in names:
+        images.check_name(name)
+    return names, np.array([names.index(name) for name in game], np.int32)
+
+
+def _machines(names: list[str], game_of_env: Numbers, rom: Rom | None, settings: dict[str, Any], server: str | None) -> Machines:
+    if len(names) > 1 and (rom is not None or server is not None):
+        raise error.Error(f"there are {len(names)} games; rom and server take one")
+    if server is not None:
+        return RemoteMachines(server, names[0], rom, len(game_of_env), settings)
+    found = [(images.find(name) if rom is None else rom, name) for name in names]
+    chosen = _core.VectorSettings()
+    for name, value in settings.items():
+        setattr(chosen, name, value)
+    return _core.VectorMachines(found, game_of_env, chosen)
+
+
+def _seed(value: Any) -> int:
+    """Raises TypeError for what is no whole number."""
+    seed = operator.index(value)
+    if not SEEDS[0] <= seed <= SEEDS[1]:
+        raise InvalidInput(f"the seed is {seed}; it takes {SEEDS[0]} to {SEEDS[1]}")
+    return seed
+
+
+def _array(actions: Any) -> npt.NDArray[Any]:
+    try:
+        return np.asarray(actions)
+    except ValueError:  # rows of several lengths
+        raise InvalidInput(f"actions are {actions!r}; they must be one array") from None

@@ -1,0 +1,198 @@
+"""The machines of AtariVectorEnv on a server: `open`, `step` and `restart` of the line protocol."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .._core import ActionSet, ResetOrder, Rules, SavedMachine
+from ..errors import InvalidInput
+from ..vector_results import Bools, Numbers, Pixels, Results
+from .client import Values
+from .remote import RemoteInterface
+
+NO_LIMITS = (-2**31, 2**31 - 1)
+RULES = {Rules.ALE_0_12: "ale-0.12", Rules.FIXED: "fixed"}
+NUMBERS = ("reward", "raw_reward", "lives", "frame", "episode_frame")  # rows of Results
+FLAGS = ("terminated", "truncated", "game_over")
+FINAL_NUMBERS = ("final_lives", "final_frame", "final_episode_frame")
+
+# Actions by fire, then from down to up, then from left to right.
+STICK = np.array([[[9, 5, 8], [4, 0, 3], [7, 2, 6]], [[17, 13, 16], [12, 1, 11], [15, 10, 14]]])
+
+
+def _word(member: Any) -> str:
+    """The protocol's word for a member of an enumeration."""
+    return str(member.name).lower().replace("_", "-")
+
+
+class RemoteMachines:
+    """Has the methods of _core.VectorMachines. Raises what RemoteInterface does; RuntimeError in a child after a fork.
+
+    settings: those of _core.VectorSettings, by name. All machines step together.
+    """
+
+    def __init__(self, server: str, game: str, rom: Any, count: int, settings: dict[str, Any]) -> None:
+        if settings["batch_size"] not in (0, count):
+            raise InvalidInput(f"batch_size is {settings['batch_size']}; a server plays all {count} environments together")
+        self._count, self._process = count, os.getpid()
+        self._turn = threading.Lock()
+        self._machine = RemoteInterface(server)
+        self._session = self._machine.session
+        self._load(game, rom, settings)
+        self._actions = self._actions_of(settings)
+        self._field = _field(settings, self.height())
+        self._screens: list[Pixels] = []
+        self._machine.ask(self._session.observe, *NUMBERS, *FLAGS, self._field + ":base64",
+                          *(["rgb:zlib"] if settings["screens"] else []))
+        self._open(settings)
+
+    def _load(self, game: str, rom: Any, settings: dict[str, Any]) -> None:
+        limits = {side: settings[side] for side in ("reward_min", "reward_max")}
+        self._machine.load(rom, game, {
+            "seed": settings["seed"] or 1,  # the server would draw one for 0
+            "frame_skip": settings["frame_skip"],
+            "sticky": settings["sticky"],
+            "max_episode_frames": settings["max_episode_frames"],
+            "action_set": _word(settings["action_set"]),
+            "noop_max": settings["noop_max"],
+            "rules": RULES[settings["rules"]],
+            **{side: "none" if limit in NO_LIMITS else limit for side, limit in limits.items()},
+        })
+        chosen = {name: settings[name] for name in ("mode", "difficulty") if settings[name] is not None}
+        if chosen:
+            self._machine.ask(self._session.set, **chosen)
+
+    def _open(self, settings: dict[str, Any]) -> None:
+        if not settings["fire"] and settings["start"] is not ResetOrder.FIRE_NOOPS:
+            raise InvalidInput(f"start is {_word(settings['start'])!r} without FIRE, which a server does not play")
+        self._machine.ask(
+            self._session.open, self._count, _word(settings["autoreset"]), steps="frames",
+            start=_word(settings["start"]) if settings["fire"] else "noops", lives=_word(settings["lives"]),
+            stack=_word(settings["stack_start"]), pool=int(settings["pool"]))
+        if settings["seed"] == 0:
+            self._machine.ask(self._session.restart, seed=0)
+
+    def _actions_of(self, settings: dict[str, Any]) -> list[int]:
+        machine = self._machine
+        is_legal = settings["action_set"] is ActionSet.LEGAL
+        return [action.value for action in (machine.getLegalActionSet() if is_legal else machine.getMinimalActionSet())]
+
+    def numbers_of_actions(self) -> list[int]:
+        return [len(self._actions)] * self._count
+
+    def height(self) -> int:
+        height, _ = self._machine.getScreenDims()
+        return height
+
+    def close(self) -> None:
+        """Ends the session."""
+        self._machine.close()
+
+    # Playing
+
+    def step(self, actions: npt.NDArray[np.int64], results: Results) -> None:
+        self._ask(results, self._session.step, *self._words(actions))
+
+    def step_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, results: Results) -> None:
+        self._ask(results, self._session.step, *_words_of(joysticks, threshold))
+
+    def reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None:
+        """Machines whose seeds count up as the server counts them are reset by one request."""
+        masks: dict[int | None, list[str]] = {}
+        for machine in range(self._count) if chosen is None else np.flatnonzero(chosen):
+            seed = -1 if seeds is None else int(seeds[machine])
+            first = None if seed < 0 else (seed - int(machine)) % 2**32
+            masks.setdefault(first, ["0"] * self._count)[machine] = "1"
+        for first, mask in masks.items():
+            self._ask(results, self._session.restart, "".join(mask), seed=first)
+
+    def show(self, results: Results) -> None:
+        self._ask(results, self._session.restart, "0" * self._count)
+
+    def _ask(self, results: Results, method: Callable[..., list[Values]], *words: object, **settings: object) -> None:
+        if os.getpid() != self._process:
+            raise RuntimeError("these environments were made before the process forked; make new ones")
+        with self._turn:
+            shown = self._machine.ask(method, *words, **settings)
+        self._fill(results, shown)
+
+    def _words(self, actions: npt.NDArray[np.int64]) -> list[int]:
+        if actions.min() < 0 or actions.max() >= len(self._actions):
+            wrong = next(int(action) for action in actions if not 0 <= action < len(self._actions))
+            raise IndexError(f"action {wrong} is out of range; there are 0 to {len(self._actions) - 1}")
+        return [self._actions[action] for action in actions]
+
+    # What is shown
+
+    def _fill(self, results: Results, shown: list[Values]) -> None:
+        seen = results.ram if results.observations is None else results.observations
+        assert seen is not None
+        for machine, values in enumerate(shown):
+            results.numbers[:-1, machine] = [values[name] for name in NUMBERS]
+            results.flags[(0, 1, 3), machine] = [values[name] for name in FLAGS]
+            seen[machine] = np.frombuffer(values[self._field], np.uint8).reshape(seen.shape[1:])
+            results.finished[machine] = FINAL_NUMBERS[0] in values
+            if results.finished[machine]:
+                self._fill_finals(results, machine, values)
+        results.env_id[:] = range(self._count)
+        if shown and "rgb" in shown[0]:
+            self._screens = [np.frombuffer(values["rgb"], np.uint8).reshape(-1, 160, 3) for values in shown]
+
+    def _fill_finals(self, results: Results, machine: int, values: Values) -> None:
+        assert results.final_observations is not None and results.final_numbers is not None
+        finals = results.final_observations
+        finals[machine] = np.frombuffer(values["final_" + self._field], np.uint8).reshape(finals.shape[1:])
+        results.final_numbers[:, machine] = [values[name] for name in FINAL_NUMBERS]
+
+    def screen(self, machine: int) -> Pixels:
+        if not self._screens:
+            raise InvalidInput("there is nothing to show before the first reset")
+        return self._screens[machine].copy()
+
+    # What a server does not do
+
+    def send(self, actions: npt.NDArray[np.int64], machines: Numbers) -> None:
+        raise _impossible("send")
+
+    def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None:
+        raise _impossible("send")
+
+    def send_resets(self, seeds: npt.NDArray[np.int64] | None) -> None:
+        raise _impossible("send")
+
+    def receive(self, results: Results) -> None:
+        raise _impossible("recv")
+
+    def save(self, machine: int, include_rng: bool) -> SavedMachine:
+        raise _impossible("save")
+
+    def restore(self, machine: int, state: SavedMachine) -> None:
+        raise _impossible("restore")
+
+
+def _impossible(what: str) -> InvalidInput:
+    return InvalidInput(f"{what}() is not possible for environments on a server")
+
+
+def _field(settings: dict[str, Any], height: int) -> str:
+    """The protocol's name of an observation."""
+    if settings["stack"] == 0:
+        return "ram"
+    kind = "rgb" if settings["rgb"] else "grey"
+    return f"{kind}{settings['width'] or 160}x{settings['height'] or height}x{settings['stack']}"
+
+
+def _words_of(joysticks: npt.NDArray[np.float32], threshold: float) -> list[str]:
+    """ACTION@STRENGTH of each. The comparisons are those of float32."""
+    radius, angle, fire = joysticks.T
+    limit = np.float32(threshold)
+    parts = [(radius * part(angle.astype(np.float64)).astype(np.float32)) for part in (np.cos, np.sin)]
+    column, row = (1 + (part > limit).astype(int) - (part < -limit) for part in parts)
+    actions = STICK[(fire > limit).astype(int), row, column]
+    return [f"{action}@{strength:.9g}" for action, strength in zip(actions, radius)]

@@ -1,0 +1,140 @@
+"""racebeam's AtariVectorEnv beside ale_py's, and EnvPool's where it is installed: steps a second of all environments
+together, 84x84x4, with the threads that each takes by itself.
+
+All play chunks of random actions in turns; racebeam and ale_py have to show the same. Wall-clock time counts. "async" receives
+a third of the environments at a time. A ratio is the median of the chunks' ratios: racebeam to the better of ale_py and both
+of EnvPool's. At the end: what Python alone takes of a step, with 64 environments that do nothing. Needs
+`scripts/wheel --venv`; `pip install envpool` adds EnvPool.
+"""
+
+import argparse
+import statistics
+import time
+import zlib
+
+GAMES = "pong,breakout,seaquest,qbert,ms_pacman,freeway,asterix,beam_rider,space_invaders,up_n_down"
+
+parser = argparse.ArgumentParser(prog="scripts/bench vector", description=__doc__,
+                                 formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("--games", default=GAMES, help=f"A,B (default {GAMES})")
+parser.add_argument("--envs", default="16,64", help="numbers of environments (default 16,64)")
+parser.add_argument("--steps", type=int, default=1600, help="of all environments together, in a chunk (default 1600)")
+parser.add_argument("--chunks", type=int, default=7, help="of a game (default 7)")
+options = parser.parse_args()
+
+import numpy as np  # noqa: E402
+from ale_py import ALEInterface, LoggerMode  # noqa: E402
+from ale_py.vector_env import AtariVectorEnv as Reference  # noqa: E402
+
+from racebeam import AtariVectorEnv  # noqa: E402
+
+try:
+    import envpool
+except ImportError:
+    envpool = None
+
+random = np.random.default_rng(1)
+
+
+def play_together(envs, count, steps):
+    """The seconds of the steps, and a checksum of what they showed."""
+    seen, spent = 0, 0.0
+    for actions in random.integers(envs.single_action_space.n, size=(steps, count), dtype=np.int32):
+        begin = time.perf_counter()
+        observations, rewards, *_ = envs.step(actions)
+        spent += time.perf_counter() - begin
+        seen = zlib.crc32(rewards.astype(np.int32), zlib.crc32(np.ascontiguousarray(observations[:, -1]), seen))
+    return spent, seen
+
+
+def play_apart(envs, batch, steps):
+    """The seconds of as many steps, where the environments that are ready go on."""
+    begin = time.perf_counter()
+    for _ in range(steps):
+        *_, info = envs.recv()
+        envs.send(random.integers(envs.single_action_space.n, size=batch, dtype=np.int32), *own_ids(envs, info))
+    return time.perf_counter() - begin, 0
+
+
+def own_ids(envs, info):
+    return () if isinstance(envs, (AtariVectorEnv, Reference)) else (info["env_id"],)
+
+
+def pool(game, count, batch):
+    task = "".join(word.title() for word in game.split("_"))
+    return envpool.make(f"{task}-v5", env_type="gymnasium", num_envs=count, batch_size=batch, reward_clip=True)
+
+
+def players(game, count):
+    """The name of each, how it plays a chunk, and its size."""
+    third = max(count // 3, 1)
+    together = {"ale_py": Reference(game, count), "racebeam": AtariVectorEnv(game, count)}
+    apart = {"racebeam async": AtariVectorEnv(game, count, batch_size=third)}
+    if envpool is not None:
+        together["EnvPool"], apart["EnvPool async"] = pool(game, count, count), pool(game, count, third)
+    for envs in together.values():
+        envs.reset(seed=1) if isinstance(envs, (AtariVectorEnv, Reference)) else envs.reset()
+    apart["racebeam async"].reset(seed=1)
+    apart["racebeam async"].send(np.zeros(third, np.int32))
+    if envpool is not None:
+        apart["EnvPool async"].async_reset()
+    return {**{name: (play_together, envs, count) for name, envs in together.items()},
+            **{name: (play_apart, envs, third) for name, envs in apart.items()}}
+
+
+def measure(game, count):
+    """The steps a second of each, and the ratio."""
+    everyone, times = players(game, count), {}
+    state = random.bit_generator.state
+    for chunk in range(options.chunks + 1):
+        shown = {}
+        for name, (play, envs, batch) in everyone.items():
+            random.bit_generator.state = state  # all play the same actions
+            steps = options.steps // batch
+            spent, shown[name] = play(envs, batch, steps)
+            if chunk > 0:  # the first makes tables and code
+                times.setdefault(name, []).append(spent / (steps * batch))
+        if shown["racebeam"] != shown["ale_py"]:
+            raise SystemExit(f"bench: {game}: racebeam and ale_py do not show the same")
+        random.integers(2, size=chunk + 1)
+        state = random.bit_generator.state
+    for _, envs, _ in everyone.values():
+        envs.close()
+    ours = zip(times["racebeam"], times["racebeam async"])
+    theirs = zip(*(times[name] for name in times if not name.startswith("racebeam")))
+    ratio = statistics.median(min(other) / min(own) for own, other in zip(ours, theirs))
+    return {name: 1 / statistics.median(each) for name, each in times.items()}, ratio
+
+
+class Nothing:
+    """Machines that do nothing."""
+
+    def step(self, actions, results):
+        results.flags[:] = False
+
+
+def python_alone():
+    """Microseconds of a step."""
+    envs = AtariVectorEnv("beamfall", 64, seed=1)
+    actions = np.zeros(64, np.int64)
+    envs.step(actions)
+    envs._machines = Nothing()
+    times = []
+    for _ in range(3000):
+        begin = time.perf_counter()
+        envs.step(actions)
+        times.append(time.perf_counter() - begin)
+    return statistics.median(times) * 1e6
+
+
+ALEInterface.setLoggerMode(LoggerMode.Error)
+for count in map(int, options.envs.split(",")):
+    ratios = []
+    for game in options.games.split(","):
+        speeds, ratio = measure(game, count)
+        if not ratios:
+            print(f"{f'{count} environments':<18}" + "".join(f"{name:>16}" for name in speeds) + f"{'ratio':>8}")
+        ratios.append(ratio)
+        print(f"{game:<18}" + "".join(f"{speed:16.0f}" for speed in speeds.values()) + f"{ratio:8.2f}", flush=True)
+    print(f"{'mean':<18}{statistics.mean(ratios):{16 * len(speeds) + 8}.2f}   least {min(ratios):.2f}")
+print(f"Python alone takes {python_alone():.1f} us of a step")

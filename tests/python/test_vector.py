@@ -1,0 +1,396 @@
+"""AtariVectorEnv: what ale_py's lacks, bad input, threads and forks, and Gymnasium's own wrappers."""
+
+import os
+import subprocess
+import sys
+import threading
+import unittest
+
+import package
+
+package.require("numpy", "gymnasium")
+
+import gymnasium
+import numpy as np
+from gymnasium.error import ClosedEnvironmentError, Error
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.wrappers.vector import DictInfoToList, RecordEpisodeStatistics
+
+import racebeam
+from racebeam import AtariVectorEnv, InvalidInput
+
+SHORT = {"max_num_frames_per_episode": 12, "noop_max": 0}  # three steps an episode
+
+
+def play(envs, steps, seed=0):
+    """What random actions show."""
+    random = np.random.default_rng(seed)
+    return [envs.step(random.integers(0, envs.single_action_space.n, envs.batch_size)) for _ in range(steps)]
+
+
+def same(one, other):
+    """Whether two lists of what was shown are equal, their infos included."""
+    return all(np.array_equal(a, b) for shown, expected in zip(one, other)
+               for a, b in zip([*shown[:-1], *shown[-1].values()], [*expected[:-1], *expected[-1].values()]))
+
+
+class Seeds(unittest.TestCase):
+    def test_a_seed_decides_everything(self):
+        envs = AtariVectorEnv("beamfall", 3, repeat_action_probability=0.25)
+        shown = [(envs.reset(seed=seed), *play(envs, 30)) for seed in (3, np.int64(3), [3, 4, 5], np.array([3, 4, 6]))]
+        self.assertTrue(same(shown[0], shown[1]) and same(shown[0], shown[2]))
+        last, other = shown[0][-1][0], shown[3][-1][0]
+        self.assertTrue(np.array_equal(last[:2], other[:2]))
+        self.assertFalse(np.array_equal(last[2], other[2]))
+
+    def test_the_seed_of_the_constructor_is_that_of_a_reset(self):
+        envs, others = AtariVectorEnv("beamfall", 2, seed=9), AtariVectorEnv("beamfall", 2)
+        others.reset(seed=9)
+        self.assertTrue(same(play(envs, 10), play(others, 10)))
+
+    def test_some_have_seeds_and_some_have_none(self):
+        envs = AtariVectorEnv("beamfall", 3, repeat_action_probability=0.5)
+        envs.reset(seed=[5, 5, 5])
+        play(envs, 10)
+        frames = envs.reset(seed=[5, None, -1])[1]["frame_number"]
+        self.assertLess(frames[0], 40)
+        self.assertTrue((frames[1:] >= 40).all())
+
+
+class Observations(unittest.TestCase):
+    def test_they_are_the_callers_own(self):
+        envs = AtariVectorEnv("beamfall", 2)
+        shown = [envs.reset(seed=1)[0], envs.step(np.zeros(2, int))[0]]
+        before = [one.copy() for one in shown]
+        play(envs, 20)
+        self.assertTrue(all(map(np.array_equal, shown, before)))
+
+    def test_they_go_where_the_caller_wants_them(self):
+        envs, others = (AtariVectorEnv("beamfall", 2) for _ in range(2))
+        out = np.zeros(envs.observation_space.shape, np.uint8)
+        self.assertIs(envs.reset(seed=1, out=out)[0], out)
+        self.assertTrue(np.array_equal(out, others.reset(seed=1)[0]))
+        self.assertIs(envs.step(np.ones(2, int), out=out)[0], out)
+        self.assertTrue(np.array_equal(out, others.step(np.ones(2, int))[0]))
+        half = np.zeros((4, *out.shape[1:]), np.uint8)
+        frozen = out.copy()
+        frozen.setflags(write=False)
+        for wrong in (out[:1], out.astype(np.int32), half[::2], frozen, out.tolist()):
+            with self.assertRaisesRegex(InvalidInput, "out must be"):
+                envs.step(np.ones(2, int), out=wrong)
+
+    def test_kinds(self):
+        for settings, shape in (({"obs_type": "grayscale"}, (4, 210, 160)), ({"obs_type": "rgb", "stack_num": 1}, (1, 210, 160, 3)),
+                                ({"obs_type": "ram"}, (128,)), ({"img_height": 20, "img_width": 31}, (4, 20, 31)),
+                                ({"grayscale": False}, (4, 84, 84, 3)), ({"img_height": 0, "img_width": 0}, (4, 210, 160))):
+            with self.subTest(**settings):
+                envs = AtariVectorEnv("beamfall", 2, **settings)
+                self.assertEqual(envs.reset(seed=1)[0].shape, (2, *shape))
+                self.assertIn(play(envs, 5)[-1][0], envs.observation_space)
+
+    def test_full_ones_are_those_of_AtariEnv(self):
+        for kind in ("rgb", "grayscale", "ram"):
+            envs = AtariVectorEnv("beamfall", 1, obs_type=kind, noop_max=0, use_fire_reset=False, maxpool=False, stack_num=1)
+            env = racebeam.AtariEnv("beamfall", obs_type=kind, repeat_action_probability=0.0)
+            envs.reset(seed=3)
+            env.ale.setInt("random_seed", 3)
+            env.load_game()
+            env.ale.reset_game()
+            for action in (1, 3, 4, 0, 1):
+                seen = envs.step([action])[0].reshape(env.observation_space.shape)
+                self.assertTrue(np.array_equal(seen, env.step(action)[0]), kind)
+
+    def test_render_shows_each_environment(self):
+        for kind in ("ram", None):
+            envs = AtariVectorEnv("beamfall", 2, obs_type=kind, render_mode="rgb_array")
+            full = AtariVectorEnv("beamfall", 2, obs_type="rgb", stack_num=1, maxpool=False)
+            for one in (envs, full):
+                one.reset(seed=1)
+            shown = [play(one, 7)[-1][0] for one in (envs, full)]
+            pictures = envs.render()
+            self.assertEqual(len(pictures), 2)
+            self.assertTrue(all(np.array_equal(picture, seen[0]) for picture, seen in zip(pictures, shown[1])))
+        with self.assertRaisesRegex(Error, "render_mode"):
+            full.render()
+
+    def test_a_stack_may_begin_with_repeats(self):
+        envs = AtariVectorEnv("beamfall", 1, stack_start="repeats")
+        stack = envs.reset(seed=1)[0][0]
+        self.assertTrue(all(np.array_equal(stack[0], screen) for screen in stack) and stack.any())
+
+
+class Episodes(unittest.TestCase):
+    def test_the_modes_of_autoreset(self):
+        for mode in ("NextStep", "SAME_STEP", AutoresetMode.DISABLED):
+            envs = AtariVectorEnv("beamfall", 2, autoreset_mode=mode, **SHORT)
+            envs.reset(seed=2)
+            shown = play(envs, 5)
+            kind = envs.metadata["autoreset_mode"]
+            self.assertIsInstance(kind, AutoresetMode)
+            self.assertEqual([int(one[3][0]) for one in shown], [0, 0, 1, *{
+                AutoresetMode.NEXT_STEP: (0, 0), AutoresetMode.SAME_STEP: (0, 0), AutoresetMode.DISABLED: (1, 1)}[kind]])
+            frames = [int(one[4]["episode_frame_number"][0]) for one in shown]
+            self.assertEqual(frames[3] == frames[2], kind is AutoresetMode.DISABLED)
+            self.assertEqual("final_obs" in shown[2][4], kind is AutoresetMode.SAME_STEP)
+            self.assertFalse(any("final_obs" in shown[step][4] for step in (0, 1, 3, 4)))
+        self.assertNotIn("autoreset_mode", VectorEnv.metadata)
+
+    def test_final_observations_are_those_of_the_episode_that_ended(self):
+        for kind in (None, "ram"):
+            envs, others = (AtariVectorEnv("beamfall", 3, autoreset_mode=mode, obs_type=kind, noop_max=20,
+                                           max_num_frames_per_episode=40) for mode in ("SameStep", "Disabled"))
+            envs.reset(seed=2)
+            others.reset(seed=2)
+            for (_, _, _, truncated, info), (seen, *_, expected) in zip(play(envs, 10), play(others, 10)):
+                self.assertEqual("final_obs" in info, truncated.any())
+                if not truncated.any():
+                    continue
+                self.assertTrue(np.array_equal(info["_final_obs"], truncated) and np.array_equal(info["_final_info"], truncated))
+                self.assertEqual(info["final_obs"].dtype, object)
+                for env in range(3):
+                    if not truncated[env]:
+                        self.assertIsNone(info["final_obs"][env])
+                        continue
+                    self.assertTrue(np.array_equal(info["final_obs"][env], seen[env]))
+                    for key in ("lives", "frame_number", "episode_frame_number"):
+                        self.assertEqual(info["final_info"][key][env], expected[key][env])
+                        self.assertTrue(info["final_info"][f"_{key}"][env])
+
+    def test_a_reset_of_some(self):
+        envs = AtariVectorEnv("beamfall", 3, autoreset_mode="Disabled", noop_max=0)
+        envs.reset(seed=1)
+        before = play(envs, 5)[-1][0]
+        seen, info = envs.reset(options={"reset_mask": np.array([True, False, False])})
+        self.assertEqual([frames < 5 for frames in info["episode_frame_number"]], [True, False, False])
+        self.assertTrue(np.array_equal(seen[1:], before[1:]))
+        self.assertFalse(np.array_equal(seen[0], before[0]))
+
+    def test_rewards_and_ends_are_told_as_they_are(self):
+        envs = AtariVectorEnv("beamfall", 2, frameskip=60, lives="end")
+        envs.reset(seed=1)
+        shown = [envs.step([1, 1]) for _ in range(60)]
+        raw = np.array([one[4]["raw_reward"] for one in shown])
+        self.assertTrue(np.array_equal(np.clip(raw, -1, 1), [one[1] for one in shown]))
+        self.assertGreater(raw.max(), 1)
+        ends, games = (np.array(one) for one in zip(*((one[2], one[4]["game_over"]) for one in shown)))
+        self.assertGreater(games.sum(), 0)
+        self.assertGreater(ends.sum(), games.sum())
+
+    def test_what_a_lost_life_does(self):
+        frames = {}
+        for lives in ("ignored", "told", "end", "restart"):
+            envs = AtariVectorEnv("beamfall", 1, frameskip=60, lives=lives, noop_max=0)
+            envs.reset(seed=1)
+            shown = [envs.step([1]) for _ in range(40)]
+            first = next(step for step, one in enumerate(shown) if one[2][0])
+            frames[lives] = [int(one[4]["lives"][0]) for one in shown[first:first + 2]]
+        self.assertEqual({lives: after for lives, (_, after) in frames.items()}, {"ignored": 4, "told": 3, "end": 3, "restart": 4})
+
+    def test_presets(self):
+        envs = AtariVectorEnv("beamfall", 1, preset="paper2013")
+        envs.reset(seed=1)
+        self.assertEqual(envs.single_action_space.n, 18)
+        self.assertEqual(int(envs.step([0])[4]["episode_frame_number"][0]), 5)
+        with self.assertRaisesRegex(InvalidInput, "there is no preset 'dqn'"):
+            AtariVectorEnv("beamfall", 1, preset="dqn")
+
+    def test_several_games(self):
+        envs = AtariVectorEnv(["beamfall", "updraft", "beamfall"], full_action_space=True, seed=1)
+        alone = AtariVectorEnv("updraft", 3, full_action_space=True, seed=1)
+        together, expected = play(envs, 10), play(alone, 10)
+        self.assertTrue(all(np.array_equal(one[0][1], other[0][1]) for one, other in zip(together, expected)))
+        self.assertFalse(np.array_equal(together[-1][0][0], together[-1][0][1]))
+        for arguments in ((["beamfall", "updraft"], 3), ([],)):
+            with self.assertRaises(Error):
+                AtariVectorEnv(*arguments)
+        with self.assertRaisesRegex(Error, "rom and server take one"):
+            AtariVectorEnv(["beamfall", "updraft"], rom=b"", full_action_space=True)
+
+
+class States(unittest.TestCase):
+    def test_one_environment_goes_back(self):
+        envs = AtariVectorEnv("beamfall", 2, repeat_action_probability=0.25, seed=1)
+        before = play(envs, 10)[-1][0]
+        state = envs.save(1)
+        first = play(envs, 20)
+        envs.restore(1, state)
+        seen = envs.show()[0]
+        self.assertTrue(np.array_equal(seen[1], before[1]) and np.array_equal(seen[0], first[-1][0][0]))
+        second = play(envs, 20)
+        self.assertTrue(all(np.array_equal(one[0][1], other[0][1]) and one[1][1] == other[1][1] for one, other in zip(first, second)))
+        self.assertFalse(np.array_equal(first[-1][0][0], second[-1][0][0]))
+
+    def test_a_state_goes_to_another_environment_but_not_to_another_game(self):
+        envs, others = AtariVectorEnv("beamfall", 2, seed=1), AtariVectorEnv("updraft", 1)
+        play(envs, 10)
+        envs.restore(0, envs.save(1))
+        first = envs.show()[0]
+        self.assertTrue(np.array_equal(first[0], first[1]))
+        with self.assertRaises(InvalidInput):
+            others.restore(0, envs.save(0))
+        with self.assertRaises(IndexError):
+            envs.save(2)
+        with self.assertRaises(IndexError):
+            envs.restore(-1, envs.save(0))
+        with self.assertRaises(TypeError):
+            envs.restore(0, None)
+
+
+class Halves(unittest.TestCase):
+    def test_each_environment_shows_the_same_as_in_whole_steps(self):
+        together, envs = AtariVectorEnv("beamfall", 4), AtariVectorEnv("beamfall", 4, batch_size=2, num_threads=2)
+        expected = [[together.reset(seed=1)[0][env]] for env in range(4)]
+        for step in range(20):
+            seen = together.step(np.full(4, step % 3))[0]
+            for env in range(4):
+                expected[env].append(seen[env])
+        steps = [0] * 4
+
+        def check(observations, info):
+            for env, seen in zip(info["env_id"], observations):
+                if steps[env] <= 20:
+                    self.assertTrue(np.array_equal(seen, expected[env][steps[env]]))
+                steps[env] += 1
+        observations, info = envs.reset(seed=1)
+        self.assertEqual(envs.action_space.shape, (2,))
+        while min(steps) <= 20:
+            check(observations, info)
+            envs.send(np.array([(steps[env] - 1) % 3 for env in info["env_id"]]))
+            observations, *_, info = envs.recv()
+
+    def test_what_plays_is_not_touched(self):
+        envs = AtariVectorEnv("beamfall", 4, batch_size=2)
+        envs.reset(seed=1)
+        for call in (lambda: envs.reset(seed=2), envs.show, lambda: [envs.save(env) for env in range(4)]):
+            with self.assertRaisesRegex(InvalidInput, "play"):
+                call()
+        envs.recv()
+        with self.assertRaisesRegex(InvalidInput, "0 machines play"):
+            envs.recv()
+        with self.assertRaisesRegex(InvalidInput, "reset_mask"):
+            envs.reset(options={"reset_mask": np.ones(4, bool)})
+
+
+class Gymnasium(unittest.TestCase):
+    def test_make_vec(self):
+        envs = gymnasium.make_vec("racebeam/Beamfall-v5", 3, img_height=50)
+        self.assertIsInstance(envs.unwrapped, AtariVectorEnv)
+        self.assertEqual(envs.reset(seed=1)[0].shape, (3, 4, 50, 84))
+        sticky = AtariVectorEnv("beamfall", 3, img_height=50, repeat_action_probability=0.25)
+        sticky.reset(seed=1)
+        self.assertTrue(same(play(envs.unwrapped, 20), play(sticky, 20)))
+
+    def test_wrappers(self):
+        envs = RecordEpisodeStatistics(AtariVectorEnv("beamfall", 2, frameskip=60, seed=1))
+        infos = [envs.step(np.ones(2, int))[4] for _ in range(60)]
+        self.assertTrue(any("episode" in info for info in infos))
+        envs = DictInfoToList(AtariVectorEnv("beamfall", 2, autoreset_mode="SameStep", **SHORT))
+        envs.reset(seed=1)
+        infos = [envs.step(np.ones(2, int))[4] for _ in range(3)]
+        self.assertEqual(infos[2][1]["final_obs"].shape, (4, 84, 84))
+        self.assertEqual(infos[2][1]["final_info"]["episode_frame_number"], 13)
+        self.assertNotIn("final_obs", infos[1][1])
+
+
+class BadInput(unittest.TestCase):
+    def test_arguments(self):
+        for name, values in {
+            "num_envs": (0, -1, 2.5, "2", 2**40), "batch_size": (-1, 3), "num_threads": (-1, None), "frameskip": (0, 1001, 2.5, (2, 5)),
+            "img_width": (-1, "84"), "stack_num": (0, 17), "noop_max": (-1, 1001), "repeat_action_probability": (-0.1, 1.1, float("nan"), "x"),
+            "autoreset_mode": ("Never", None, 3), "lives": ("hurts",), "start": ("ale",), "stack_start": ("x",), "obs_type": ("sound",),
+            "rules": ("x",), "render_mode": ("human",), "seed": (-1, 2**32, "x"), "mode": (-1, "x"), "thread_affinity_offset": (-2,),
+            "max_num_frames_per_episode": (-1, 2**31),
+        }.items():
+            for value in values:
+                with self.subTest(**{name: value}), self.assertRaisesRegex(Error, name):
+                    AtariVectorEnv("beamfall", **{"num_envs": 2, name: value})
+        for arguments in ({"img_width": 161}, {"img_height": 211}, {"img_height": 5}, {"mode": 99}, {"difficulty": 9}, {"rom": b"x" * 6},
+                          {"rom": "/nowhere.bin"}):
+            with self.subTest(**arguments), self.assertRaises(InvalidInput):
+                AtariVectorEnv("beamfall", 2, **arguments)
+        with self.assertRaises(racebeam.UnknownGame):
+            AtariVectorEnv("beamfal", 2)
+
+    def test_more_environments_than_the_memory_has(self):
+        for count in (10**6, 2**31 - 1):
+            with self.assertRaisesRegex(InvalidInput, "this process may use"):
+                AtariVectorEnv("beamfall", count)
+
+    def test_actions(self):
+        envs, sticks = AtariVectorEnv("beamfall", 2, seed=1), AtariVectorEnv("beamfall", 2, continuous=True)
+        for one, cases in ((envs, (([0, 99], IndexError), ([-1, 0], IndexError), ([0, 2**40], IndexError), (np.array([0, 2**64 - 1], np.uint64), IndexError),
+                                   ([0], InvalidInput), ([[0, 0]], InvalidInput), ([[0], [0, 1]], InvalidInput), (0, InvalidInput),
+                                   ([0.5, 1], TypeError), (None, TypeError), (["a", "b"], TypeError), ([True, False], TypeError))),
+                           (sticks, (([[0, 0, 0]], InvalidInput), ([[0, 0]] * 2, InvalidInput), ([0, 0], InvalidInput),
+                                     ([[float("nan"), 0, 0]] * 2, InvalidInput), (None, TypeError), ([["a", "b", "c"]] * 2, TypeError)))):
+            for actions, error in cases:
+                with self.subTest(actions=actions), self.assertRaises(error):
+                    one.step(actions)
+        self.assertEqual(envs.step([0, 0])[0].shape, (2, 4, 84, 84))
+
+    def test_seeds_and_masks(self):
+        envs = AtariVectorEnv("beamfall", 2, seed=1)
+        for seed, error in (("12", TypeError), (1.5, TypeError), (-3, InvalidInput), ([1], InvalidInput), ([1, -5], InvalidInput),
+                            (2**32, InvalidInput), ([1, "x"], TypeError)):
+            with self.subTest(seed=seed), self.assertRaises(error):
+                envs.reset(seed=seed)
+        for mask, error in (([True, False], TypeError), (np.array([1, 0]), TypeError), (np.array([True]), InvalidInput)):
+            with self.subTest(mask=mask), self.assertRaises(error):
+                envs.reset(options={"reset_mask": mask})
+
+    def test_after_close(self):
+        envs = AtariVectorEnv("beamfall", 2, render_mode="rgb_array")
+        envs.close()
+        envs.close()
+        for call in (envs.reset, lambda: envs.step([0, 0]), lambda: envs.send([0, 0]), envs.recv, envs.show, envs.render,
+                     lambda: envs.save(0), lambda: envs.restore(0, None)):
+            with self.assertRaises(ClosedEnvironmentError):
+                call()
+
+
+class Threads(unittest.TestCase):
+    PATIENCE = 60
+
+    def test_two_threads_take_turns(self):
+        envs, failures = AtariVectorEnv("beamfall", 4, num_threads=2, autoreset_mode="SameStep", **SHORT), []
+        calls = (lambda: envs.step(np.zeros(4, int)), envs.reset, lambda: envs.restore(1, envs.save(2)), envs.show)
+
+        def work(first):
+            try:
+                for step in range(100):
+                    calls[(first + step) % len(calls)]()
+            except Exception as error:
+                failures.append(error)
+        threads = [threading.Thread(target=work, args=(number,)) for number in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(self.PATIENCE)
+        self.assertEqual((failures, [thread for thread in threads if thread.is_alive()]), ([], []))
+
+    def test_a_child_after_a_fork_is_refused_and_ends(self):
+        script = ("import os, racebeam\n"
+                  "envs = racebeam.AtariVectorEnv('beamfall', 4, num_threads=2, seed=1); envs.step([0] * 4)\n"
+                  "child = os.fork()\n"
+                  "if child == 0:\n"
+                  "    refused = 0\n"
+                  "    for call in (lambda: envs.step([0] * 4), envs.reset, lambda: envs.save(0)):\n"
+                  "        try: call()\n"
+                  "        except RuntimeError as error: refused += 'before the process forked' in str(error)\n"
+                  "    envs.close(); del envs\n"
+                  "    os._exit(refused)\n"
+                  "print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])); envs.step([0] * 4); print('on')")
+        done = subprocess.run([sys.executable, "-W", "ignore", "-c", script], capture_output=True, text=True, timeout=self.PATIENCE)
+        self.assertEqual(done.stdout.split(), ["3", "on"], done.stderr)
+
+    def test_the_memory_of_results_is_given_back(self):
+        import resource
+        envs = AtariVectorEnv("beamfall", 8, seed=1)
+        play(envs, 50)
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        play(envs, 500)  # 110 MB of observations
+        self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 20000)
+
+
+if __name__ == "__main__":
+    package.main()

@@ -1,0 +1,109 @@
+"""racebeam's AtariVectorEnv beside ale_py's, for all of its games: what is seen, won and told is equal, step by step.
+
+The settings take turns: the defaults, and those that change the most. The test plays a run of each game, with other settings
+and seeds each day.
+"""
+
+import argparse
+import datetime
+import sys
+
+import package
+
+package.require("ale_py", "gymnasium", "numpy")
+
+import ale_py
+import numpy as np
+from ale_py.vector_env import AtariVectorEnv as Reference
+from gymnasium.vector import AutoresetMode
+
+from racebeam.ale_py.vector_env import AtariVectorEnv
+
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("--steps", type=int, default=40, help="of each run (default 40)")
+parser.add_argument("--runs", type=int, default=1, help="runs of each game (default 1)")
+parser.add_argument("--envs", type=int, default=3, help="of each run (default 3)")
+parser.add_argument("--first", type=int, default=datetime.date.today().toordinal(), help="number of the first run (default: of the day)")
+parser.add_argument("--defaults", action="store_true", help="in the default settings alone")
+parser.add_argument("--games", help="A,B: these alone")
+options = parser.parse_args()
+
+ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
+WITHOUT_SCORE = ("combat", "joust", "maze_craze", "warlords")  # ale_py registers no id for them
+SHORT = {"max_num_frames_per_episode": 90}
+SETTINGS = (
+    {},
+    {"repeat_action_probability": 0.25, "frameskip": 5, "reward_clipping": False, "full_action_space": True},
+    {"grayscale": False, "img_height": 60, "img_width": 100, "stack_num": 2, "episodic_life": True},
+    {"autoreset_mode": AutoresetMode.SAME_STEP, "maxpool": False, **SHORT},
+    {"continuous": True, "continuous_action_threshold": 0.3, "life_loss_info": True, "noop_max": 3},
+    {"use_fire_reset": False, "noop_max": 0, "img_height": 105, "img_width": 160, "stack_num": 1, **SHORT},
+    {"autoreset_mode": AutoresetMode.SAME_STEP, "episodic_life": True, "frameskip": 9, "repeat_action_probability": 0.25},
+)
+
+
+class Different(Exception):
+    pass
+
+
+def compare(what, ours, theirs):
+    if type(ours) is not type(theirs) or ours.dtype != theirs.dtype:
+        raise Different(f"{what}: the types are {type(ours)} and {type(theirs)}")
+    if not np.array_equal(ours, theirs):
+        raise Different(f"{what}: {np.count_nonzero(ours != theirs)} elements of {ours.size}")
+
+
+def compare_told(where, ours, theirs, ended):
+    if set(ours) != set(theirs):
+        raise Different(f"{where}: the keys are {list(ours)} and {list(theirs)}")
+    for key in theirs:
+        chosen = ended if key == "final_obs" else slice(None)  # the reference leaves the others to chance
+        compare(f"{where}: {key}", ours[key][chosen], theirs[key][chosen])
+
+
+def compare_spaces(ours, theirs):
+    for name in ("single_observation_space", "single_action_space", "observation_space", "action_space"):
+        if getattr(ours, name) != getattr(theirs, name):
+            raise Different(name)
+
+
+def play(game, seed, settings):
+    """How many episodes ended."""
+    ours, theirs = (kind(game, options.envs, **settings) for kind in (AtariVectorEnv, Reference))
+    compare_spaces(ours, theirs)
+    ours.action_space.seed(seed)
+    shown, expected = ours.reset(seed=seed), theirs.reset(seed=seed)
+    compare("reset: seen", shown[0], expected[0])
+    compare_told("reset", shown[1], expected[1], ())
+    ended = 0
+    for step in range(options.steps):
+        actions = ours.action_space.sample()
+        shown, expected = ours.step(actions), theirs.step(actions)
+        for name, one, other in zip(("seen", "rewards", "terminated", "truncated"), shown, expected):
+            compare(f"step {step}: {name}", one, other)
+        ends = np.flatnonzero(expected[2] | expected[3])
+        compare_told(f"step {step}", shown[4], expected[4], ends)
+        ended += len(ends)
+    ours.close()
+    theirs.close()
+    return ended
+
+
+games = options.games.split(",") if options.games else [game for game in package.roms() if game not in WITHOUT_SCORE]
+if not games:
+    print("SKIPPED: there are no cartridge images")
+    sys.exit(package.SKIPPED)
+failures = runs = ended = 0
+for number, game in enumerate(games):
+    for run in range(options.first, options.first + options.runs):
+        settings = SETTINGS[0 if options.defaults else (number + run) % len(SETTINGS)]
+        if game == "video_cube" and "max_num_frames_per_episode" in settings:
+            settings = SETTINGS[0]  # the reference never comes back (tests/conformance/not_comparable.py)
+        try:
+            ended += play(game, 1000 * run + number, settings)
+        except Different as difference:
+            failures += 1
+            print(f"FAILED: {game}, seed {1000 * run + number}, {settings}: {difference}")
+        runs += 1
+print(f"{len(games)} games, {runs} runs of {options.steps} steps, {ended} episodes that ended: {failures} differ")
+sys.exit(failures > 0)

@@ -1,0 +1,184 @@
+"""AtariVectorEnv(server=...) plays what AtariVectorEnv plays, and a server that goes away is an exception."""
+
+import contextlib
+import os
+import pathlib
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+import package
+
+package.require("gymnasium", "numpy")
+
+import gymnasium
+import numpy as np
+
+import racebeam
+import racebeam.program
+from racebeam import AtariVectorEnv, InvalidInput
+
+SETTINGS = (
+    {},
+    {"obs_type": "ram", "autoreset_mode": "SameStep", "max_num_frames_per_episode": 40, "repeat_action_probability": 0.25},
+    {"grayscale": False, "img_height": 40, "img_width": 51, "stack_num": 2, "autoreset_mode": "SameStep", "max_num_frames_per_episode": 41},
+    {"obs_type": "grayscale", "stack_num": 1, "lives": "end", "frameskip": 30, "reward_clipping": False, "full_action_space": True},
+    {"continuous": True, "continuous_action_threshold": 0.3, "difficulty": 1, "start": "baselines", "stack_start": "repeats"},
+    {"preset": "dqn2015", "autoreset_mode": "Disabled", "maxpool": False, "frameskip": 60, "rules": "fixed"},
+    {"use_fire_reset": False, "start": "fire-noops", "lives": "told", "frameskip": 60, "seed": 0},
+)
+
+
+@contextlib.contextmanager
+def server(*options):
+    """The address of a server that serves a Unix socket, and its process."""
+    with tempfile.TemporaryDirectory() as folder:
+        ready = pathlib.Path(folder, "ready")
+        process = subprocess.Popen([racebeam.program.path(), "serve", "--listen", f"unix:{folder}/s", "--ready-file", str(ready), *options],
+                                   stderr=subprocess.DEVNULL)
+        try:
+            while not ready.exists():
+                time.sleep(0.01)
+            yield f"unix:{folder}/s", process
+        finally:
+            process.kill()
+            process.wait()
+
+
+def both(address, game="beamfall", count=3, **settings):
+    return [AtariVectorEnv(game, count, server=where, **settings) for where in (None, address)]
+
+
+class Same(unittest.TestCase):
+    def check(self, shown, expected):
+        for one, other in zip(shown[:-1], expected[:-1]):
+            self.assertEqual((one.dtype, one.shape), (other.dtype, other.shape))
+            self.assertTrue(np.array_equal(one, other))
+        self.check_told(shown[-1], expected[-1])
+
+    def check_told(self, told, expected):
+        self.assertEqual(list(told), list(expected))
+        for key, value in expected.items():
+            if isinstance(value, dict):
+                self.check_told(told[key], value)
+            elif value.dtype == object:
+                self.assertTrue(all(one is other is None or np.array_equal(one, other) for one, other in zip(told[key], value)), key)
+            else:
+                self.assertEqual(told[key].dtype, value.dtype)
+                self.assertTrue(np.array_equal(told[key], value), key)
+
+    def play(self, here, there, steps):
+        """How many episodes ended."""
+        here.action_space.seed(1)
+        ended = 0
+        for _ in range(steps):
+            actions = here.action_space.sample()
+            expected = here.step(actions)
+            self.check(there.step(actions), expected)
+            ended += np.count_nonzero(expected[2] | expected[3])
+        return ended
+
+    def test_what_is_seen_and_told(self):
+        ended = 0
+        with server() as (address, _):
+            for settings in SETTINGS:
+                with self.subTest(**settings):
+                    here, there = both(address, **{"seed": 5, **settings})
+                    self.assertEqual((there.observation_space, there.action_space), (here.observation_space, here.action_space))
+                    ended += self.play(here, there, 10)
+                    self.check(there.reset(seed=9), here.reset(seed=9))
+                    ended += self.play(here, there, 40)
+                    there.close()
+        self.assertGreater(ended, 50)
+
+    def test_resets_of_some_and_seeds_of_each(self):
+        with server() as (address, _):
+            here, there = both(address, count=4, seed=1, repeat_action_probability=0.25)
+            mask = np.array([True, False, False, True])
+            for arguments in ({"seed": [7, 8, 3, 2**32 - 1]}, {"options": {"reset_mask": mask}}, {"seed": [1, None, -1, 9]},
+                              {"seed": 2**32 - 2, "options": {"reset_mask": mask}}, {}):
+                with self.subTest(**arguments):
+                    self.check(there.reset(**arguments), here.reset(**arguments))
+                    self.play(here, there, 5)
+
+    def test_pictures(self):
+        with server() as (address, _):
+            here, there = both(address, seed=1, render_mode="rgb_array")
+            self.play(here, there, 5)
+            self.assertTrue(all(map(np.array_equal, there.render(), here.render())))
+            self.check(there.show(), here.show())
+
+    def test_an_image_that_only_the_client_has_is_sent(self):
+        if "pong" not in package.roms():
+            self.skipTest("there is no image of pong")
+        with server() as (address, _):
+            here, there = both(address, "pong", mode=1, difficulty=2, seed=3)
+            self.play(here, there, 30)
+
+
+class Refused(unittest.TestCase):
+    def test_bad_input_is_what_it_is_here(self):
+        with server() as (address, _):
+            for envs in both(address, count=2, seed=1):
+                for actions, error in (([0, 99], IndexError), ([-1, 0], IndexError), ([0], InvalidInput), ([0.5, 1], TypeError)):
+                    with self.subTest(actions=actions), self.assertRaises(error):
+                        envs.step(actions)
+                self.assertEqual(envs.step([0, 0])[0].shape, (2, 4, 84, 84))
+            for arguments in ({"mode": 7}, {"difficulty": 9}, {"img_width": 161}, {"rom": b"x" * 600000}):
+                for where in (None, address):
+                    with self.subTest(arguments=arguments, server=where), self.assertRaises(InvalidInput):
+                        AtariVectorEnv("beamfall", 2, server=where, **arguments)
+
+    def test_what_a_server_does_not_do_is_said(self):
+        with server("--max-machines", "4") as (address, _):
+            envs = AtariVectorEnv("beamfall", 2, server=address)
+            for call in (lambda: envs.save(0), lambda: envs.restore(0, None), lambda: envs.send([0, 0]), envs.recv):
+                with self.assertRaisesRegex(InvalidInput, "on a server"):
+                    call()
+            for arguments in ({"batch_size": 1}, {"num_envs": 5}, {"start": "baselines", "use_fire_reset": False}):
+                with self.subTest(arguments=arguments), self.assertRaises(InvalidInput):
+                    AtariVectorEnv("beamfall", **{"num_envs": 2, "server": address, **arguments})
+            with self.assertRaises(gymnasium.error.Error):
+                AtariVectorEnv(["beamfall", "updraft"], server=address, full_action_space=True)
+
+
+class Lost(unittest.TestCase):
+    def test_a_server_that_dies_is_a_ConnectionError(self):
+        with server() as (address, process):
+            envs = AtariVectorEnv("beamfall", 2, server=address, seed=1)
+            envs.step([0, 0])
+            process.kill()
+            process.wait()
+            for call in (lambda: envs.step([0, 0]), envs.reset, envs.show):
+                with self.assertRaises(ConnectionError):
+                    call()
+            envs.close()
+            with self.assertRaises(OSError):
+                AtariVectorEnv("beamfall", 2, server=address)
+
+    def test_a_server_that_dies_within_a_step_is_a_ConnectionError(self):
+        with server() as (address, process):
+            envs = AtariVectorEnv("beamfall", 64, server=address, frameskip=1000, seed=1)
+            threading.Timer(0.3, process.kill).start()
+            with self.assertRaises(ConnectionError):
+                for _ in range(10000):
+                    envs.step([0] * 64)
+
+    def test_a_child_after_a_fork_is_refused(self):
+        with server() as (address, _):
+            envs = AtariVectorEnv("beamfall", 2, server=address, seed=1)
+            child = os.fork()
+            if child == 0:
+                try:
+                    envs.step([0, 0])
+                except RuntimeError as error:
+                    os._exit(7 if "before the process forked" in str(error) else 8)
+                os._exit(9)
+            self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 7)
+            envs.step([0, 0])
+
+
+if __name__ == "__main__":
+    package.main()
