@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "emulator/board/board.hpp"
 #include "emulator/console.hpp"
@@ -11,6 +12,13 @@
 #include "emulator/translator/translator.hpp"
 
 namespace racebeam {
+
+// The machine before a step; the TIA has begun the frame already.
+struct FrameStart {
+  State state;
+  std::vector<std::uint8_t> cartridge_ram;
+  Sound sound;
+};
 
 struct Console::Impl {
   Impl(std::shared_ptr<const Rom> rom, const Properties& given, PowerOn& source, CpuKind kind, Pace* paced_by)
@@ -33,7 +41,7 @@ struct Console::Impl {
   struct {
     Collisions sought = 0;
     Collisions unknown = 0;  // latches of the state that have not been computed
-    FrameStart step;         // the step that computes them, if there are any
+    RecordedStep step;       // the step that computes them, if there are any
   } latches;
 
   DeferredRenderPolicy render_policy;
@@ -59,11 +67,13 @@ struct Console::Impl {
   bool run_step(FrameBuffer& picture, const FrameStart& start, RenderMode mode);
   FrameStart frame_start() const { return {board.state, board.cartridge_ram, board.sound}; }
   bool reads_unknown_latches(FrameStart& start, bool drew);
-  void note_latches(FrameStart& start, Collisions looked_for);
+  void note_latches(const FrameStart& start, Collisions looked_for);
+  Collisions collisions_of_last_step();
   void settle_latches();
   void rewind(const FrameStart& start);
   void draw_now(std::shared_ptr<FrameBuffer>& picture);
   std::shared_ptr<FrameBuffer> own_copy(const FrameBuffer& picture);
+  const FrameBuffer* other_than(const FrameBuffer& picture) const;
   FrameBuffer& canvas();
 };
 

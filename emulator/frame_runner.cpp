@@ -1,5 +1,5 @@
 // Runs a frame, with or without its pixels (docs/spec/tia.md, 2). A frame whose pixels are not observed
-// leaves its start in the picture. It is run again if the picture is read later.
+// leaves its writes in the picture. They are played if the picture is read later.
 #include "emulator/console_impl.hpp"
 #include "emulator/cpu/cpu.hpp"
 #include "emulator/tia/registers/motion.hpp"
@@ -49,7 +49,8 @@ void Console::Impl::step(bool observed, bool follow) {
 }
 
 // Runs a frame on a buffer whose pixels will all be overwritten. Returns false, with the machine back at its
-// start, if the frame does not fill the whole window or does not close.
+// start, if the frame does not fill the whole window, does not close, or should be drawn later and has too
+// long a log.
 bool Console::Impl::step_over(FrameStart& start, bool draw, bool deferred) {
   std::shared_ptr<FrameBuffer>& current = pictures.current;
   if (!spare.current) std::swap(spare.current, spare.previous);
@@ -58,14 +59,14 @@ bool Console::Impl::step_over(FrameStart& start, bool draw, bool deferred) {
   bool closes;
   do closes = run_step(*place, start, draw ? RenderMode::kDrawn : RenderMode::kNone) && !state().frame.open;
   while (reads_unknown_latches(start, draw));
-  if (!closes || !board.tia.drew_all()) {
+  if (!closes || !board.tia.drew_all() || (!draw && !board.is_recorded())) {
     rewind(start);
     return false;
   }
   if (deferred) render_policy.record(board.tia.work());
   note_latches(start, draw ? kAllPairs : latches.sought);
   place->is_undrawn = !draw;
-  if (!draw) place->undrawn = start;
+  if (!draw) board.record_step(place->undrawn, start.state.tia, start.state.frame.lines);
   if (&place != &current) current = std::exchange(place, nullptr);
   return true;
 }
@@ -75,8 +76,7 @@ bool Console::Impl::step_over(FrameStart& start, bool draw, bool deferred) {
 // caller must rewind.
 bool Console::Impl::run_step(FrameBuffer& picture, const FrameStart& start, RenderMode mode) {
   thread_local WriteLog log;
-  const FrameBuffer* const other =
-      (&picture == pictures.previous.get() ? pictures.current : pictures.previous).get();
+  const FrameBuffer* const other = other_than(picture);
   const auto repeat = [&](RenderMode how) {
     rewind(start);
     board.begin_step(picture, other, log, how, latches.sought);
@@ -110,11 +110,8 @@ void Console::Impl::draw_now(std::shared_ptr<FrameBuffer>& picture) {
   if (!is_own(picture)) picture = own_copy(*picture);
   picture->make_room(rows());
   if (!picture->is_undrawn) return;
-  const FrameStart now = frame_start();
-  rewind(picture->undrawn);
-  run_step(*picture, picture->undrawn, RenderMode::kDrawn);
+  board.replay(picture->undrawn, *picture, other_than(*picture), RenderMode::kDrawn);
   picture->is_undrawn = false;
-  rewind(now);
 }
 
 // Whether the step read latches that were not computed. It must then be run again, from `start`.
@@ -130,33 +127,30 @@ bool Console::Impl::reads_unknown_latches(FrameStart& start, bool drew) {
 }
 
 // Called after a step from `start`. looked_for: the pairs whose collisions were computed in it.
-void Console::Impl::note_latches(FrameStart& start, Collisions looked_for) {
-  const bool persists = latches.unknown != 0 && !board.tia.cleared();
-  if (persists) {
-    const FrameStart now = frame_start();
-    rewind(start);
-    settle_latches();
-    start = frame_start();
-    rewind(now);
-    state().tia.collisions |= start.state.tia.collisions;
+void Console::Impl::note_latches(const FrameStart& start, Collisions looked_for) {
+  TiaState before = start.state.tia;
+  if (latches.unknown != 0 && !board.tia.cleared()) {  // they persist
+    before.collisions = collisions_of_last_step();
+    state().tia.collisions |= before.collisions;
     latches.sought = kAllPairs;  // for a game that keeps collisions over frames
   }
   latches.unknown = kAllPairs & ~looked_for & ~state().tia.collisions;
-  if (latches.unknown != 0) latches.step = start;
+  if (latches.unknown != 0) board.record_step(latches.step, before, start.state.frame.lines);
 }
 
-// Runs the last step again, and computes all pairs.
+// All pairs, at the end of the step with unknown latches.
+Collisions Console::Impl::collisions_of_last_step() {
+  return board.replay(latches.step, *pictures.current, nullptr, RenderMode::kNone);
+}
+
 void Console::Impl::settle_latches() {
   if (latches.unknown == 0) return;
-  const FrameStart now = frame_start();
-  const Collisions sought = std::exchange(latches.sought, kAllPairs);
-  rewind(latches.step);
-  run_step(*pictures.current, latches.step, RenderMode::kNone);
-  const Collisions found = state().tia.collisions;
-  rewind(now);
-  state().tia.collisions = found;
-  latches.sought = sought;
+  state().tia.collisions = collisions_of_last_step();
   latches.unknown = 0;
+}
+
+const FrameBuffer* Console::Impl::other_than(const FrameBuffer& picture) const {
+  return (&picture == pictures.previous.get() ? pictures.current : pictures.previous).get();
 }
 
 std::shared_ptr<FrameBuffer> Console::Impl::own_copy(const FrameBuffer& picture) {

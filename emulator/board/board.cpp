@@ -1,7 +1,9 @@
 #include "emulator/board/board.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 #include "emulator/base/opcodes.hpp"
 #include "emulator/board/riot.hpp"
@@ -113,6 +115,35 @@ void Board::end_step() {
     tia.catch_up(last_access_);
     picture_is_exact_ = exact_mode_ || !tia.stopped_inside(state.cycle);
   }
+}
+
+void Board::record_step(RecordedStep& step, const TiaState& start, std::int32_t lines) const {
+  step.start = start;
+  step.lines = lines;
+  step.base = log->base;
+  step.last_access = last_access_;
+  step.closed = !state.frame.open && last_access_ == state.cycle;
+  step.writes.assign(log->entry.data(), log->next);
+}
+
+Collisions Board::replay(const RecordedStep& step, FrameBuffer& picture, const FrameBuffer* other,
+                         RenderMode mode) {
+  thread_local WriteLog replayed;
+  const TiaState now = std::exchange(state.tia, step.start);
+  const std::int32_t lines = std::exchange(state.frame.lines, step.lines);
+  tia.forget();
+  replayed.rewind(step.base);
+  tia.begin_step(picture, other, replayed, mode, kAllPairs);
+  replayed.next = std::ranges::copy(step.writes, replayed.entry.data()).out;
+  if (step.closed)
+    tia.end_picture(step.last_access);
+  else
+    tia.catch_up(step.last_access);
+  const Collisions found = state.tia.collisions;
+  state.tia = now;
+  state.frame.lines = lines;
+  tia.forget();
+  return found;
 }
 
 // An opcode that was fetched from a collision register depends on what a write in the same cycle drew ahead.

@@ -89,6 +89,13 @@ class Board {
   void begin_step(FrameBuffer& picture, const FrameBuffer* other, WriteLog& scratch,
                   RenderMode mode = RenderMode::kDrawn, Collisions sought = kAllPairs);
   void end_step();
+  // The step that has ended, for replay(). start: the TIA before it. Only if is_recorded().
+  bool is_recorded() const { return log->is_whole; }
+  void record_step(RecordedStep& step, const TiaState& start, std::int32_t lines) const;
+  // Plays the writes of a step again, as begin_step() says, on its `picture`. Returns the collisions at its
+  // end. The machine does not change.
+  Collisions replay(const RecordedStep& step, FrameBuffer& picture, const FrameBuffer* other,
+                    RenderMode mode);
   bool needs_exact_step() const;
   void set_format_limits();  // after `video` or the frame's origin has changed
 

@@ -12,16 +12,9 @@
 
 #include "emulator/state/state.hpp"
 #include "emulator/tia/line_cache/line_record.hpp"
-#include "emulator/tia/sound.hpp"
+#include "emulator/tia/recorded_step.hpp"
 
 namespace racebeam {
-
-// The machine before a step that opens a frame; the TIA has begun the frame already.
-struct FrameStart {
-  State state;
-  std::vector<std::uint8_t> cartridge_ram;
-  Sound sound;
-};
 
 // Rows that have never been drawn are black, and allocate no memory.
 class FrameBuffer {
@@ -61,9 +54,8 @@ class FrameBuffer {
   // Call it after another writer has changed pixels.
   void forget_lines() { std::ranges::fill(shows_, kAnyLine); }
 
-  // The start of the last frame on this buffer, if that was run without its pixels. Running it again fills
-  // all rows.
-  FrameStart undrawn;
+  // The last frame on this buffer, if that was run without its pixels. Playing it again fills all rows.
+  RecordedStep undrawn;
   bool is_undrawn = false;
 
  private:

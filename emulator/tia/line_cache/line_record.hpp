@@ -55,8 +55,8 @@ struct alignas(64) LineRecord {
   Collisions meetings;             // pairs that met on the line, after the last CXCLR
   LineDependencies view;           // why bytes count
   LineNumber number = kNoLine;
-  std::uint8_t count;          // of events
-  std::int8_t hmove_cycle;     // of the last HMOVE, if the line kMoves
+  std::uint8_t count;       // of events
+  std::int8_t hmove_cycle;  // of the last HMOVE, if the line kMoves
   std::array<std::uint8_t, 2>
       hashes{};  // hash() of the lines drawn here, in even and in odd frames (flicker_detector.hpp)
   alignas(16) std::array<std::uint32_t, kMostEvents> event;  // the writes, LineWrite::packed()

@@ -57,6 +57,7 @@ struct WriteLog {
   std::int32_t base = 0;                    // the cycle that the entries' cycles count from
   std::array<std::uint16_t, 64> written{};  // each register's last value, with the marks above
   std::array<std::uint32_t, kCapacity + kPadding> entry;
+  bool is_whole = true;  // the entries are all writes since begin()
 
   WriteLog() { begin(0); }
   WriteLog(const WriteLog&) = delete;
@@ -64,6 +65,7 @@ struct WriteLog {
 
   void begin(std::int32_t cycle) {
     rewind(cycle);
+    is_whole = true;
     written.fill(kUnknown);
   }
 
@@ -71,6 +73,7 @@ struct WriteLog {
   void rewind(std::int32_t cycle) {
     next = entry.data();
     base = cycle;
+    is_whole = false;
   }
 
   std::size_t size() const { return static_cast<std::size_t>(next - entry.data()); }
