@@ -108,7 +108,6 @@ Console::Console(std::shared_ptr<const std::vector<std::uint8_t>> rom, const Pro
 Console::~Console() = default;
 
 void Console::reset() { impl_->reset(); }
-void Console::step(bool draw, bool follow) { impl_->step(draw, follow); }
 
 Inputs& Console::inputs() { return impl_->state().inputs; }
 Sound& Console::sound() { return impl_->board.sound; }

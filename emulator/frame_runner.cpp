@@ -13,6 +13,8 @@ constexpr std::int32_t kEndlessTurn =
 
 }  // namespace
 
+void Console::step(bool draw, bool follow) { impl_->step(draw, follow); }
+
 void Console::Impl::step(bool observed, bool follow) {
   const bool deferred = !observed && !follow;  // the policy chooses, and learns
   const bool draw = observed || (deferred && render_policy.next_is_drawn());

@@ -25,6 +25,18 @@ int frames_drawn(Drawing drawing) {
 
 }  // namespace
 
+int Environment::act(int a, int b, float strength_a, float strength_b) {
+  const Presses asked{{a, strength_a}, {b, strength_b}};
+  impl_->legal.check(asked);
+  return impl_->act(asked);
+}
+
+int Environment::act_for(int frames, int a, int b, float strength_a, float strength_b) {
+  const Presses asked{{a, strength_a}, {b, strength_b}};
+  impl_->legal.check(asked);
+  return impl_->act(asked, frames);
+}
+
 int Environment::Impl::frames_of_act() {
   const int least = std::max(settings.frame_skip, 1);
   if (settings.frame_skip_max <= least) return least;

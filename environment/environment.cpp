@@ -106,18 +106,6 @@ Environment::~Environment() = default;
 Environment::Environment(Environment&&) noexcept = default;
 Environment& Environment::operator=(Environment&&) noexcept = default;
 
-int Environment::act(int a, int b, float strength_a, float strength_b) {
-  const Presses asked{{a, strength_a}, {b, strength_b}};
-  impl_->legal.check(asked);
-  return impl_->act(asked);
-}
-
-int Environment::act_for(int frames, int a, int b, float strength_a, float strength_b) {
-  const Presses asked{{a, strength_a}, {b, strength_b}};
-  impl_->legal.check(asked);
-  return impl_->act(asked, frames);
-}
-
 void Environment::watch(std::function<void()> each_frame) { impl_->each_frame = std::move(each_frame); }
 
 void Environment::set_drawing(Drawing drawing) { impl_->drawing = drawing; }
