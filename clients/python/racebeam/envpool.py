@@ -1,0 +1,335 @@
+"""EnvPool's interface: make("Pong-v5", env_type="gymnasium", num_envs=8), with its arguments and the keys of its infos.
+
+What differs from EnvPool 1.2.5: the games are those of ALE 0.12, and not 0.7.5. env_type="gym" has the interface of Gym 0.21,
+as EnvPool 0.6 had it: reset() returns observations, and step() four values; gym_reset_return_info=True undoes that. All
+environments are stepped, or as many as recv() returned; reset() alone takes some. Resizing is by area. An action that is out
+of range is an IndexError. There is no xla().
+"""
+
+from __future__ import annotations
+
+import re
+import warnings
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from gymnasium import spaces
+from gymnasium.vector import AutoresetMode, VectorEnv
+
+from . import ale_games, images
+from .errors import InvalidInput, UnknownGame
+from .registration import rom_id_to_name
+from .vector_env import AtariVectorEnv, Info
+from .vector_results import Bools, Numbers, Pixels, Results
+
+__all__ = ["DmEnvPool", "GymEnvPool", "GymnasiumEnvPool", "TimeStep", "list_all_envs", "make", "make_dm", "make_gym", "make_gymnasium"]
+
+CONFIG: dict[str, Any] = {
+    "num_envs": 1,
+    "batch_size": 0,
+    "num_threads": 0,
+    "max_num_players": 1,
+    "thread_affinity_offset": -1,
+    "base_path": "",
+    "seed": 42,
+    "env_seed": [],
+    "gym_reset_return_info": None,
+    "max_episode_steps": 27000,
+    "stack_num": 4,
+    "frame_skip": 4,
+    "noop_max": 30,
+    "zero_discount_on_life_loss": False,
+    "episodic_life": False,
+    "reward_clip": False,
+    "use_fire_reset": True,
+    "img_height": 84,
+    "img_width": 84,
+    "task": "",
+    "mode": -1,
+    "difficulty": -1,
+    "full_action_space": False,
+    "repeat_action_probability": 0.0,
+    "use_inter_area_resize": True,
+    "gray_scale": True,
+}
+FIXED = {"max_num_players": 1, "use_inter_area_resize": True}  # no other value is played
+
+
+def _games() -> dict[str, str]:
+    """The game of each task."""
+    return {f"{rom_id_to_name(game)}-v5": game for game in images.titles() if game not in ale_games.FOR_TWO}
+
+
+def list_all_envs() -> list[str]:
+    """Pong-v5 and so on."""
+    return list(_games())
+
+
+class _Envs(AtariVectorEnv):
+    """Infos have EnvPool's keys."""
+
+    def __init__(self, game: str, config: dict[str, Any]) -> None:
+        count = config["num_envs"]
+        self._elapsed = np.zeros(count, np.int32)
+        self._begins = np.ones(count, np.bool_)  # the next result of an environment begins an episode
+        self._is_over = np.ones(count, np.bool_)  # and a game
+        self._stays = np.zeros(count, np.bool_)  # or shows an environment as it was
+        self.began: Bools = self._begins  # the last results did
+        self._lives = np.zeros(count, np.int32)
+        self.lost: Bools = self._begins  # by the last results, a life
+        super().__init__(
+            game, count, batch_size=config["batch_size"], num_threads=config["num_threads"],
+            thread_affinity_offset=config["thread_affinity_offset"], stack_num=config["stack_num"],
+            max_num_frames_per_episode=config["max_episode_steps"] * config["frame_skip"], frameskip=config["frame_skip"],
+            noop_max=config["noop_max"], use_fire_reset=config["use_fire_reset"], reward_clipping=config["reward_clip"],
+            img_height=config["img_height"], img_width=config["img_width"], grayscale=config["gray_scale"],
+            mode=_optional(config["mode"]), difficulty=_optional(config["difficulty"]),
+            full_action_space=config["full_action_space"], repeat_action_probability=config["repeat_action_probability"],
+            lives="end" if config["episodic_life"] else "ignored", start="noops-fire", stack_start="repeats",
+            render_mode="rgb_array")
+
+    def begin(self, mask: Bools) -> None:
+        """Those of the mask are reset next."""
+        self._begins |= mask
+        self._is_over |= mask
+        self._stays[:] = ~mask
+
+    def send_resets(self, seed: Any) -> None:
+        self._check_open()
+        self._machines.send_resets(self._seeds(seed))
+
+    @property
+    def received(self) -> Numbers:
+        """The environments of the last results."""
+        return self._received
+
+    def _room(self, out: Pixels | None) -> Results:
+        return super()._room(out)._replace(ram=np.empty((self.batch_size, 128), np.uint8))
+
+    def _info(self, results: Results) -> Info:
+        ids = results.env_id
+        stays = self._stays[ids]
+        self._stays[ids] = False
+        self.began = self._begins[ids] & ~stays
+        elapsed = np.where(self.began & self._is_over[ids], 0, self._elapsed[ids] + ~(self.began | stays)).astype(np.int32)
+        self._elapsed[ids] = elapsed
+        self.lost = results.lives < self._lives[ids]
+        self._lives[ids] = results.lives
+        self._begins[ids] = results.terminated | results.truncated
+        self._is_over[ids] = results.game_over | results.truncated
+        return {
+            "env_id": ids,
+            "players": {"env_id": ids},
+            "lives": results.lives,
+            "reward": results.raw_rewards.astype(np.float32),
+            "terminated": results.game_over.astype(np.int32),
+            "ram": results.ram,
+            "elapsed_step": elapsed,
+        }
+
+
+def _optional(number: int) -> int | None:
+    return None if number == -1 else number
+
+
+class _Pool:
+    """What all kinds have. Results are a batch of observations, rewards, terminations, truncations and the info."""
+
+    def __init__(self, task_id: str, config: dict[str, Any]) -> None:
+        self.config = {**CONFIG, **config, "task": task_id}
+        for name, value in config.items():
+            if name not in CONFIG:
+                raise InvalidInput(f"there is no setting {name!r}; there are {', '.join(CONFIG)}")
+            if name in FIXED and value != FIXED[name]:
+                raise InvalidInput(f"{name} is {value!r}; racebeam has {FIXED[name]!r} alone")
+        if task_id not in _games():
+            raise UnknownGame(f"there is no task {task_id!r}; list_all_envs() lists them")
+        self._envs = _Envs(_games()[task_id], self.config)
+        self.num_envs, self.batch_size = self._envs.num_envs, self._envs.batch_size
+        self._seeds: Any = self.config["env_seed"] or self.config["seed"]
+        self._is_new = True
+        self.action_space = self.single_action_space = self._envs.single_action_space
+        stack, height, width, *colours = self._envs.single_observation_space.shape or ()
+        shape = (stack * 3 if colours else stack, height, width)
+        self.observation_space = self.single_observation_space = spaces.Box(0, 255, shape, np.uint8)
+
+    def __len__(self) -> int:
+        return self.num_envs
+
+    @property
+    def is_async(self) -> bool:
+        return self.batch_size < self.num_envs
+
+    @property
+    def all_env_ids(self) -> npt.NDArray[np.int32]:
+        return np.arange(self.num_envs, dtype=np.int32)
+
+    def seed(self, seed: Any = None) -> None:
+        """Has no effect, as in EnvPool."""
+        warnings.warn("seed() has no effect; give seed to make()", stacklevel=2)
+
+    def render(self, env_ids: Any = None) -> Pixels:
+        pictures = self._envs.render() or ()
+        return np.stack([pictures[env] for env in np.atleast_1d(0 if env_ids is None else env_ids)])
+
+    def xla(self) -> Any:
+        raise NotImplementedError("racebeam.envpool has no xla()")
+
+    def close(self) -> None:
+        self._envs.close()
+
+    def async_reset(self) -> None:
+        """Begins new episodes of all environments; recv() returns the first."""
+        self._envs.begin(np.ones(self.num_envs, np.bool_))
+        self._envs.send_resets(self._first_seeds())
+
+    def send(self, action: Any, env_id: Any = None) -> None:
+        """Begins a step of the environments that were received last."""
+        self._envs.send(self._meant(action, env_id))
+
+    def _first_seeds(self) -> Any:
+        seeds, self._seeds, self._is_new = self._seeds, None, False
+        return seeds
+
+    def _reset(self, env_id: Any, options: dict[str, Any] | None) -> tuple[Any, Any, Any, Any, Info]:
+        mask = (options or {}).get("reset_mask")
+        if env_id is not None:
+            mask = np.isin(self.all_env_ids, env_id)
+        self._envs.begin(np.ones(self.num_envs, np.bool_) if mask is None else mask)
+        observations, info = self._envs.reset(seed=self._first_seeds(), options=None if mask is None else {"reset_mask": mask})
+        nothing = np.zeros(len(observations), np.bool_)
+        return self._shown((observations, nothing.astype(np.int32), nothing, nothing, info), mask)
+
+    def _step(self, action: Any, env_id: Any) -> tuple[Any, Any, Any, Any, Info]:
+        if self._is_new:
+            return self._reset(None, None)
+        return self._shown(self._envs.step(self._meant(action, env_id)))
+
+    def _recv(self) -> tuple[Any, Any, Any, Any, Info]:
+        return self._shown(self._envs.recv())
+
+    def _meant(self, action: Any, env_id: Any) -> Any:
+        if isinstance(action, dict):
+            action, env_id = action["action"], action.get("env_id", action.get("players.env_id", env_id))
+        if env_id is None:
+            return action
+        received = self._envs.received
+        order = np.argsort(env_id)
+        if not np.array_equal(np.sort(env_id), np.sort(received)):
+            raise InvalidInput(f"env_id is {env_id!r}; it takes the environments that were received last: {received.tolist()}")
+        return np.asarray(action)[order][np.searchsorted(np.asarray(env_id)[order], received)]
+
+    def _shown(self, shown: tuple[Any, ...], mask: Any = None) -> tuple[Any, Any, Any, Any, Info]:
+        observations, rewards, terminated, truncated, info = shown
+        if observations.ndim == 5:
+            observations = np.moveaxis(observations, -1, 2).reshape(len(observations), *self.observation_space.shape)
+        chosen = slice(None) if mask is None else mask
+        told = {key: {"env_id": info["env_id"][chosen]} if key == "players" else value[chosen] for key, value in info.items()}
+        return (observations[chosen], rewards[chosen].astype(np.float32), (terminated & ~truncated)[chosen], truncated[chosen], told)
+
+
+class GymnasiumEnvPool(_Pool, VectorEnv[Any, Any, Any]):  # type: ignore[misc]
+    """env_type="gymnasium"."""
+
+    metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP, "render_modes": ["rgb_array"]}
+
+    def reset(self, env_id: Any = None, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Any, Info]:
+        if seed is not None:
+            self.seed(seed)
+        observations, *_, info = self._reset(env_id, options)
+        return observations, info
+
+    def step(self, action: Any, env_id: Any = None) -> tuple[Any, Any, Any, Any, Info]:
+        return self._step(action, env_id)
+
+    def recv(self, reset: bool = False, return_info: bool = True) -> Any:
+        observations, *rest, info = self._recv()
+        return (observations, info) if reset else (observations, *rest, info)
+
+
+class GymEnvPool(_Pool):
+    """env_type="gym": reset() returns observations, and a step has one end, `done`."""
+
+    def reset(self, env_id: Any = None) -> Any:
+        return self._reset(env_id, None)[0]
+
+    def step(self, action: Any, env_id: Any = None) -> tuple[Any, Any, Any, Info]:
+        return self._joined(self._step(action, env_id))
+
+    def recv(self, reset: bool = False, return_info: bool = True) -> Any:
+        shown = self._recv()
+        return shown[0] if reset else self._joined(shown)
+
+    @staticmethod
+    def _joined(shown: tuple[Any, Any, Any, Any, Info]) -> tuple[Any, Any, Any, Info]:
+        observations, rewards, terminated, truncated, info = shown
+        return observations, rewards, terminated | truncated, {**info, "TimeLimit.truncated": truncated}
+
+
+class State(NamedTuple):
+    """The observation of a TimeStep."""
+
+    env_id: Any
+    players: Any
+    obs: Any
+    lives: Any
+    reward: Any
+    terminated: Any
+    ram: Any
+
+
+class TimeStep(NamedTuple):
+    """As dm_env has it, for each environment: step_type is 0 for the first of an episode, 1, or 2 for the last."""
+
+    step_type: npt.NDArray[np.int32]
+    reward: npt.NDArray[np.float32]
+    discount: npt.NDArray[np.float32]
+    observation: State
+
+
+class Players(NamedTuple):
+    env_id: Any
+
+
+class DmEnvPool(_Pool):
+    """env_type="dm"."""
+
+    def reset(self, env_id: Any = None) -> TimeStep:
+        return self._time_step(self._reset(env_id, None))
+
+    def step(self, action: Any, env_id: Any = None) -> TimeStep:
+        return self._time_step(self._step(action, env_id))
+
+    def recv(self, reset: bool = False, return_info: bool = True) -> TimeStep:
+        return self._time_step(self._recv())
+
+    def _time_step(self, shown: tuple[Any, Any, Any, Any, Info]) -> TimeStep:
+        observations, rewards, terminated, truncated, info = shown
+        done = terminated | truncated
+        kinds = np.where(self._envs.began, 0, np.where(done, 2, 1)).astype(np.int32)
+        ends = done | self._envs.lost if self.config["zero_discount_on_life_loss"] else done
+        state = State(info["env_id"], Players(info["env_id"]), observations, info["lives"], info["reward"], info["terminated"], info["ram"])
+        return TimeStep(kinds, rewards, (~ends).astype(np.float32), state)
+
+
+def make_gymnasium(task_id: str, **config: Any) -> GymnasiumEnvPool:
+    return GymnasiumEnvPool(task_id, config)
+
+
+def make_gym(task_id: str, **config: Any) -> GymEnvPool | GymnasiumEnvPool:
+    return (GymnasiumEnvPool if config.get("gym_reset_return_info") else GymEnvPool)(task_id, config)
+
+
+def make_dm(task_id: str, **config: Any) -> DmEnvPool:
+    return DmEnvPool(task_id, config)
+
+
+MAKERS = {"gymnasium": make_gymnasium, "gym": make_gym, "dm": make_dm}
+
+
+def make(task_id: str, env_type: str, **config: Any) -> Any:
+    """Environments of the task, such as "Pong-v5". config: the settings of CONFIG."""
+    if env_type not in MAKERS:
+        raise InvalidInput(f"env_type is {env_type!r}; it takes {', '.join(MAKERS)}")
+    return MAKERS[env_type](task_id, **config)

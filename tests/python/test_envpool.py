@@ -1,0 +1,164 @@
+"""racebeam.envpool has EnvPool's arguments, results and infos. What EnvPool itself shows was measured (EnvPool 1.2.5)."""
+
+import unittest
+import warnings
+
+import package
+
+package.require("numpy", "gymnasium")
+
+import gymnasium
+import numpy as np
+
+import racebeam
+from racebeam import InvalidInput, envpool
+
+INFO = {"env_id": "int32", "players": None, "lives": "int32", "reward": "float32", "terminated": "int32", "ram": "uint8",
+        "elapsed_step": "int32"}
+
+
+def make(env_type="gymnasium", **config):
+    return envpool.make("Beamfall-v5", env_type, **{"num_envs": 3, **config})
+
+
+class Gymnasium(unittest.TestCase):
+    def test_shapes_and_types(self):
+        envs = make()
+        self.assertIsInstance(envs, gymnasium.vector.VectorEnv)
+        seen, info = envs.reset()
+        shown = envs.step(np.zeros(3, int))
+        for one in (seen, shown[0]):
+            self.assertEqual((one.dtype, one.shape), (np.uint8, (3, 4, 84, 84)))
+        self.assertEqual([value.dtype for value in shown[1:4]], [np.float32, bool, bool])
+        for told in (info, shown[4]):
+            self.assertEqual({key: None if key == "players" else str(value.dtype) for key, value in told.items()}, INFO)
+            self.assertEqual(told["ram"].shape, (3, 128))
+        self.assertEqual((envs.observation_space.shape, envs.action_space.n), ((4, 84, 84), 18))
+        self.assertEqual((len(envs), envs.is_async, envs.all_env_ids.tolist()), (3, False, [0, 1, 2]))
+        self.assertEqual(envs.render([0, 2]).shape, (2, 210, 160, 3))
+
+    def test_colours_are_channels(self):
+        grey, coloured = make(), make(gray_scale=False)
+        seen = coloured.reset()[0]
+        self.assertEqual((seen.shape, coloured.observation_space.shape), ((3, 12, 84, 84), (12, 84, 84)))
+        self.assertTrue(np.array_equal(seen[:, :3], seen[:, 9:]))
+        whole = racebeam.AtariVectorEnv("beamfall", 3, grayscale=False, start="noops-fire", stack_start="repeats")
+        expected = whole.reset(seed=42)[0]
+        self.assertTrue(all(np.array_equal(seen[:, 3 * frame + colour], expected[:, frame, :, :, colour])
+                            for frame in range(4) for colour in range(3)))
+        self.assertEqual(grey.reset()[0].shape, (3, 4, 84, 84))
+
+    def test_the_first_step_is_the_reset(self):
+        envs, others = make(), make()
+        seen, *_, info = envs.step(np.full(3, 5))
+        self.assertTrue(np.array_equal(seen, others.reset()[0]))
+        self.assertEqual(info["elapsed_step"].tolist(), [0, 0, 0])
+
+    def test_seeds(self):
+        first = [make(seed=seed).reset()[0] for seed in (42, 7, [42, 43, 44])] + [make(env_seed=[7, 8, 9]).reset()[0], make().reset()[0]]
+        self.assertTrue(np.array_equal(first[0], first[2]) and np.array_equal(first[0], first[4]) and np.array_equal(first[1], first[3]))
+        self.assertFalse(np.array_equal(first[0], first[1]))
+        with self.assertWarns(UserWarning):
+            make().reset(seed=3)
+
+    def test_a_limit_and_the_steps_so_far(self):
+        envs = make(max_episode_steps=5)
+        envs.reset()
+        shown = [envs.step(np.zeros(3, int)) for _ in range(8)]
+        self.assertEqual([int(one[4]["elapsed_step"][0]) for one in shown], [1, 2, 3, 4, 5, 0, 1, 2])
+        self.assertEqual([bool(one[3][0]) for one in shown], [False] * 4 + [True] + [False] * 3)
+        self.assertFalse(any(one[2].any() for one in shown))
+
+    def test_a_lost_life_ends_the_episode_and_not_the_game(self):
+        envs = make(episodic_life=True, frame_skip=60, reward_clip=True)
+        envs.reset()
+        shown = [envs.step(np.ones(3, int)) for _ in range(80)]
+        done = np.array([one[2] for one in shown])
+        over = np.array([one[4]["terminated"] for one in shown])
+        steps = np.array([one[4]["elapsed_step"] for one in shown])
+        self.assertGreater(done.sum(), over.sum())
+        self.assertGreater(over.sum(), 0)
+        for env in range(3):
+            for step in np.flatnonzero(done[:-1, env]):
+                self.assertEqual(steps[step + 1, env], 0 if over[step, env] else steps[step, env])
+        raw = np.array([one[4]["reward"] for one in shown])
+        self.assertTrue(np.array_equal(np.clip(raw, -1, 1), [one[1] for one in shown]))
+        self.assertGreater(raw.max(), 1)
+
+    def test_a_reset_of_some(self):
+        envs = make()
+        envs.reset()
+        envs.step(np.zeros(3, int))
+        for arguments in ({"env_id": np.array([2])}, {"options": {"reset_mask": np.array([False, False, True])}}):
+            seen, info = envs.reset(**arguments)
+            self.assertEqual((seen.shape[0], info["env_id"].tolist(), info["elapsed_step"].tolist()), (1, [2], [0]))
+        self.assertEqual(envs.step(np.zeros(3, int))[4]["elapsed_step"].tolist(), [2, 2, 1])
+
+    def test_some_at_a_time(self):
+        envs = make(num_envs=4, batch_size=2)
+        self.assertTrue(envs.is_async)
+        envs.async_reset()
+        counted = {}
+        for _ in range(40):
+            seen, *_, info = envs.recv()
+            self.assertEqual(seen.shape, (2, 4, 84, 84))
+            for env, steps in zip(info["env_id"].tolist(), info["elapsed_step"].tolist()):
+                self.assertEqual(steps, counted.get(env, -1) + 1)
+                counted[env] = steps
+            envs.send(np.zeros(2, np.int32), info["env_id"][::-1].copy())
+        self.assertEqual(len(counted), 4)
+
+    def test_actions_follow_their_environments(self):
+        envs, others = make(), make()
+        for one in (envs, others):
+            one.reset()
+        for _ in range(10):
+            seen = envs.step(np.array([1, 3, 4]))[0]
+            expected = others.step({"action": np.array([4, 1, 3]), "env_id": np.array([2, 0, 1])})[0]
+            self.assertTrue(np.array_equal(seen, expected))
+
+
+class Others(unittest.TestCase):
+    def test_gym_has_its_old_interface(self):
+        envs = make("gym", max_episode_steps=2)
+        self.assertEqual(envs.reset().shape, (3, 4, 84, 84))
+        for is_done in (False, True):
+            seen, reward, done, info = envs.step(np.zeros(3, int))
+            self.assertEqual((done.tolist(), info["TimeLimit.truncated"].tolist()), ([is_done] * 3, [is_done] * 3))
+        self.assertEqual(len(make("gym", gym_reset_return_info=True).reset()), 2)
+
+    def test_time_steps_of_dm(self):
+        envs = make("dm", max_episode_steps=2)
+        shown = [envs.reset(), *(envs.step(np.zeros(3, int)) for _ in range(3))]
+        self.assertEqual([one.step_type.tolist() for one in shown], [[0] * 3, [1] * 3, [2] * 3, [0] * 3])
+        self.assertEqual([one.discount.tolist() for one in shown], [[1] * 3, [1] * 3, [0] * 3, [1] * 3])
+        self.assertEqual(shown[0].observation.obs.shape, (3, 4, 84, 84))
+        self.assertEqual(shown[0].observation._fields, ("env_id", "players", "obs", "lives", "reward", "terminated", "ram"))
+
+    def test_tasks(self):
+        tasks = envpool.list_all_envs()
+        self.assertTrue({"Pong-v5", "SpaceInvaders-v5", "Beamfall-v5"} <= set(tasks) and "Combat-v5" not in tasks)
+
+    def test_bad_input(self):
+        for task, env_type, config in (("Pong-v4", "gym", {}), ("Combat-v5", "dm", {}), ("Beamfall-v5", "x", {}), ("Beamfall-v5", "gym", {"noops": 3}),
+                                       ("Beamfall-v5", "gym", {"max_num_players": 2}), ("Beamfall-v5", "gym", {"use_inter_area_resize": False})):
+            with self.subTest(task=task, env_type=env_type, **config), self.assertRaises(InvalidInput):
+                envpool.make(task, env_type=env_type, **config)
+        envs = make()
+        envs.reset()
+        with self.assertRaises(IndexError):
+            envs.step(np.full(3, 99))
+        with self.assertRaisesRegex(InvalidInput, "env_id"):
+            envs.step(np.zeros(1, int), env_id=np.array([1]))
+        with self.assertRaises(NotImplementedError):
+            envs.xla()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertRaises(UserWarning, envs.seed, 3)
+        envs.close()
+        with self.assertRaises(gymnasium.error.ClosedEnvironmentError):
+            envs.step(np.zeros(3, int))
+
+
+if __name__ == "__main__":
+    package.main()
