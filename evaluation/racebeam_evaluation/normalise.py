@@ -50,8 +50,8 @@ def _random(scores: Scores) -> Ranges:
 def _baseline(scores: Scores) -> Ranges:
     """From the lowest to the highest score of the references, which should be all 37 baselines."""
     known = scores.references.notna().sum(axis=1)
-    fewer = sorted(set(known[(known > 0) & (known < len(BASELINES))]))
-    notes = [f"Baseline scores: {_games(int((known == count).sum()))} {count} of the {len(BASELINES)} references."
+    fewer = sorted(set(known[(known > 0) & (known < BASELINES)]))
+    notes = [f"Baseline scores: {_games(int((known == count).sum()))} {count} of the {BASELINES} references."
              for count in fewer]
     return Ranges("baseline", scores.references.min(axis=1), scores.references.max(axis=1), tuple(notes))
 

@@ -16,7 +16,7 @@ def paper_scores() -> Scores:
     """The printed scores of the paper's 55 games."""
     learners, planners = published("paper2013/learners"), published("paper2013/planners")
     views = learners[list(BASELINE_VIEWS)]
-    means = pd.concat([learners.drop(columns=list(BASELINE_VIEWS)), planners[["tree", "uct"]]], axis=1)
+    means = pd.concat([learners.drop(columns=list(BASELINE_VIEWS)), planners[["full_tree", "uct"]]], axis=1)
     return Scores(means=means.loc[PAPER.index], trials=None, references=views, views=views, notes=_NOTES,
                   other_rewards=("skiing",))
 

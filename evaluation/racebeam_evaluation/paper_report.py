@@ -15,7 +15,7 @@ from .table import Table
 # The row "Times Best" of the two tables of scores.
 _TIMES_BEST = {
     "learning": {"basic": 6, "bass": 17, "disco": 1, "lsh": 8, "ram": 8, "random": 2, "const": 9, "perturb": 4},
-    "planning": {"tree": 4, "uct": 45, "best_learner": 3, "best_baseline": 3},
+    "planning": {"full_tree": 4, "uct": 45, "best_learner": 3, "best_baseline": 3},
 }
 
 

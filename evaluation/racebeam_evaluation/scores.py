@@ -1,6 +1,7 @@
 """Scores of agents in games: means of trials, views of the baselines, and groups of agents that are compared."""
 
 import dataclasses
+import re
 
 import numpy as np
 import numpy.typing as npt
@@ -10,10 +11,11 @@ from .errors import BadInput
 from .games import in_order
 from .results import DIVERGED, Results
 
-BASELINES = ("random", *(f"const-{action}" for action in range(18)), *(f"perturb-{action}" for action in range(18)))
+BASELINES = 37                                   # Random, and one Const and one Perturb policy for each of 18 actions
 BASELINE_VIEWS = ("random", "const", "perturb")  # const and perturb: the best of 18 in each game
+_BASELINE = re.compile("random|(const|perturb)[-_].+")  # such as const_noop
 _LEARNERS = ("basic", "bass", "disco", "lsh", "ram")
-_PLANNERS = ("tree", "uct", "iw1")
+_PLANNERS = ("full_tree", "uct", "iw1")
 
 
 Trials = dict[tuple[str, str], npt.NDArray[np.float64]]  # by agent and game
@@ -71,7 +73,7 @@ def scores_of(results: Results) -> Scores:
     trials = counted.groupby(["game", "agent", "trial"])["score"].mean()
     means = trials.groupby(["game", "agent"]).mean().unstack("agent")
     means = means.reindex(index=in_order(list(set(results.episodes["game"]))))
-    references = means[[name for name in BASELINES if name in means]]
+    references = means[[name for name in means if _view_of(name)]]
     notes = [f"Trial {row.trial} of {row.agent} on {row.game} diverged, and is in no mean." for row in lost.itertuples()]
     return Scores(means=means[_agents_in_order(means)], trials=_by_agent_and_game(trials), references=references,
                   views=_views(references), notes=tuple(notes))
@@ -81,8 +83,14 @@ def _by_agent_and_game(trials: pd.Series) -> Trials:
     return {(agent, game): scores.to_numpy() for (game, agent), scores in trials.groupby(["game", "agent"])}
 
 
+def _view_of(agent: str) -> str:
+    """The view that the scores of a baseline belong to; "" of another agent."""
+    found = _BASELINE.fullmatch(agent)
+    return found[1] or agent if found else ""
+
+
 def _agents_in_order(means: pd.DataFrame) -> list[str]:
-    agents = [name for name in means if name not in BASELINES]
+    agents = [name for name in means if not _view_of(name)]
     known = [*_LEARNERS, *_PLANNERS]
     others = sorted(name for name in agents if name not in known)
     return [name for name in _LEARNERS if name in agents] + others + [name for name in _PLANNERS if name in agents]
@@ -90,6 +98,5 @@ def _agents_in_order(means: pd.DataFrame) -> list[str]:
 
 def _views(references: pd.DataFrame) -> pd.DataFrame:
     """Random, and the best Const and Perturb policy of each game."""
-    best = {view: references[[name for name in references if name.split("-")[0] == view]].max(axis=1)
-            for view in BASELINE_VIEWS}
+    best = {view: references[[name for name in references if _view_of(name) == view]].max(axis=1) for view in BASELINE_VIEWS}
     return pd.DataFrame(best, index=references.index).dropna(axis=1, how="all")

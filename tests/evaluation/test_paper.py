@@ -47,7 +47,7 @@ class Metrics(unittest.TestCase):
 
     def test_planners_above_both(self):
         printed = published("paper2013/planners")
-        above, equal, _ = paired.group_against(printed[["tree", "uct"]], printed[["best_learner", "best_baseline"]])
+        above, equal, _ = paired.group_against(printed[["full_tree", "uct"]], printed[["best_learner", "best_baseline"]])
         self.assertEqual((len(above), equal), (48, ["skiing"]))
 
     def test_inter_algorithm_scores(self):

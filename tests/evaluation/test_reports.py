@@ -20,10 +20,10 @@ OF_TRIALS = ("tests", "means", "improvement")
 
 def made_up():
     """Scores of two learners, a planner and all baselines, in four games."""
-    policies = ["random", *(f"{kind}-{action}" for kind in ("const", "perturb") for action in range(18))]
+    policies = ["random", *(f"{kind}_{action}" for kind in ("const", "perturb") for action in range(18))]
     scores = {(policy, game): [[(7 * number + 3 * column) % 11, number]] for number, policy in enumerate(policies)
               for column, game in enumerate(GAMES)}
-    for number, agent in enumerate(("basic", "bass", "tree", "uct")):
+    for number, agent in enumerate(("basic", "bass", "full_tree", "uct")):
         for column, game in enumerate(GAMES):
             scores[agent, game] = [[10 * number + column + trial, 5 + trial] for trial in range(3)]
     return scores
@@ -113,7 +113,7 @@ class Reports(unittest.TestCase):
         self.assertEqual(scores.split("set,")[1], self.files["tables/learning-scores.csv"].decode().split("set,")[1])
 
     def test_baselines_alone(self):
-        lines = results_of({key: value for key, value in made_up().items() if key[0].split("-")[0] in ("random", "const")})
+        lines = results_of({key: value for key, value in made_up().items() if key[0].split("_")[0] in ("random", "const")})
         found = tables(write(self.root / "alone", lines))
         self.assertIn("set,game,random,const\n", found["baselines-scores.csv"])
         self.assertNotIn("baselines-tests.csv", found)
