@@ -18,12 +18,12 @@ SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file_
 BINARY = os.environ.get("RACEBEAM_BINARY", os.path.join(SOURCE, "build", "release", "racebeam"))
 
 
-def examples(text):
-    """(line number, command, expected lines) of every command in the console blocks."""
+def examples(text, fence="console"):
+    """(line number, command, expected lines) of every command in the blocks with this fence."""
     found, inside = [], False
     for number, line in enumerate(text.splitlines(), 1):
         if line.startswith("```"):
-            inside = line.strip() == "```console"
+            inside = line.strip() == f"```{fence}"
         elif inside and line.startswith("$ "):
             found.append((number, line[2:], []))
         elif inside and found and found[-1][1].endswith("\\") and not found[-1][2]:
@@ -44,21 +44,23 @@ def pattern(lines):
     return re.compile("".join(parts))
 
 
-def run(command, folder):
-    environment = dict(os.environ, PATH=os.path.dirname(BINARY) + os.pathsep + os.environ["PATH"])
+def run(command, folder, binary):
+    environment = dict(os.environ, PATH=os.path.dirname(binary) + os.pathsep + os.environ["PATH"])
     done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
     return done.stdout
 
 
-def check(name):
-    """Returns the number of examples of a document, and of those whose output differs from it."""
+def check(name, fence="console", binary=BINARY):
+    """Returns the number of examples of a document, and of those whose output differs from it.
+
+    `binary` is the program that the examples run."""
     with open(os.path.join(SOURCE, name)) as file:
-        found = examples(file.read())
+        found = examples(file.read(), fence)
     wrong = 0
     with tempfile.TemporaryDirectory() as folder:
         for number, command, expected in found:
-            printed = run(command, folder)
+            printed = run(command, folder, binary)
             if not pattern(expected).fullmatch(printed):
                 wrong += 1
                 print(f"{name}:{number}: $ {command}\nexpected:\n" + "\n".join(expected) + f"\nprinted:\n{printed}")

@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""SARSA(lambda) with Basic features (Bellemare et al. 2013): an agent that learns a game over the line protocol.
+
+It needs NumPy. With the same seeds, it chooses what the agent `basic` of `racebeam experiment` chooses."""
+import argparse
+import pathlib
+import sys
+import time
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "racebeam/wire"))
+from client import Session, connect  # noqa: E402
+
+ACTIONS = 18
+WIDTH, HEIGHT, COLOURS = 160, 210, 128
+TILE_WIDTH, TILE_HEIGHT = 10, 15     # pixels; 16 x 14 tiles
+STEP_SIZE = 0.5                      # alpha, divided by the largest number of active features so far
+DISCOUNT, DECAY = 0.999, 0.9         # gamma, lambda
+EXPLORATION = 0.05                   # epsilon, in evaluation too
+LEAST_TRACE = np.float32(0.01)       # smaller traces are dropped
+
+
+class Random:
+    """SplitMix64 (Steele, Lea and Flood 2014)."""
+
+    def __init__(self, seed):
+        self.state = seed
+
+    def next(self):
+        self.state = z = (self.state + 0x9E3779B97F4A7C15) % 2**64
+        z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9 % 2**64
+        z = (z ^ z >> 27) * 0x94D049BB133111EB % 2**64
+        return z ^ z >> 31
+
+    def below(self, count):
+        number = self.next()
+        while number < 2**64 % count:  # each remainder is to be as likely
+            number = self.next()
+        return number % count
+
+    def uniform(self):
+        return (self.next() >> 11) / 2**53
+
+
+class Basic:
+    """A feature for each colour in each tile of the screen that is not the background's at its pixel."""
+
+    SIZE = WIDTH // TILE_WIDTH * (HEIGHT // TILE_HEIGHT) * COLOURS
+
+    def __init__(self, background):
+        self.background = background
+        rows, columns = np.arange(HEIGHT) // TILE_HEIGHT, np.arange(WIDTH) // TILE_WIDTH
+        self.first = ((rows[:, None] * (WIDTH // TILE_WIDTH) + columns) * COLOURS).ravel()  # feature of each pixel's tile
+
+    def active(self, screen):
+        """The features of a screen of palette indices, in ascending order. Rows that are missing are black."""
+        colours = np.zeros(WIDTH * HEIGHT, np.uint8)
+        shown = np.frombuffer(screen, np.uint8)[:WIDTH * HEIGHT]
+        colours[:len(shown)] = shown >> 1
+        changed = np.flatnonzero(colours != self.background)
+        return np.unique(self.first[changed] + colours[changed])
+
+
+class Sarsa:
+    """Linear SARSA with replacing traces. Each feature has one trace, of the action that was taken last."""
+
+    def __init__(self, features, seed):
+        self.weights = np.zeros((features, ACTIONS), np.float32)
+        self.traces, self.taken = np.zeros(features, np.float32), np.zeros(features, np.intp)
+        self.most_active, self.first_reward = 1, 0.0
+        self.random, self.learning = Random(seed), True
+
+    def begin(self, features):
+        self.traces[:] = 0
+        return self.choose(features, self.values(features))
+
+    def next(self, reward, features):
+        before, scaled = self.value_before(), self.scaled(reward)
+        values = self.values(features)
+        taken, active = self.action, self.features
+        action = self.choose(features, values)
+        self.learn(active, taken, scaled + DISCOUNT * float(values[action]) - before)
+        return action
+
+    def end(self, reward):
+        before, scaled = self.value_before(), self.scaled(reward)
+        self.learn(self.features, self.action, scaled - before)
+
+    def values(self, features):
+        """Of all actions. The sums are in the features' order, so that they are the same everywhere."""
+        return np.cumsum(self.weights[features], axis=0, dtype=float)[-1] if len(features) else np.zeros(ACTIONS)
+
+    def value_before(self):
+        return float(self.values(self.features)[self.action])
+
+    def choose(self, features, values):
+        if self.random.uniform() < EXPLORATION:
+            action = self.random.below(ACTIONS)
+        else:
+            best = np.flatnonzero(values == values.max())
+            action = int(best[0 if len(best) == 1 else self.random.below(len(best))])
+        self.features, self.action = features, action
+        return action
+
+    def scaled(self, reward):
+        """The reward, divided by the size of the first one that is not 0."""
+        self.first_reward = self.first_reward or abs(reward)
+        return reward / self.first_reward if reward else 0.0
+
+    def learn(self, active, taken, error):
+        if not self.learning:
+            return
+        self.traces[active], self.taken[active] = 1, taken
+        self.most_active = max(self.most_active, len(active))
+        step = STEP_SIZE / self.most_active * error
+        if not np.isfinite(step):
+            sys.exit("sarsa.py: the weights diverged")
+        live = np.flatnonzero(self.traces)
+        self.weights[live, self.taken[live]] += np.float32(step) * self.traces[live]
+        decayed = self.traces[live] * np.float32(DISCOUNT * DECAY)
+        self.traces[live] = np.where(decayed < LEAST_TRACE, np.float32(0), decayed)
+
+
+def play(session, agent, basic, load):
+    """Plays an episode. Returns its score and the actions."""
+    session.load(**load)
+    session.observe("reward", "ends", "screen:zlib")
+    score, actions = 0, [agent.begin(basic.active(session.look("screen:zlib")["screen"]))]
+    while True:
+        shown = session.act(actions[-1])
+        score += shown["reward"]
+        if shown["terminated"] or shown["truncated"]:
+            agent.end(shown["reward"])
+            return score, actions
+        actions.append(agent.next(shown["reward"], basic.active(shown["screen"])))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("server", help="the program racebeam, or the address of a server, such as tcp://HOST:PORT")
+    parser.add_argument("game", nargs="?", default="beamfall", help="(default: %(default)s)")
+    parser.add_argument("--training", type=int, default=20, help="episodes (default: %(default)s)")
+    parser.add_argument("--evaluation", type=int, default=0, help="episodes after it, without learning (default: %(default)s)")
+    parser.add_argument("--agent-seed", type=int, default=1, help="(default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=1, help="of the first episode; they count up (default: %(default)s)")
+    parser.add_argument("--frames", type=int, default=18000, help="of an episode at most (default: %(default)s)")
+    parser.add_argument("--background", help="a CSV file of 210 lines of 160 colours (racebeam background); without it: black")
+    parser.add_argument("--actions", action="store_true", help="print the actions of each episode")
+    options = parser.parse_args()
+    background = np.zeros(WIDTH * HEIGHT, np.uint8)
+    if options.background:
+        background = np.loadtxt(options.background, np.uint8, delimiter=",").reshape(WIDTH * HEIGHT)
+    agent, basic = Sarsa(Basic.SIZE, options.agent_seed), Basic(background)
+    opened = connect(options.server) if ":" in options.server else Session.start(options.server)
+    start, decisions = time.monotonic(), 0
+    with opened as session:
+        for episode in range(options.training + options.evaluation):
+            agent.learning = episode < options.training
+            score, actions = play(session, agent, basic, {"game": options.game, "preset": "paper2013",
+                                                          "seed": options.seed + episode, "max_episode_frames": options.frames})
+            decisions += len(actions)
+            kind = "training" if agent.learning else "evaluation"
+            print(kind, f"episode {episode + 1}: score {score} in {len(actions)} decisions", *actions if options.actions else [])
+    print(f"{decisions / (time.monotonic() - start):.0f} decisions a second", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""Tables, tests and figures from the results of `racebeam experiment` (docs/evaluation.md)."""

@@ -1,0 +1,87 @@
+"""Reads CSV files strictly: each column that is needed is there, and each number is a number."""
+
+import csv
+import dataclasses
+import enum
+import hashlib
+import io
+import pathlib
+
+import numpy as np
+import pandas as pd
+
+from .errors import BadInput
+
+
+class Kind(enum.Enum):
+    """What the cells of a column hold. The value completes the sentence "expected ..."."""
+
+    TEXT = "text"
+    WHOLE = "a whole number of at least 0"
+    DECIMAL = "a decimal number"
+    OPTIONAL = "a decimal number, or nothing"
+
+
+@dataclasses.dataclass(frozen=True)
+class Source:
+    """A file that tables are made from."""
+
+    name: str    # the file's name without its folder
+    sha256: str  # the digest of its bytes, in hexadecimal
+
+
+def read(path: pathlib.Path, columns: dict[str, Kind]) -> tuple[pd.DataFrame, Source]:
+    """Returns the columns of the file at `path` that `columns` names, and the digest of the file.
+
+    Cells of the kind TEXT become categories, WHOLE int64, the others float64; nothing is NaN.
+    The row of index i is on line i + 2. Other columns are ignored. Raises BadInput, which names the file, and the line where there is one."""
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise BadInput(f"{path} cannot be read: {error.strerror}; expected a CSV file") from error
+    _check_shape(path, content, columns)
+    types = {name: "category" if kind is Kind.TEXT else "str" for name, kind in columns.items()}
+    frame = pd.read_csv(io.BytesIO(content), usecols=list(columns), dtype=types, keep_default_na=False,
+                        quoting=csv.QUOTE_NONE)
+    for name, kind in columns.items():
+        if kind is not Kind.TEXT:
+            frame[name] = _numbers(path, frame[name], kind)
+    return frame, Source(path.name, hashlib.sha256(content).hexdigest())
+
+
+def digest(path: pathlib.Path) -> Source:
+    """The source that the file at `path` is."""
+    return Source(path.name, hashlib.sha256(path.read_bytes()).hexdigest())
+
+
+def _check_shape(path: pathlib.Path, content: bytes, columns: dict[str, Kind]) -> None:
+    """Checks that the header has `columns`, and that each line has as many fields as the header."""
+    try:
+        content.decode()
+    except UnicodeDecodeError as error:
+        raise BadInput(f"{path}: byte {error.start} is not UTF-8; expected a CSV file in UTF-8") from error
+    lines = content.splitlines()
+    header = lines[0].decode().split(",") if lines else []
+    lacking = [name for name in columns if name not in header]
+    if lacking:
+        raise BadInput(f"{path} lacks the columns {', '.join(lacking)}; expected at least {','.join(columns)}")
+    for number, line in enumerate(lines, 1):
+        fields = line.count(b",") + 1
+        if fields != len(header):
+            raise BadInput(f"{path}, line {number}, has {fields} fields; expected {len(header)}, as the header has")
+    if len(lines) < 2:
+        raise BadInput(f"{path} has no rows; expected at least one below the header")
+
+
+def _numbers(path: pathlib.Path, cells: pd.Series, kind: Kind) -> pd.Series:
+    """The cells of a column as numbers of `kind`."""
+    values = pd.to_numeric(cells, errors="coerce").astype(float)
+    wrong = ~np.isfinite(values)
+    if kind is Kind.OPTIONAL:
+        wrong &= cells != ""
+    if kind is Kind.WHOLE:
+        wrong |= (values < 0) | (values % 1 != 0)
+    if wrong.any():
+        row = int(np.flatnonzero(wrong)[0])
+        raise BadInput(f"{path}, line {row + 2}: {cells.name} is '{cells[row]}'; expected {kind.value}")
+    return values.astype(np.int64) if kind is Kind.WHOLE else values

@@ -1,0 +1,157 @@
+"""The figures, as SVG and PNG. The same data give the same bytes."""
+
+import dataclasses
+import io
+from collections.abc import Iterator
+
+import matplotlib
+import matplotlib.lines
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import EngFormatter, MaxNLocator
+
+from .csv_file import Source
+from .table import made_from
+
+_STYLE = matplotlib.rc_context({  # a decorator
+    "svg.hashsalt": "racebeam", "svg.fonttype": "path", "font.family": "DejaVu Sans", "font.size": 9,
+    "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "figure.dpi": 100})
+_DOTS_PER_INCH = 150
+
+
+@dataclasses.dataclass(frozen=True)
+class Picture:
+    """One figure."""
+
+    name: str     # of the files, without ending
+    caption: str  # a sentence
+    figure: Figure
+    sources: tuple[Source, ...]
+
+    @_STYLE
+    def files(self) -> dict[str, bytes]:
+        """Both forms by file name."""
+        self.figure.draw_without_rendering()
+        self.figure.set_layout_engine("none")  # the layout is settled, for both forms
+        about = "; ".join(made_from(self.sources))
+        return {f"{self.name}.svg": self._drawn("svg", {"Date": None, "Creator": None, "Description": about}),
+                f"{self.name}.png": self._drawn("png", {"Software": None, "Description": about})}
+
+    def _drawn(self, form: str, metadata: dict[str, str | None]) -> bytes:
+        buffer = io.BytesIO()
+        self.figure.savefig(buffer, format=form, dpi=_DOTS_PER_INCH, metadata=metadata)
+        return buffer.getvalue()
+
+
+def _grid(rows: int, columns: int, width: float, height: float) -> tuple[Figure, list[Axes]]:
+    figure = Figure(figsize=(width, height), layout="constrained")
+    return figure, list(figure.subplots(rows, columns, squeeze=False).flat)
+
+
+def _show_all(axes: Axes, scores: pd.Series) -> None:
+    """Makes the scale of scores logarithmic beyond -1 and 1 if some are far beyond."""
+    if not scores.dropna().between(-2, 2).all():
+        axes.set_xscale("symlog", linthresh=1)
+
+
+def _colours(agents: list[str]) -> dict[str, str]:
+    return {agent: f"C{index % 10}" for index, agent in enumerate(agents)}
+
+
+def _parts(rows: pd.DataFrame, by: str) -> Iterator[tuple[str, pd.DataFrame]]:
+    """The rows of each value of a column, in the order of their first appearance."""
+    for value in dict.fromkeys(rows[by]):
+        yield str(value), rows[rows[by] == value]
+
+
+@_STYLE
+def normalised_scores(normalised: dict[str, pd.DataFrame]) -> Figure:
+    """A panel for each normalisation, a row for each game, a dot for each agent."""
+    games = list(next(iter(normalised.values())).index)
+    figure, panels = _grid(1, len(normalised), 3.2 * len(normalised), 1.2 + 0.19 * len(games))
+    for axes, (name, scores) in zip(panels, normalised.items()):
+        _show_all(axes, scores.stack())
+        for agent, colour in _colours(list(scores)).items():
+            axes.plot(scores[agent], range(len(games)), "o", color=colour, markersize=4, label=agent)
+        axes.set(title=f"{name} scores", yticks=range(len(games)), ylim=(len(games) - 0.5, -0.5),
+                 yticklabels=games if axes is panels[0] else [])
+        axes.grid(axis="y", linewidth=0.3)
+    panels[-1].legend(loc="upper left", bbox_to_anchor=(1, 1))
+    return figure
+
+
+@_STYLE
+def aggregate_scores(rows: pd.DataFrame) -> Figure:
+    """Two panels for each normalisation: the average and the median of each agent."""
+    names = list(dict.fromkeys(rows["normalisation"]))
+    figure, panels = _grid(len(names), 2, 6.4, 1.9 * len(names))
+    for line, name in enumerate(names):
+        shown = rows[rows["normalisation"] == name]
+        for axes, statistic in zip(panels[2 * line:], ("average", "median")):
+            axes.bar(shown["agent"], shown[statistic], color=list(_colours(list(shown["agent"])).values()))
+            axes.set(title=f"{statistic} {name} score")
+            axes.axhline(0, color="black", linewidth=0.5)
+    return figure
+
+
+@_STYLE
+def distributions(rows: pd.DataFrame) -> Figure:
+    """A panel for each normalisation: the share of games with a score or a higher one, as steps."""
+    names = list(dict.fromkeys(rows["normalisation"]))
+    figure, panels = _grid(1, len(names), 3.4 * len(names), 3)
+    for axes, (name, shown) in zip(panels, _parts(rows, "normalisation")):
+        _show_all(axes, shown["score"])
+        colours = _colours(list(dict.fromkeys(shown["agent"])))
+        for agent, steps in _parts(shown, "agent"):
+            # Up to a score, the share is that of the games that have this score or more.
+            axes.step(steps["score"], steps["share of games"], where="pre", color=colours[agent], label=agent)
+        axes.set(title=f"{name} scores", xlabel="score", ylabel="share of games", ylim=(0, 1.02))
+    panels[-1].legend()
+    return figure
+
+
+@_STYLE
+def profiles(rows: pd.DataFrame) -> Figure:
+    """A panel for each normalisation: performance profiles with their intervals."""
+    names = list(dict.fromkeys(rows["normalisation"]))
+    figure, panels = _grid(1, len(names), 3.4 * len(names), 3)
+    for axes, (name, shown) in zip(panels, _parts(rows, "normalisation")):
+        colours = _colours(list(dict.fromkeys(shown["agent"])))
+        for agent, curve in _parts(shown, "agent"):
+            _curve_with_band(axes, curve["threshold"], curve["share of trials"], (curve["low"], curve["high"]),
+                             colours[agent], agent)
+        axes.set(title=f"{name} scores", xlabel="threshold", ylabel="share of trials above it", ylim=(0, 1.02))
+    panels[-1].legend()
+    return figure
+
+
+@_STYLE
+def learning_curves(rows: pd.DataFrame) -> Figure:
+    """A panel for each game: the score of training episodes against frames, with the standard error over trials."""
+    games = list(dict.fromkeys(rows["game"]))
+    columns = min(3, len(games))
+    lines = -(-len(games) // columns)
+    figure, panels = _grid(lines, columns, 3.4 * columns, 2.4 * lines)
+    colours = _colours(list(dict.fromkeys(rows["agent"])))
+    for axes, (game, shown) in zip(panels, _parts(rows, "game")):
+        for agent, curve in _parts(shown, "agent"):
+            error = curve["standard error"].fillna(0)
+            _curve_with_band(axes, curve["frames"], curve["score"], (curve["score"] - error, curve["score"] + error),
+                             colours[agent], agent)
+        axes.set(title=game, xlabel="frames", ylabel="score")
+        axes.xaxis.set_major_locator(MaxNLocator(5))
+        axes.xaxis.set_major_formatter(EngFormatter(sep=""))
+    for axes in panels[len(games):]:
+        axes.set_axis_off()
+    handles = [matplotlib.lines.Line2D([], [], color=colour, label=agent) for agent, colour in colours.items()]
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(8, len(handles)))
+    return figure
+
+
+def _curve_with_band(axes: Axes, x: pd.Series, y: pd.Series, band: tuple[pd.Series, pd.Series], colour: str,
+                     label: str) -> None:
+    axes.plot(x, y, color=colour, label=label, linewidth=1.2)
+    low, high = (np.asarray(bound, dtype=float) for bound in band)
+    axes.fill_between(x, low, high, color=colour, alpha=0.2, linewidth=0)

@@ -1,0 +1,59 @@
+"""The report `machado2018`: averages of the last 100 training episodes after fixed numbers of frames.
+
+M. C. Machado et al.: "Revisiting the Arcade Learning Environment", Journal of Artificial Intelligence Research 61, 2018."""
+
+import pandas as pd
+
+from . import figure
+from .bootstrap import Bootstrap
+from .curves import learning_curves, with_trained_frames
+from .errors import BadInput
+from .figure import Picture
+from .games import in_order
+from .report import Report
+from .results import Results
+from .table import Table
+
+_CHECKPOINTS = (10_000_000, 50_000_000, 100_000_000, 200_000_000)  # frames of a trial
+_LAST = 100                                                        # training episodes
+_LONGEST = 18_000  # frames of an episode, which is how far short of a checkpoint the last whole one may end
+
+
+def evaluate(results: Results, _: Bootstrap) -> Report:
+    """The report of training episodes. Raises BadInput if there are none."""
+    if results.curves is None:
+        raise BadInput("the report machado2018 is of training episodes, and no RESULTS have curves.csv; expected one or more")
+    sources = results.curve_sources
+    report = Report("Evaluation as in Machado et al. 2018", [], sources)
+    report.add_table(Table("machado2018", f"Mean score of the last {_LAST} training episodes at four numbers of frames, and its "
+                           "standard deviation over trials.", checkpoints(results.curves), sources,
+                           (f"n/a: fewer frames, or fewer than {_LAST} episodes; a deviation needs two trials.",), digits=1))
+    curves = learning_curves(results.curves)
+    report.add_table(Table("learning-curves", "Scores of training episodes by the frames trained for.", curves, sources))
+    report.parts.append(Picture("learning-curves", "Scores of training episodes, with their standard error over trials.",
+                                figure.learning_curves(curves), sources))
+    return report
+
+
+def checkpoints(curves: pd.DataFrame) -> pd.DataFrame:
+    """A row for each game and agent: at each checkpoint mean and standard deviation over the trials that have reached it."""
+    trained = with_trained_frames(curves)
+    rows = []
+    for game in in_order(list(set(trained["game"]))):
+        for agent, episodes in trained[trained["game"] == game].groupby("agent"):
+            trials = [trial for _, trial in episodes.groupby("trial")]
+            row: dict[str, object] = {"game": game, "agent": agent, "trials": len(trials)}
+            for frames in _CHECKPOINTS:
+                means = pd.Series([_at(trial, frames) for trial in trials], dtype=float).dropna()
+                millions = f"{frames // 1_000_000} M"
+                row |= {millions: means.mean(), f"{millions} deviation": means.std(), f"{millions} trials": len(means)}
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def _at(trial: pd.DataFrame, frames: int) -> float:
+    """The mean score of the last 100 episodes that ended within `frames`; NaN if the trial has not got so far."""
+    ended = trial[trial["trained"] <= frames]
+    if len(ended) < _LAST or trial["trained"].iloc[-1] < frames - _LONGEST:
+        return float("nan")
+    return float(ended["score"].tail(_LAST).mean())

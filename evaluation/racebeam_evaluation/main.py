@@ -1,0 +1,70 @@
+"""The program racebeam-evaluate."""
+
+import argparse
+import pathlib
+import sys
+
+from . import atari100k, machado2018, paper2013
+from .bootstrap import Bootstrap
+from .errors import BadInput
+from .folder import check_free, write
+from .paper_report import evaluate_paper
+from .report import Report
+from .results import read_results
+
+_REPORTS = {"paper2013": paper2013.evaluate, "machado2018": machado2018.evaluate, "atari100k": atari100k.evaluate}
+
+_EPILOG = """\
+The exit status is 0 if all could be computed, 1 for bad input (nothing is then written), 2 for a usage error, and 3 if the
+report is written but tests could not be made, each of which standard error names. docs/evaluation.md explains the report."""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Does what `arguments`, else the command line, ask for. Returns the exit status."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if options.paper == bool(options.results):
+        parser.error("expected RESULTS, or --paper")
+    try:
+        check_free(options.into)
+        report = _report(options)
+        write(options.into, report.files())
+    except BadInput as error:
+        print(f"racebeam-evaluate: {error}", file=sys.stderr)
+        return 1
+    for sentence in report.untested:
+        print(f"racebeam-evaluate: {sentence}", file=sys.stderr)
+    print(f"{len(report.parts)} tables and figures: {options.into / 'report.md'}")
+    return 3 if report.untested else 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="racebeam-evaluate", epilog=_EPILOG,
+                                     description="Makes tables, tests and figures from results of racebeam experiment.")
+    parser.add_argument("results", nargs="*", type=pathlib.Path, metavar="RESULTS",
+                        help="a folder with results.csv; several are evaluated together")
+    parser.add_argument("--paper", action="store_true", help="evaluate the scores that Bellemare et al. 2013 print")
+    parser.add_argument("--into", required=True, type=pathlib.Path, metavar="FOLDER", help="a new or an empty folder")
+    parser.add_argument("--report", choices=_REPORTS, default="paper2013", help="the kind of report (default: %(default)s)")
+    parser.add_argument("--seed", type=_whole, default=1, help="of the bootstrap (default: %(default)s)")
+    parser.add_argument("--repetitions", type=_positive, default=2000, help="of the bootstrap (default: %(default)s)")
+    return parser
+
+
+def _whole(text: str) -> int:
+    if not text.isdecimal() or int(text) >= 2**32:
+        raise argparse.ArgumentTypeError(f"'{text}' is not accepted; expected 0 to {2**32 - 1}")
+    return int(text)
+
+
+def _positive(text: str) -> int:
+    if not text.isdecimal() or not 1 <= int(text) <= 1_000_000:
+        raise argparse.ArgumentTypeError(f"'{text}' is not accepted; expected 1 to 1000000")
+    return int(text)
+
+
+def _report(options: argparse.Namespace) -> Report:
+    bootstrap = Bootstrap(options.seed, options.repetitions)
+    if options.paper:
+        return evaluate_paper(bootstrap)
+    return _REPORTS[options.report](read_results(options.results), bootstrap)

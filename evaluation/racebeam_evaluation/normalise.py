@@ -1,0 +1,72 @@
+"""Normalised scores: (score - low) / (high - low), with a score range [low, high] for each game."""
+
+import dataclasses
+
+import pandas as pd
+
+from .games import HUMAN
+from .scores import BASELINES, Group, Scores
+
+
+@dataclasses.dataclass(frozen=True)
+class Ranges:
+    """The score range of each game. A range that is not known is NaN."""
+
+    name: str
+    low: pd.Series   # a score for each game
+    high: pd.Series  # the same
+    notes: tuple[str, ...] = ()
+    bounded: bool = False  # all normalised scores are from 0 to 1
+
+    def normalise(self, scores: pd.DataFrame) -> pd.DataFrame:
+        """The scores, a row for each game, normalised. NaN where there is no range, or it is empty."""
+        low, span = self.low.reindex(scores.index), self.span.reindex(scores.index)
+        return scores.sub(low, axis=0).div(span, axis=0)
+
+    @property
+    def span(self) -> pd.Series:
+        """high - low; NaN where it is 0."""
+        span = self.high - self.low
+        return span.where(span != 0)
+
+    def without(self, games: list[str]) -> list[str]:
+        """The games that have no range, or an empty one."""
+        known = self.span.dropna().index
+        return [game for game in games if game not in known]
+
+
+def all_ranges(scores: Scores, group: Group) -> list[Ranges]:
+    """The four normalisations of a group. Those that have no range at all are left out."""
+    ranges = [_random(scores), _baseline(scores), _inter_algorithm(scores, group), _human(scores)]
+    return [each for each in ranges if len(each.without(list(scores.means.index))) < len(scores.means.index)]
+
+
+def _random(scores: Scores) -> Ranges:
+    """From 0 to the absolute value of the mean score of random play."""
+    high = scores.views["random"].abs() if "random" in scores.views else pd.Series(index=scores.means.index, dtype=float)
+    return Ranges("random", high * 0, high)
+
+
+def _baseline(scores: Scores) -> Ranges:
+    """From the lowest to the highest score of the references, which should be all 37 baselines."""
+    known = scores.references.notna().sum(axis=1)
+    fewer = sorted(set(known[(known > 0) & (known < BASELINES)]))
+    notes = [f"Baseline scores: {_games(int((known == count).sum()))} {count} of the {BASELINES} references."
+             for count in fewer]
+    return Ranges("baseline", scores.references.min(axis=1), scores.references.max(axis=1), tuple(notes))
+
+
+def _games(count: int) -> str:
+    return "1 game has" if count == 1 else f"{count} games have"
+
+
+def _inter_algorithm(scores: Scores, group: Group) -> Ranges:
+    """From the lowest to the highest score of the group, in the games that all its agents have played."""
+    played = scores.columns(group.agents).dropna()
+    return Ranges("inter-algorithm", played.min(axis=1), played.max(axis=1), bounded=True)
+
+
+def _human(scores: Scores) -> Ranges:
+    """From published scores of random play to those of a human tester, in 57 games."""
+    comparable = HUMAN.drop(index=list(scores.other_rewards))
+    return Ranges("human", comparable["random"], comparable["human"])

@@ -1,0 +1,69 @@
+"""What `racebeam experiment` leaves in its folder: evaluation episodes in results.csv, training episodes in curves.csv."""
+
+import dataclasses
+import pathlib
+
+import pandas as pd
+
+from .csv_file import Kind, Source, read
+from .errors import BadInput
+
+DIVERGED = "diverged"  # the end of a trial whose weights are not finite; its row has no score
+
+_RESULTS = {"game": Kind.TEXT, "image_md5": Kind.TEXT, "agent": Kind.TEXT, "trial": Kind.WHOLE, "episode": Kind.WHOLE,
+            "score": Kind.OPTIONAL, "end": Kind.TEXT}
+_CURVES = {"game": Kind.TEXT, "agent": Kind.TEXT, "trial": Kind.WHOLE, "episode": Kind.WHOLE, "score": Kind.DECIMAL,
+           "frames": Kind.WHOLE}
+_KEY = ["game", "agent", "trial", "episode"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Results:
+    """The episodes of one or more folders."""
+
+    episodes: pd.DataFrame       # a row for each evaluation episode; the columns of _RESULTS
+    curves: pd.DataFrame | None  # a row for each training episode; the columns of _CURVES
+    sources: tuple[Source, ...]  # of episodes
+    curve_sources: tuple[Source, ...]
+
+
+def read_results(folders: list[pathlib.Path]) -> Results:
+    """Reads the results of all folders. Raises BadInput if one cannot be read, or if two contradict each other."""
+    episodes, sources = zip(*(_episodes(folder / "results.csv") for folder in folders))
+    found = [read(path, _CURVES) for folder in folders if (path := folder / "curves.csv").exists()]
+    together = _joined(list(episodes))
+    _check_once(together, "evaluation")
+    _check_images(together)
+    curves = _joined([frame for frame, _ in found]) if found else None
+    if curves is not None:
+        _check_once(curves, "training")
+    return Results(together, curves, sources, tuple(source for _, source in found))
+
+
+def _episodes(path: pathlib.Path) -> tuple[pd.DataFrame, Source]:
+    frame, source = read(path, _RESULTS)
+    unscored = frame["score"].isna() & (frame["end"] != DIVERGED)
+    if unscored.any():
+        raise BadInput(f"{path}, line {unscored.idxmax() + 2}: score is ''; expected a decimal number, "
+                       f"or the end {DIVERGED}")
+    return frame, source
+
+
+def _joined(frames: list[pd.DataFrame]) -> pd.DataFrame:
+    frame = pd.concat([frame.astype({"game": "str", "agent": "str"}) for frame in frames], ignore_index=True)
+    return frame.sort_values(_KEY, kind="stable", ignore_index=True)
+
+
+def _check_once(episodes: pd.DataFrame, kind: str) -> None:
+    twice = episodes[episodes.duplicated(_KEY)]
+    if len(twice):
+        row = twice.iloc[0]
+        raise BadInput(f"{kind} episode {row.episode} of trial {row.trial} of {row.agent} on {row.game} occurs twice; "
+                       f"expected each episode once, in all results together")
+
+
+def _check_images(episodes: pd.DataFrame) -> None:
+    for game, images in episodes.groupby("game")["image_md5"]:
+        different = sorted(set(images))
+        if len(different) > 1:
+            raise BadInput(f"{game} has the images {' and '.join(different)}; expected one image of each game")

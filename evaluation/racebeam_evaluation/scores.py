@@ -1,0 +1,102 @@
+"""Scores of agents in games: means of trials, views of the baselines, and groups of agents that are compared."""
+
+import dataclasses
+import re
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from .errors import BadInput
+from .games import in_order
+from .results import DIVERGED, Results
+
+BASELINES = 37                                   # Random, and one Const and one Perturb policy for each of 18 actions
+BASELINE_VIEWS = ("random", "const", "perturb")  # const and perturb: the best of 18 in each game
+_BASELINE = re.compile("random|(const|perturb)[-_].+")  # such as const_noop
+_LEARNERS = ("basic", "bass", "disco", "lsh", "ram")
+_PLANNERS = ("full_tree", "uct", "iw1")
+
+
+Trials = dict[tuple[str, str], npt.NDArray[np.float64]]  # by agent and game
+
+
+@dataclasses.dataclass(frozen=True)
+class Group:
+    """Agents that are compared with each other."""
+
+    name: str
+    agents: tuple[str, ...]
+
+
+@dataclasses.dataclass(frozen=True)
+class Scores:
+    """Scores of every agent in every game."""
+
+    means: pd.DataFrame                  # of trials: a row for each game, a column for each agent; NaN: not played
+    trials: Trials | None                # the mean of each trial of an agent in a game; None: only `means` are known
+    references: pd.DataFrame             # scores of baselines: a row for each game, a column for each baseline
+    views: pd.DataFrame                  # scores of BASELINE_VIEWS: a row for each game
+    notes: tuple[str, ...] = ()          # sentences on what was left out
+    other_rewards: tuple[str, ...] = ()  # games whose rewards were others than those of today
+
+    @property
+    def groups(self) -> list[Group]:
+        """Learners and planners, each if there are some. Without both, the baselines."""
+        planners = tuple(agent for agent in self.means if agent in _PLANNERS)
+        learners = tuple(agent for agent in self.means if agent not in _PLANNERS)
+        named = [Group("learning", learners), Group("planning", planners)]
+        return [group for group in named if group.agents] or [Group("baselines", tuple(self.views))]
+
+    def columns(self, agents: tuple[str, ...]) -> pd.DataFrame:
+        """The scores of agents or views."""
+        return pd.concat([self.means, self.views], axis=1)[list(agents)]
+
+    def common(self, group: Group) -> list[str]:
+        """The games that all agents of the group have played."""
+        return list(self.columns(group.agents).dropna().index)
+
+    def trial_scores(self, agent: str, game: str) -> npt.NDArray[np.float64]:
+        """The means of the agent's trials of the game; empty if there are none, or they are not known."""
+        return (self.trials or {}).get((agent, game), np.empty(0))
+
+
+def scores_of(results: Results) -> Scores:
+    """The scores of evaluation episodes. A trial that diverged has no score, and is named in the notes.
+
+    Raises BadInput if there is no score at all."""
+    diverged = results.episodes["end"] == DIVERGED
+    lost = results.episodes[diverged][["game", "agent", "trial"]].drop_duplicates()
+    counted = results.episodes[~diverged]
+    if not len(counted):
+        raise BadInput("every trial diverged; expected a score of one trial or more")
+    trials = counted.groupby(["game", "agent", "trial"])["score"].mean()
+    means = trials.groupby(["game", "agent"]).mean().unstack("agent")
+    means = means.reindex(index=in_order(list(set(results.episodes["game"]))))
+    references = means[[name for name in means if _view_of(name)]]
+    notes = [f"Trial {row.trial} of {row.agent} on {row.game} diverged, and is in no mean." for row in lost.itertuples()]
+    return Scores(means=means[_agents_in_order(means)], trials=_by_agent_and_game(trials), references=references,
+                  views=_views(references), notes=tuple(notes))
+
+
+def _by_agent_and_game(trials: pd.Series) -> Trials:
+    return {(agent, game): scores.to_numpy() for (game, agent), scores in trials.groupby(["game", "agent"])}
+
+
+def _view_of(agent: str) -> str:
+    """The view that the scores of a baseline belong to; "" of another agent."""
+    found = _BASELINE.fullmatch(agent)
+    return found[1] or agent if found else ""
+
+
+def _agents_in_order(means: pd.DataFrame) -> list[str]:
+    agents = [name for name in means if not _view_of(name)]
+    known = [*_LEARNERS, *_PLANNERS]
+    others = sorted(name for name in agents if name not in known)
+    return [name for name in _LEARNERS if name in agents] + others + [name for name in _PLANNERS if name in agents]
+
+
+def _views(references: pd.DataFrame) -> pd.DataFrame:
+    """Random, and the best Const and Perturb policy of each game."""
+    best = {view: references[[name for name in references if _view_of(name) == view]].max(axis=1) for view in BASELINE_VIEWS}
+    return pd.DataFrame(best, index=references.index).dropna(axis=1, how="all")

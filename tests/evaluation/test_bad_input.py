@@ -1,0 +1,152 @@
+"""Bad input gets one sentence and an exit status, and nothing is written."""
+
+import pathlib
+import tempfile
+import unittest
+
+import package
+
+package.require()
+
+from made_results import CURVES, RESULTS, curve, evaluate, result, results_of, write  # noqa: E402
+
+GOOD = {("basic", "pong"): [[1], [2]], ("bass", "pong"): [[3], [5]]}
+
+
+class BadInput(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def refused(self, sentence, *arguments, status=1):
+        """Checks that the run says `sentence`, ends with `status`, and leaves nothing."""
+        before = sorted(self.root.rglob("*"))
+        done = evaluate(*arguments or [self.root / "a"], "--into", self.root / "out")
+        self.assertEqual((done.returncode, done.stdout), (status, ""), done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()) if status == 1 else 1, 1, done.stderr)
+        self.assertIn(sentence, done.stderr)
+        self.assertEqual(sorted(self.root.rglob("*")), before)
+
+    def lines(self, *lines, header=RESULTS, curves=()):
+        return write(self.root / "a", lines, curves, header)
+
+    def test_columns_are_missing(self):
+        self.lines("1,pong,2", header="unit,game,score")
+        self.refused("results.csv lacks the columns image_md5, agent, trial, episode, end; expected at least "
+                     "game,image_md5,agent,trial,episode,score,end")
+
+    def test_text_for_a_number(self):
+        self.lines(result("pong", "basic", 0, 0, 1), result("pong", "basic", 0, 1, "high"))
+        self.refused("results.csv, line 3: score is 'high'; expected a decimal number")
+
+    def test_a_score_that_is_not_finite(self):
+        self.lines(result("pong", "basic", 0, 0, "inf"))
+        self.refused("results.csv, line 2: score is 'inf'; expected a decimal number")
+
+    def test_no_score_of_a_trial_that_did_not_diverge(self):
+        self.lines(result("pong", "basic", 0, 0, ""))
+        self.refused("results.csv, line 2: score is ''; expected a decimal number, or the end diverged")
+
+    def test_a_trial_that_is_no_whole_number(self):
+        for value in ("1.5", "-1", "one"):
+            self.lines(result("pong", "basic", value, 0, 1))
+            self.refused(f"results.csv, line 2: trial is '{value}'; expected a whole number of at least 0")
+
+    def test_a_line_of_another_length(self):
+        self.lines(result("pong", "basic", 0, 0, 1), "1,2,3")
+        self.refused("results.csv, line 3, has 3 fields; expected 16, as the header has")
+        self.lines(result("pong", "basic", 0, 0, 1) + ",7")
+        self.refused("results.csv, line 2, has 17 fields; expected 16")
+
+    def test_no_rows_and_an_empty_file(self):
+        self.lines()
+        self.refused("results.csv has no rows; expected at least one below the header")
+        (self.root / "a/results.csv").write_text("")
+        self.refused("results.csv lacks the columns")
+
+    def test_bytes_that_are_no_text(self):
+        (self.lines() / "results.csv").write_bytes(RESULTS.encode() + b"\n\xff\n")
+        self.refused(f"results.csv: byte {len(RESULTS) + 1} is not UTF-8; expected a CSV file in UTF-8")
+
+    def test_no_file(self):
+        self.refused("results.csv cannot be read: No such file or directory; expected a CSV file")
+
+    def test_curves_are_as_strict(self):
+        self.lines(*results_of(GOOD), curves=[curve("pong", "basic", 0, 0, 1, 100), "u,pong,basic,0,1,1,many,2"])
+        self.refused("curves.csv, line 3: frames is 'many'; expected a whole number of at least 0")
+        self.assertIn("frames", CURVES)
+
+    def test_an_episode_twice(self):
+        self.lines(*results_of(GOOD), result("pong", "bass", 1, 0, 5))
+        self.refused("evaluation episode 0 of trial 1 of bass on pong occurs twice; expected each episode once")
+
+    def test_the_same_results_twice(self):
+        folder = self.lines(*results_of(GOOD))
+        self.refused("of basic on pong occurs twice", folder, folder)
+
+    def test_two_images_of_a_game(self):
+        write(self.root / "a", [result("pong", "basic", 0, 0, 1, md5="aa")])
+        write(self.root / "b", [result("pong", "bass", 0, 0, 1, md5="bb")])
+        self.refused("pong has the images aa and bb; expected one image of each game", self.root / "a", self.root / "b")
+
+    def test_a_folder_that_is_full(self):
+        self.lines(*results_of(GOOD))
+        (self.root / "out").mkdir()
+        (self.root / "out/mine").touch()
+        self.refused("out is not empty; expected a new or an empty folder")
+
+    def test_a_folder_that_cannot_be(self):
+        self.lines(*results_of(GOOD))
+        done = evaluate(self.root / "a", "--into", self.root / "none/out")
+        self.assertEqual((done.returncode, done.stderr.splitlines()),
+                         (1, [f"racebeam-evaluate: {self.root}/none is no folder; expected one, in which out is made"]))
+
+    def test_reports_of_what_is_not_there(self):
+        folder = self.lines(*results_of({("basic", "beamfall"): [[1], [2]]}))
+        self.refused("no RESULTS have curves.csv", folder, "--report", "machado2018")
+        self.refused("no game of RESULTS is one of Atari 100k; expected some of alien, amidar", folder, "--report", "atari100k")
+
+    def test_every_trial_diverged(self):
+        self.lines(result("pong", "basic", 0, 0, "", end="diverged"))
+        self.refused("every trial diverged; expected a score")
+
+    def test_usage(self):
+        folder = self.lines(*results_of(GOOD))
+        self.refused("expected RESULTS, or --paper", "--seed", "1", status=2)
+        self.refused("expected RESULTS, or --paper", folder, "--paper", status=2)
+        self.refused("'-1' is not accepted; expected 0 to 4294967295", folder, "--seed=-1", status=2)
+        self.refused("'0' is not accepted; expected 1 to 1000000", folder, "--repetitions", "0", status=2)
+
+
+class Untested(unittest.TestCase):
+    """Tests that cannot be made are named. The rest of the report is written, and the status is 3."""
+
+    def evaluated(self, scores):
+        with tempfile.TemporaryDirectory() as root:
+            out = pathlib.Path(root) / "out"
+            done = evaluate(write(pathlib.Path(root) / "a", results_of(scores)), "--into", out)
+            return done.returncode, done.stderr.splitlines(), (out / "report.md").read_text()
+
+    def test_fewer_than_two_trials(self):
+        status, said, report = self.evaluated(GOOD | {("bass", "pong"): [[3, 5]]})
+        self.assertEqual(status, 3)
+        self.assertEqual(said, ["racebeam-evaluate: Not tested: bass on pong has fewer than 2 trials; a test takes 2 or more."])
+        self.assertIn("Not tested: bass on pong has fewer than 2 trials", report)
+
+    def test_no_variance(self):
+        status, said, report = self.evaluated({("basic", "pong"): [[0], [0]], ("bass", "pong"): [[2], [2]]})
+        self.assertEqual(status, 3)
+        self.assertEqual(said, ["racebeam-evaluate: Not tested: basic and bass on pong have no variance; a test takes trials that "
+                                "differ."])
+        self.assertIn("Not tested: basic and bass on pong have no variance", report)
+
+    def test_a_game_that_one_lacks(self):
+        status, said, report = self.evaluated(GOOD | {("bass", "boxing"): [[1], [2]]})
+        self.assertEqual((status, said), (0, []))
+        self.assertIn("basic and bass are compared in 1 game; only one of them has played boxing.", report)
+        self.assertIn("Not every agent has played boxing: not aggregated.", report)
+
+
+if __name__ == "__main__":
+    package.main()

@@ -1,0 +1,161 @@
+"""The reports have all that docs/evaluation.md lists, and the same input gives the same bytes."""
+
+import hashlib
+import pathlib
+import re
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import package
+
+package.require()
+
+from made_results import curve, evaluate, results_of, tables, write  # noqa: E402
+
+GAMES = ("asterix", "freeway", "boxing", "pong")
+GROUPS = ("scores", "times-best", "normalised", "aggregates", "distribution", "profiles")
+OF_TRIALS = ("tests", "means", "improvement")
+
+
+def made_up():
+    """Scores of two learners, a planner and all baselines, in four games."""
+    policies = ["random", *(f"{kind}_{action}" for kind in ("const", "perturb") for action in range(18))]
+    scores = {(policy, game): [[(7 * number + 3 * column) % 11, number]] for number, policy in enumerate(policies)
+              for column, game in enumerate(GAMES)}
+    for number, agent in enumerate(("basic", "bass", "full_tree", "uct")):
+        for column, game in enumerate(GAMES):
+            scores[agent, game] = [[10 * number + column + trial, 5 + trial] for trial in range(3)]
+    return scores
+
+
+def curves_of(agents, frames=10_000, episodes=1001):
+    return [curve(game, agent, trial, episode, (episode + trial) % 7, frames) for game in GAMES[:2] for agent in agents
+            for trial in range(2) for episode in range(episodes)]
+
+
+def read(folder):
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+class Reports(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.root = pathlib.Path(folder.name)
+        cls.results = write(cls.root / "results", results_of(made_up()), curves_of(("basic", "bass")))
+        cls.digest = hashlib.sha256((cls.results / "results.csv").read_bytes()).hexdigest()
+        cls.files = cls.evaluated("once")
+
+    @classmethod
+    def evaluated(cls, name, *arguments):
+        done = evaluate(*arguments or [cls.results], "--into", cls.root / name)
+        if done.returncode:
+            raise AssertionError(done.stderr)
+        return read(cls.root / name)
+
+    def test_every_table_is_there_in_three_forms(self):
+        names = [f"{group}-{table}" for group in ("learning", "planning") for table in GROUPS + OF_TRIALS]
+        for name in [*names, "groups", "beside-the-paper", "learning-curves"]:
+            for form in ("csv", "md", "tex"):
+                self.assertIn(f"tables/{name}.{form}", self.files)
+
+    def test_every_figure_is_there_in_two_forms_and_is_one(self):
+        names = [f"{group}-{figure}" for group in ("learning", "planning")
+                 for figure in ("normalised", "aggregates", "distribution", "profiles")]
+        for name in [*names, "learning-curves"]:
+            self.assertEqual(self.files[f"figures/{name}.png"][:8], b"\x89PNG\r\n\x1a\n")
+            self.assertTrue(xml.etree.ElementTree.fromstring(self.files[f"figures/{name}.svg"]).tag.endswith("svg"))
+
+    def test_tables_name_what_they_were_made_from(self):
+        for name, content in self.files.items():
+            if name.startswith("tables/") and "curves" not in name:
+                self.assertIn(f"made from results.csv sha256:{self.digest}", content.decode(), name)
+        curves = hashlib.sha256((self.results / "curves.csv").read_bytes()).hexdigest()
+        self.assertIn(f"made from curves.csv sha256:{curves}".encode(), self.files["tables/learning-curves.csv"])
+
+    def test_links_of_the_document_exist(self):
+        links = re.findall(r"\]\((.*?)\)", self.files["report.md"].decode())
+        self.assertGreater(len(links), 8)
+        for link in links:
+            self.assertIn(link, self.files)
+
+    def test_the_document_says_which_sets_it_has(self):
+        text = self.files["report.md"].decode()
+        self.assertIn("Games: 2 of the training set, 2 of the testing set.", text)
+        self.assertIn("| inter-algorithm | training + testing | basic | 4 |", text)
+
+    def test_the_three_forms_say_the_same(self):
+        csv, markdown, latex = (self.files[f"tables/learning-scores.{form}"].decode() for form in ("csv", "md", "tex"))
+        self.assertIn("\nset,game,basic,bass,random,const,perturb\ntraining,asterix,3.5,8.5,0,13,23\n", csv)
+        self.assertIn("| training | asterix | 3.5 | 8.5 | 0.0 | 13.0 | **23.0** |", markdown)
+        self.assertIn(r"training & asterix & 3.5 & 8.5 & 0.0 & 13.0 & \textbf{23.0} \\", latex)
+
+    def test_the_same_input_gives_the_same_bytes(self):
+        again = self.evaluated("again")
+        self.assertEqual(sorted(again), sorted(self.files))
+        self.assertEqual([name for name in again if again[name] != self.files[name]], [])
+
+    def test_the_order_of_the_rows_changes_digests_alone(self):
+        folder = write(self.root / "reversed", reversed(results_of(made_up())), curves_of(("basic", "bass")))
+        other = hashlib.sha256((folder / "results.csv").read_bytes()).hexdigest()
+        found = tables(folder)
+        self.assertEqual(len(found), sum(name.startswith("tables/") for name in self.files))
+        for name, text in found.items():
+            self.assertEqual(text.replace(other, self.digest), self.files[f"tables/{name}"].decode(), name)
+
+    def test_two_folders_are_evaluated_together(self):
+        halves = [{key: value for key, value in made_up().items() if (key[0] == "bass") == wanted} for wanted in (True, False)]
+        scores = tables(*(write(self.root / f"half{number}", results_of(half))
+                          for number, half in enumerate(halves)))["learning-scores.csv"]
+        self.assertEqual(scores.count("made from results.csv sha256:"), 2)
+        self.assertEqual(scores.split("set,")[1], self.files["tables/learning-scores.csv"].decode().split("set,")[1])
+
+    def test_baselines_alone(self):
+        lines = results_of({key: value for key, value in made_up().items() if key[0].split("_")[0] in ("random", "const")})
+        found = tables(write(self.root / "alone", lines))
+        self.assertIn("set,game,random,const\n", found["baselines-scores.csv"])
+        self.assertNotIn("baselines-tests.csv", found)
+
+    def test_one_agent_in_a_game_of_ours(self):
+        found = tables(write(self.root / "small", results_of({("basic", "beamfall"): [[1], [2]]})))
+        self.assertIn("other,beamfall,1.5\n", found["learning-scores.csv"])
+        self.assertNotIn("learning-tests.csv", found)
+
+    def test_machado2018(self):
+        files = self.evaluated("machado", self.results, "--report", "machado2018")
+        table = files["tables/machado2018.csv"].decode().splitlines()
+        self.assertTrue(table[1].startswith("game,agent,trials,10 M,"))
+        self.assertTrue(table[2].startswith("asterix,basic,2,3."), table[2])
+        self.assertTrue(table[2].endswith(",2,n/a,n/a,0,n/a,n/a,0,n/a,n/a,0"), table[2])
+        self.assertIn("figures/learning-curves.svg", files)
+
+    def test_atari100k(self):
+        files = self.evaluated("atari", self.results, "--report", "atari100k")
+        self.assertIn("Of the 26 games, 22 are missing: alien, amidar,", files["report.md"].decode())
+        self.assertIn(b"\nasterix,210,8503.3,3.5,8.5\n", files["tables/learning-scores.csv"])
+        self.assertIn("figures/learning-profiles.svg", files)
+
+
+class Paper(unittest.TestCase):
+    def test_it_is_whole_and_says_what_cannot_be_rebuilt(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = evaluate("--paper", "--into", pathlib.Path(folder) / "paper")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            files = read(pathlib.Path(folder) / "paper")
+        text = files["report.md"].decode()
+        for sentence in ("prints 3: random play, and the best Const and Perturb policy", "prints no single trials",
+                         "Games: 5 of the training set, 50 of the testing set.",
+                         "No baseline score (n/a) in skiing, venture: the range is unknown or empty."):
+            self.assertIn(sentence, text)
+        self.assertIn(b"\nbasic,bass,18,32,20,35,0\n", files["tables/paired.csv"])
+        self.assertIn(b"\nplanners above both or equal,49,49\n", files["tables/claims.csv"])
+        for group in ("learning", "planning"):
+            for table in GROUPS:
+                self.assertIn(f"tables/{group}-{table}.csv", files)
+            self.assertNotIn(f"tables/{group}-improvement.csv", files)
+
+
+if __name__ == "__main__":
+    package.main()

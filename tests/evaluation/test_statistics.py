@@ -1,0 +1,206 @@
+"""Statistics of small samples, by hand or by rliable itself."""
+
+import unittest
+
+import package
+
+package.require()
+
+import numpy as np  # noqa: E402
+import pandas as pd  # noqa: E402
+from racebeam_evaluation import aggregate, bootstrap, curves, machado2018, paired  # noqa: E402
+from racebeam_evaluation.normalise import Ranges, all_ranges  # noqa: E402
+from racebeam_evaluation.results import Results  # noqa: E402
+from racebeam_evaluation.scores import Group, scores_of  # noqa: E402
+from rliable import metrics  # noqa: E402
+
+FEW = bootstrap.Bootstrap(seed=5, repetitions=200)
+
+
+def results_of(scores, ends=None):
+    """Results of {(agent, game): [scores of the episodes of each trial]}."""
+    rows = [(game, "m", agent, trial, episode, score, "over") for (agent, game), trials in scores.items()
+            for trial, episodes in enumerate(trials) for episode, score in enumerate(episodes)]
+    columns = ["game", "image_md5", "agent", "trial", "episode", "score", "end"]
+    return Results(pd.DataFrame(rows + (ends or []), columns=columns), None, (), ())
+
+
+def curves_of(episodes):
+    """A frame of curves.csv of (game, agent, trial, episode, score, frames)."""
+    return pd.DataFrame(episodes, columns=["game", "agent", "trial", "episode", "score", "frames"])
+
+
+class Scores(unittest.TestCase):
+    def test_a_score_is_the_mean_over_trials_of_their_means(self):
+        scores = scores_of(results_of({("basic", "asterix"): [[1, 2, 3], [10]]}))
+        self.assertEqual(scores.means.loc["asterix", "basic"], 6)
+        self.assertEqual(scores.trial_scores("basic", "asterix").tolist(), [2, 10])
+
+    def test_a_trial_that_diverged_is_in_no_mean_and_is_named(self):
+        lost = [("asterix", "m", "basic", 1, 0, float("nan"), "diverged"), ("boxing", "m", "ram", 0, 0, 7, "diverged")]
+        scores = scores_of(results_of({("basic", "asterix"): [[4]], ("basic", "boxing"): [[5]]}, lost))
+        self.assertEqual(scores.means["basic"].to_list(), [4, 5])
+        self.assertNotIn("ram", scores.means)
+        self.assertEqual(scores.notes, ("Trial 1 of basic on asterix diverged, and is in no mean.",
+                                        "Trial 0 of ram on boxing diverged, and is in no mean."))
+
+    def test_const_and_perturb_are_the_best_of_their_policies(self):
+        given = {("random", "boxing"): [[3]], ("const_0", "boxing"): [[4]], ("const_17", "boxing"): [[9]],
+                 ("perturb_2", "boxing"): [[5]], ("perturb_3", "boxing"): [[-5]], ("basic", "boxing"): [[0]]}
+        scores = scores_of(results_of(given))
+        self.assertEqual(scores.views.loc["boxing"].to_dict(), {"random": 3, "const": 9, "perturb": 5})
+        self.assertEqual(list(scores.means), ["basic"])
+
+    def test_learners_and_planners_are_groups_and_baselines_alone_are_one(self):
+        both = scores_of(results_of({(agent, "boxing"): [[1]] for agent in ("uct", "constant", "basic", "random", "const-3")}))
+        self.assertEqual([group.agents for group in both.groups], [("basic", "constant"), ("uct",)])
+        alone = scores_of(results_of({(agent, "boxing"): [[1]] for agent in ("random", "const_upfire")}))
+        self.assertEqual([group.agents for group in alone.groups], [("random", "const")])
+
+    def test_games_are_in_the_papers_order(self):
+        scores = scores_of(results_of({("basic", game): [[1]] for game in ("beamfall", "alien", "freeway")}))
+        self.assertEqual(list(scores.means.index), ["freeway", "alien", "beamfall"])
+
+
+class Normalisation(unittest.TestCase):
+    def setUp(self):
+        given = {("random", "boxing"): [[-2]], ("random", "pong"): [[0]], ("random", "freeway"): [[5]]}
+        given |= {(f"const_{action}", game): [[action]] for action in range(18) for game in ("boxing", "freeway")}
+        given |= {(f"perturb_{action}", game): [[2 * action]] for action in range(18) for game in ("boxing", "freeway")}
+        given |= {("basic", game): [[score]] for game, score in (("boxing", 16), ("pong", 3), ("freeway", 1))}
+        given |= {("bass", game): [[score]] for game, score in (("boxing", 7), ("pong", 3), ("freeway", 2))}
+        self.scores = scores_of(results_of(given))
+        self.ranges = {each.name: each for each in all_ranges(self.scores, Group("learning", ("basic", "bass")))}
+
+    def of_basic(self, name):
+        return self.ranges[name].normalise(self.scores.means)["basic"]
+
+    def test_random(self):
+        self.assertEqual(self.of_basic("random")["boxing"], 8)       # 16 / |-2|
+        self.assertTrue(np.isnan(self.of_basic("random")["pong"]))   # 3 / 0
+        self.assertEqual(self.ranges["random"].without(["boxing", "pong"]), ["pong"])
+
+    def test_baseline(self):
+        self.assertEqual(self.of_basic("baseline")["boxing"], 18 / 36)  # from random's -2 to perturb_17's 34
+        self.assertEqual(self.ranges["baseline"].without(["boxing", "pong"]), ["pong"])  # one reference is no range
+        self.assertEqual(self.ranges["baseline"].notes, ("Baseline scores: 1 game has 1 of the 37 references.",))
+
+    def test_inter_algorithm(self):
+        self.assertEqual(self.of_basic("inter-algorithm")[["freeway", "boxing"]].to_list(), [0, 1])
+        self.assertEqual(self.ranges["inter-algorithm"].without(["pong"]), ["pong"])
+
+    def test_human(self):
+        self.assertAlmostEqual(self.of_basic("human")["boxing"], (16 - 0.1) / (12.1 - 0.1))
+
+    def test_aggregates_name_what_has_no_range_and_never_mix_sets_silently(self):
+        rows = aggregate.aggregate_rows(self.scores, self.ranges["inter-algorithm"], Group("learning", ("basic", "bass")), FEW)
+        found = {(row.set, row.agent): (row.games, row[5]) for row in rows.itertuples()}
+        self.assertEqual(found["training", "basic"], (1, 0))
+        self.assertEqual(found["testing", "basic"], (1, 1))
+        self.assertEqual(found["training + testing", "bass"], (2, 1))
+
+
+class Paired(unittest.TestCase):
+    def verdicts(self, first, second):
+        pair, = paired.pairs(scores_of(results_of({("basic", "pong"): [[score] for score in first],
+                                                   ("bass", "pong"): [[score] for score in second]})),
+                             Group("learning", ("basic", "bass")))
+        return [name for name in ("better", "worse", "few", "constant") if getattr(pair, name)]
+
+    def test_welch_by_hand(self):
+        # Means 2 and 5; variances of the means 1/3 and 4/3; t = -3 / sqrt(5/3); Welch's degrees of freedom 50/17.
+        # The density of t, integrated numerically, gives 0.104479.
+        self.assertAlmostEqual(paired.welch(np.array([1., 2, 3]), np.array([3., 5, 7])), 0.104479, places=6)
+
+    def test_only_significant_differences_count(self):
+        self.assertEqual(self.verdicts([1, 2, 3], [3, 5, 7]), [])
+        self.assertEqual(self.verdicts([1, 2, 3, 2], [30, 31, 32, 33]), ["worse"])
+        self.assertEqual(self.verdicts([30, 31, 32, 33], [1, 2, 3, 2]), ["better"])
+        self.assertEqual(self.verdicts([30, 31, 32, 33], [1, 1]), ["better"])
+
+    def test_what_cannot_be_tested_is_said(self):
+        self.assertEqual(self.verdicts([1], [2, 3]), ["few"])
+        self.assertEqual(self.verdicts([1, 1], [2, 2, 2]), ["constant"])
+
+    def test_pairs_use_the_games_that_both_have(self):
+        given = {("basic", "pong"): [[1], [2]], ("bass", "pong"): [[1], [3]], ("bass", "boxing"): [[9], [8]]}
+        pair, = paired.pairs(scores_of(results_of(given)), Group("learning", ("basic", "bass")))
+        self.assertEqual((pair.games, pair.lacking), (["pong"], ["boxing"]))
+
+    def test_the_first_of_a_tie_is_best(self):
+        best, ties = paired.times_best(pd.DataFrame({"a": [1., 5], "b": [1., 6], "c": [0., 6]}, index=["x", "y"]))
+        self.assertEqual(best.to_dict(), {"a": 1, "b": 1, "c": 0})
+        self.assertEqual(ties, {"x": ["a", "b"], "y": ["b", "c"]})
+
+
+class Bootstrap(unittest.TestCase):
+    def setUp(self):
+        generator = np.random.default_rng(3)
+        self.first, self.second = generator.normal(1, 1, (6, 5)), generator.normal(0.5, 1, (4, 5))
+        self.first[0] = self.second[0] = 2  # ties
+
+    def test_improvement_is_that_of_rliable(self):
+        for pair in ((self.first, self.second), (self.second, self.first), (self.first, self.first)):
+            self.assertAlmostEqual(float(bootstrap.improvement(*pair)[0]), metrics.probability_of_improvement(*pair))
+
+    def test_a_profile_is_the_share_above_each_threshold(self):
+        shares = bootstrap.profile(np.array([0., 1, 2]))(np.array([[0., 1], [2, 3]]))
+        self.assertEqual(shares.tolist(), [0.75, 0.5, 0.25])
+
+    def test_the_interquartile_mean_and_the_optimality_gap(self):
+        scores = np.array([[0., 0.4], [0.6, 100]])
+        self.assertEqual(bootstrap.aggregates(scores).round(9).tolist(), [0.5, 0.5])
+
+    def test_the_seed_decides_and_the_global_generator_is_put_back(self):
+        np.random.seed(1)
+        before = np.random.get_state()[1].tolist()
+        one, same, other = (bootstrap.Bootstrap(seed, 50).estimate(bootstrap.aggregates, self.first) for seed in (1, 1, 2))
+        self.assertEqual((one.low.tolist(), one.high.tolist()), (same.low.tolist(), same.high.tolist()))
+        self.assertNotEqual(one.low.tolist(), other.low.tolist())
+        self.assertEqual(np.random.get_state()[1].tolist(), before)
+
+    def test_an_interval_contains_its_value_and_needs_two_trials(self):
+        estimate = FEW.estimate(bootstrap.aggregates, self.first)
+        self.assertTrue((estimate.low < estimate.value).all() and (estimate.value < estimate.high).all())
+        alone = FEW.estimate(bootstrap.aggregates, self.first[:1])
+        self.assertTrue(np.isnan(alone.low).all() and np.isnan(alone.high).all() and not np.isnan(alone.value).any())
+
+    def test_the_bootstrap_is_stratified_by_game(self):
+        constant_in_each_game = np.array([[1., 2, 4]] * 5)
+        estimate = FEW.estimate(bootstrap.aggregates, constant_in_each_game)
+        self.assertEqual(estimate.low.tolist(), estimate.value.tolist())
+
+    def test_uneven_trials_are_cut_to_the_fewest(self):
+        scores = scores_of(results_of({("basic", "pong"): [[1], [2], [3]], ("basic", "boxing"): [[4], [5]]}))
+        self.assertEqual(aggregate.matrix(scores, "basic", ["pong", "boxing"]).tolist(), [[1, 4], [2, 5]])
+        ranges = Ranges("made", pd.Series({"pong": 1., "boxing": 0}), pd.Series({"pong": 3., "boxing": 10}))
+        self.assertEqual(aggregate.normalised_matrix(scores, ranges, "basic", ["pong", "boxing"]).tolist(),
+                         [[0, 0.4], [0.5, 0.5]])
+
+
+class Curves(unittest.TestCase):
+    def test_a_curve_is_the_mean_of_trials_in_stretches_of_frames(self):
+        episodes = [("pong", "basic", trial, episode, score, 50) for trial, scores in enumerate(([1, 3], [5, 7]))
+                    for episode, score in enumerate(scores)]
+        made = curves.learning_curves(curves_of(episodes))
+        self.assertEqual(made["frames"].to_list(), [50, 100])
+        self.assertEqual(made["score"].to_list(), [3, 5])
+        self.assertEqual(made["standard error"].to_list(), [2, 2])
+
+    def test_checkpoints_take_the_last_100_episodes_that_ended_before(self):
+        # Episodes of 10,000 frames: the 1,000th ends at 10 million frames. The score is the number of the episode.
+        episodes = [("pong", "basic", trial, number, number + trial, 10_000) for trial in (0, 2) for number in range(1, 1101)]
+        row = machado2018.checkpoints(curves_of(episodes)).iloc[0]
+        self.assertEqual(row["10 M"], (901 + 1000) / 2 + 1)
+        self.assertAlmostEqual(row["10 M deviation"], np.sqrt(2))
+        self.assertEqual((row["10 M trials"], row["50 M trials"]), (2, 0))
+        self.assertTrue(np.isnan(row["50 M"]))
+
+    def test_a_checkpoint_is_reached_if_the_last_whole_episode_ends_just_before(self):
+        for frames, reached in ((9_990, 1), (9_980, 0)):  # of 1,000 episodes: 10,000 and 20,000 short of 10 million
+            episodes = [("pong", "basic", 0, number, 1, frames) for number in range(1000)]
+            self.assertEqual(machado2018.checkpoints(curves_of(episodes)).iloc[0]["10 M trials"], reached)
+
+
+if __name__ == "__main__":
+    package.main()
