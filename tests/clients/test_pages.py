@@ -22,6 +22,7 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 # The examples: file, arguments, a pattern of what they print.
 EXAMPLES = {
+    "shell": (),  # tests/clients/test_shell.py
     "js": (("clients/js/examples/many.mjs", (), r"scores (\d+ ?){8}\n"),),
     "lua": (("clients/lua/examples/gap.lua", (), r"score \d+ in \d+ acts\n"),
             ("clients/lua/examples/follow.lua", (), r"score \d+, \d\.\d KiB of garbage a step; a screen has 32\.8 KiB\n")),
