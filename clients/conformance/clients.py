@@ -1,6 +1,7 @@
 """The clients that hold the conformance conversation. A new client is a row of the table below."""
 
 import dataclasses
+import os
 import pathlib
 import shutil
 import subprocess
@@ -51,4 +52,7 @@ CLIENTS = (
              variables=(("LUA_PATH", f"{ROOT}/clients/lua/?.lua;{ROOT}/clients/lua/?/init.lua;;"),))
       for program in ("lua5.1", "lua5.4", "luajit")),
     Client("javascript", "js", ("node", str(HERE / "runner.mjs")), "clients/js/src/*.js"),
+    Client("bash", "shell", ("bash", str(HERE / "runner.bash")), "clients/shell/racebeam.bash",
+           offers=frozenset({"pipes", "file", "launch"}),
+           variables=(("PATH", f"{ROOT}/clients/shell:{os.environ['PATH']}"),)),
 )

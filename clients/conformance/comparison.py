@@ -62,12 +62,13 @@ def alike(names):
     return [(found[1], found[2]) for line in lines if (found := SECTION.match(line)) and found[2]]
 
 
-def differences(printed, names, reference):
+def differences(printed, names, reference, offers):
     """A sentence for each section that is not as the reference's, or not as the section that it is like."""
     own, others = sections(printed), sections(reference)
-    wrong = [difference(name, lines, others.get(name, [])) for name, lines in own.items() if lines != others.get(name)]
+    wanted = section_names(names, offers)
+    wrong = [difference(name, own.get(name, []), others[name]) for name in others if name in wanted and own.get(name) != others[name]]
     for name, other in alike(names):
-        pair = [[line for line in own[section] if not line.startswith("ok fields=")] for section in (name, other)]
+        pair = [[line for line in own.get(section, []) if not line.startswith("ok fields=")] for section in (name, other)]
         if pair[0] != pair[1]:
             wrong.append(difference(f"{name}, which is like {other}", *pair))
     return wrong

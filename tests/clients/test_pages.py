@@ -22,11 +22,43 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 # The examples: file, arguments, a pattern of what they print.
 EXAMPLES = {
+    "shell": (),  # tests/clients/test_shell.py
     "js": (("clients/js/examples/many.mjs", (), r"scores (\d+ ?){8}\n"),),
     "lua": (("clients/lua/examples/gap.lua", (), r"score \d+ in \d+ acts\n"),
             ("clients/lua/examples/follow.lua", (), r"score \d+, \d\.\d KiB of garbage a step; a screen has 32\.8 KiB\n")),
     "java": (("clients/java/examples/Planner.java", ("10",), r"score \d+, \d+ frames run\n"),
              ("clients/java/examples/Sarsa.java", ("10",), r"episodes 1 to 10: mean score \d+\.\d\n")),
+}
+
+# Programs whose standard streams are those of a server. They tell the frame that they reached on standard error.
+STDIO = {
+    "java": """import racebeam.*;
+               public class Stdio {
+                 public static void main(String[] words) throws Exception {
+                   try (Session game = Racebeam.connect("stdio")) {
+                     game.load("beamfall");
+                     game.observe("frame");
+                     System.err.println(game.act("FIRE*7").number("frame"));
+                   }
+                 }
+               }""",
+    "lua": """local game = require("racebeam").connect("stdio")
+              game:load("beamfall")
+              game:observe("frame")
+              io.stderr:write(game:act("FIRE*7").frame, "\\n")
+              game:close_connection()""",
+    "js": """import { connect } from "racebeam";
+             const game = await connect("stdio");
+             await game.load("beamfall");
+             await game.observe("frame");
+             console.error((await game.act("FIRE*7")).frame);
+             await game.disconnect();""",
+    "shell": """source racebeam.bash
+                racebeam_connect stdio
+                racebeam_ask load beamfall
+                racebeam_ask observe frame
+                racebeam_ask act 'FIRE*7'
+                racebeam_value frame >&2""",
 }
 
 
@@ -45,6 +77,15 @@ class Page(unittest.TestCase):
         self.addCleanup(self.server.__exit__)
         self.environment = dict(os.environ, **dict(self.client.variables), RACEBEAM_ADDRESS=f"tcp://127.0.0.1:{self.server.port()}", RACEBEAM_PROGRAM=BINARY)
 
+    def written(self, folder, body):
+        """The path of a new file with a program."""
+        name = re.search(r"public class (\w+)", body)
+        path = pathlib.Path(folder, (name[1] if name else "program") + pathlib.Path(self.client.runner[-1]).suffix)
+        path.write_text(body)
+        (path.parent / "node_modules").mkdir()  # where Node looks for packages; others do not mind
+        (path.parent / "node_modules/racebeam").symlink_to(SOURCE / "clients/js")
+        return path
+
     def check(self, program, words, pattern):
         done = subprocess.run([*self.client.runner[:-1], str(program), *words], env=self.environment, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, timeout=PATIENCE * 5)
@@ -55,13 +96,18 @@ class Page(unittest.TestCase):
         found = programs((SOURCE / self.client.page).read_text(), self.client.language)
         self.assertTrue(found)
         for number, (body, expected) in enumerate(found):
-            name = re.search(r"public class (\w+)", body)
             with self.subTest(program=number), tempfile.TemporaryDirectory() as folder:
-                path = pathlib.Path(folder, (name[1] if name else "program") + pathlib.Path(self.client.runner[-1]).suffix)
-                path.write_text(body)
-                (path.parent / "node_modules").mkdir()  # where Node looks for packages; others do not mind
-                (path.parent / "node_modules/racebeam").symlink_to(SOURCE / "clients/js")
-                self.check(path, (), ".*" if expected is None else re.escape(expected).replace(r"\.\.\.", ".*"))
+                self.check(self.written(folder, body), (), ".*" if expected is None else re.escape(expected).replace(r"\.\.\.", ".*"))
+
+    def test_its_standard_streams_can_be_those_of_a_server(self):
+        with tempfile.TemporaryDirectory() as folder, Server("serve", "--stdio", streams=True) as server:
+            path = self.written(folder, STDIO[self.client.language])
+            done = subprocess.run([*self.client.runner[:-1], str(path)], env=self.environment, stdin=server.process.stdout,
+                                  stdout=server.process.stdin, stderr=subprocess.PIPE, text=True, timeout=PATIENCE * 5)
+            self.assertEqual((done.returncode, done.stderr), (0, "7\n"))
+            server.process.stdin.close()
+            server.process.stdin = None
+            self.assertEqual(server.wait(), 0)
 
     def test_its_examples_play(self):
         for path, words, pattern in EXAMPLES[self.client.language]:

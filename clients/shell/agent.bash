@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Plays an episode of Beamfall over TCP, in a dozen lines of bash alone: agent.bash HOST PORT.
+set -euo pipefail
+exec {server}<>"/dev/tcp/${1:?agent.bash HOST PORT}/${2:?agent.bash HOST PORT}"
+ask() { echo "$*" >&"$server"; read -r -u "$server" reply; [[ $reply == ok* ]] || { echo "$reply" >&2; exit 1; }; }
+value() { reply+=' '; rest=${reply#* "$1"=}; echo "${rest%% *}"; }
+ask load beamfall seed=1 sticky=0 frame_skip=4
+ask observe reward ends
+score=0
+until [[ $reply == *terminated=1* || $reply == *truncated=1* ]]; do
+  ask act 'RIGHTFIRE*4' 'LEFTFIRE*4'
+  score=$((score + $(value reward)))
+done
+echo "score $score"

@@ -1,0 +1,83 @@
+"""The comparison of clients finds what differs, and what the conversation leaves out."""
+
+import pathlib
+import re
+import sys
+import unittest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(SOURCE / "tests/server"), str(SOURCE / "clients/conformance")]
+
+import clients  # noqa: E402
+import comparison  # noqa: E402
+import coverage  # noqa: E402
+from harness import BINARY, main  # noqa: E402
+
+FILES = ("conversation.txt", "faults.txt")
+
+
+def printed_by(names):
+    """Lines as a client prints them, a line for each section."""
+    return [line for name in names for line in (f"section {name}", "connected")]
+
+
+class Comparison(unittest.TestCase):
+    def setUp(self):
+        self.printed = printed_by(comparison.section_names(FILES, clients.EVERY_WAY))
+
+    def differences(self, printed, reference):
+        return comparison.differences(printed, FILES, reference, clients.EVERY_WAY)
+
+    def test_the_same_lines_agree(self):
+        self.assertEqual(self.differences(self.printed, self.printed), [])
+
+    def test_each_difference_is_named(self):
+        for changed in (self.printed[:1] + ["lost"] + self.printed[2:], self.printed[:1] + self.printed[2:],
+                        self.printed[:2] + ["ok"] + self.printed[2:], self.printed[:-2]):
+            self.assertEqual(len(self.differences(changed, self.printed)), 1)
+
+    def test_sections_that_are_alike_are_compared(self):
+        changed = [line for name in self.printed for line in ([name, "ok reward=1"] if name == "section rle" else [name])]
+        self.assertIn("rle, which is like hex", " ".join(self.differences(changed, changed)))
+
+    def test_a_client_gets_the_sections_that_it_can_hold(self):
+        self.assertLess(comparison.section_names(FILES), comparison.section_names(FILES, ("unix",)))
+        self.assertNotIn("unix", comparison.section_names(FILES))
+        self.assertNotIn("connect $TLS $TOKEN\n", comparison.steps(FILES, ()))
+
+
+class Coverage(unittest.TestCase):
+    def test_what_is_left_out_is_named(self):
+        steps = comparison.steps(FILES, clients.EVERY_WAY)
+        without = [line for line in steps if not line.startswith("> poke")]
+        self.assertIn("command poke", coverage.missing(BINARY, without, []))
+        self.assertNotIn("command poke", coverage.missing(BINARY, steps, []))
+        self.assertIn("error code busy", coverage.missing(BINARY, steps, []))
+        self.assertNotIn("error code busy", coverage.missing(BINARY, steps, ["error busy"]))
+        self.assertIn("choice of open lives=told", coverage.missing(BINARY, [], []))
+
+    def test_it_reads_the_help_of_the_server(self):
+        counts = {kind: len(names) for kind, names in coverage.expected(BINARY).items()}
+        document = (SOURCE / "protocol/PROTOCOL.md").read_text()
+        rows = re.findall(r"^\| `(\w+)[^|]*` \|", document.split("## Commands")[1].split("###")[0].replace("\\|", "/"), re.MULTILINE)
+        codes = re.findall(r"^\| `([\w-]+)` \|", document.split("## Errors")[1], re.MULTILINE)
+        self.assertEqual((counts["command"], counts["error code"], counts["encoding"]), (len(rows), len(codes), 5))
+
+
+class Versions(unittest.TestCase):
+    def test_all_packages_have_that_of_the_project(self):
+        def found(path, pattern):
+            return re.search(pattern, (SOURCE / path).read_text())[1]
+        version = found("CMakeLists.txt", r"project\(racebeam VERSION ([\d.]+)")
+        self.assertEqual(found("clients/java/pom.xml", r"<artifactId>racebeam</artifactId>\s*<version>(.*?)</version>"), version)
+        self.assertEqual(found("clients/js/package.json", r'"version": "(.*?)"'), version)
+        self.assertEqual(found("clients/lua/racebeam/init.lua", r'_VERSION = "(.*?)"'), version)
+        self.assertEqual(found(f"clients/lua/racebeam-{version}-1.rockspec", r'version = "(.*?)"'), f"{version}-1")
+
+    def test_ctest_runs_each_client(self):
+        listed = re.findall(r"foreach\(client ([^)]*)\)", (SOURCE / "tests/clients/CMakeLists.txt").read_text())[0].split()
+        self.assertEqual(listed, [client.name for client in clients.CLIENTS])
+
+
+if __name__ == "__main__":
+    main()
