@@ -103,7 +103,7 @@ def _add_scores(report: Report, scores: Scores, group: Group) -> None:
 def _add_normalised(report: Report, scores: Scores, group: Group, ranges: list[Ranges]) -> None:
     played = scores.columns(group.agents).dropna()
     normalised = {each.name: each.normalise(played) for each in ranges}
-    parts = [_with_set(frame).assign(normalisation=name) for name, frame in normalised.items()]
+    parts = [pd.concat({name: _with_set(frame)}, names=["normalisation"]).reset_index(0) for name, frame in normalised.items()]
     if not len(played) or not parts:
         return
     report.add_table(Table(f"{group.name}-normalised", f"Normalised scores of the group {group.name}.",
@@ -146,10 +146,10 @@ def _add_pairs(report: Report, scores: Scores, group: Group, bootstrap: Bootstra
     report.untested += notes.of_untested(scores, group, found)
     report.add_table(Table(f"{group.name}-tests", "Games in which the agent of the row is significantly better--worse than that "
                            "of the column (Welch's t-test over trials, two-tailed, 99 %).",
-                           paired.counts(found, group.agents, "better", "worse"), report.sources,
+                           paired.counts(found, group.agents, "better", "worse", "tested"), report.sources,
                            (*notes.of_lacking(found), *notes.of_untested(scores, group, found))))
     report.add_table(Table(f"{group.name}-means", "Games in which the agent of the row has a higher--lower mean than that of the "
-                           "column.", paired.counts(found, group.agents, "higher", "lower"), report.sources,
+                           "column.", paired.counts(found, group.agents, "higher", "lower", "games"), report.sources,
                            notes.of_lacking(found)))
     report.add_table(Table(f"{group.name}-improvement", "Probability that a trial of the first scores more than one of the "
                            "second.", aggregate.improvement_rows(scores, group, bootstrap), report.sources,
