@@ -9,7 +9,7 @@ from .curves import learning_curves
 from .figure import Picture
 from .games import PAPER, sets
 from .normalise import Ranges, all_ranges
-from .paper import beside_the_paper
+from .paper import beside_published
 from .report import Report
 from .results import Results
 from .scores import Group, Scores, scores_of
@@ -22,7 +22,7 @@ def evaluate(results: Results, bootstrap: Bootstrap) -> Report:
     """The report of results."""
     scores = scores_of(results)
     report = Report("Evaluation", list(scores.notes), results.sources)
-    report.add_table(Table("beside-the-paper", "Scores beside those that the paper prints.", beside_the_paper(scores),
+    report.add_table(Table("beside-published", "Scores beside those of the paper and of its successors.", beside_published(scores),
                            results.sources, digits=1))
     add_groups(report, scores, bootstrap)
     if results.curves is not None:
@@ -109,8 +109,9 @@ def _add_normalised(report: Report, scores: Scores, group: Group, ranges: list[R
     report.add_table(Table(f"{group.name}-normalised", f"Normalised scores of the group {group.name}.",
                            pd.concat(parts, ignore_index=True), report.sources))
     drawn = {name: frame for name, frame in normalised.items() if name in _OWN_FIGURES}
-    report.parts.append(Picture(f"{group.name}-normalised", f"Normalised scores of the group {group.name}.",
-                                figure.normalised_scores(drawn), report.sources))
+    if drawn:
+        report.parts.append(Picture(f"{group.name}-normalised", f"Normalised scores of the group {group.name}.",
+                                    figure.normalised_scores(drawn), report.sources))
 
 
 def _add_aggregates(report: Report, scores: Scores, group: Group, ranges: list[Ranges], bootstrap: Bootstrap) -> None:
