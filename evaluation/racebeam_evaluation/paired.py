@@ -32,6 +32,11 @@ class Pair:
     few: list[str]            # not tested: one has fewer than two trials
     constant: list[str]       # not tested: neither varies
 
+    @property
+    def tested(self) -> list[str]:
+        """The games with a test."""
+        return [game for game in self.games if game not in self.few and game not in self.constant]
+
 
 def pairs(scores: Scores, group: Group) -> list[Pair]:
     """All pairs of the group's agents."""
@@ -70,13 +75,16 @@ def welch(first: Sample, second: Sample) -> float:
         return float(scipy.stats.ttest_ind(first, second, equal_var=False).pvalue)
 
 
-def counts(tested: list[Pair], agents: tuple[str, ...], better: str, worse: str) -> pd.DataFrame:
-    """The paper's table: in row A and column B, the games in which A is better than B, and worse."""
+def counts(found: list[Pair], agents: tuple[str, ...], better: str, worse: str, of: str) -> pd.DataFrame:
+    """The paper's table: in row A and column B, the number of games in which A is better than B, and worse.
+
+    better, worse, of: names of lists of a Pair; without a game in the last one, the cell is "n/a"."""
     cells = pd.DataFrame("---", index=pd.Index(agents, name="agent"), columns=list(agents))
-    for pair in tested:
+    for pair in found:
         more, less = len(getattr(pair, better)), len(getattr(pair, worse))
-        cells.loc[pair.first, pair.second] = f"{more}--{less}"
-        cells.loc[pair.second, pair.first] = f"{less}--{more}"
+        known = bool(getattr(pair, of))
+        cells.loc[pair.first, pair.second] = f"{more}--{less}" if known else "n/a"
+        cells.loc[pair.second, pair.first] = f"{less}--{more}" if known else "n/a"
     return cells.reset_index()
 
 

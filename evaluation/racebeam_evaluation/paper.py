@@ -21,10 +21,12 @@ def paper_scores() -> Scores:
                   other_rewards=("skiing",))
 
 
-def beside_the_paper(scores: Scores) -> pd.DataFrame:
-    """A row for each game and agent that the paper has as well: both scores."""
-    ours, theirs = (pd.concat([each.means, each.views], axis=1) for each in (scores, paper_scores()))
+def beside_published(scores: Scores) -> pd.DataFrame:
+    """A row for each game and agent with a published score: ours, and that of the paper or of a successor."""
+    paper = paper_scores()
+    ours = pd.concat([scores.means, scores.views], axis=1)
+    theirs = pd.concat([paper.means, paper.views, published("successors")], axis=1)
     shared = [agent for agent in ours if agent in theirs]
-    rows = [{"game": game, "agent": agent, "score": ours.loc[game, agent], "paper": theirs.loc[game, agent]}
+    rows = [{"game": game, "agent": agent, "score": ours.loc[game, agent], "published": theirs.loc[game, agent]}
             for game in ours.index if game in theirs.index for agent in shared]
     return pd.DataFrame(rows).dropna() if rows else pd.DataFrame()

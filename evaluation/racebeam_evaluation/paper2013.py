@@ -9,7 +9,7 @@ from .curves import learning_curves
 from .figure import Picture
 from .games import PAPER, sets
 from .normalise import Ranges, all_ranges
-from .paper import beside_the_paper
+from .paper import beside_published
 from .report import Report
 from .results import Results
 from .scores import Group, Scores, scores_of
@@ -22,7 +22,7 @@ def evaluate(results: Results, bootstrap: Bootstrap) -> Report:
     """The report of results."""
     scores = scores_of(results)
     report = Report("Evaluation", list(scores.notes), results.sources)
-    report.add_table(Table("beside-the-paper", "Scores beside those that the paper prints.", beside_the_paper(scores),
+    report.add_table(Table("beside-published", "Scores beside those of the paper and of its successors.", beside_published(scores),
                            results.sources, digits=1))
     add_groups(report, scores, bootstrap)
     if results.curves is not None:
@@ -103,14 +103,15 @@ def _add_scores(report: Report, scores: Scores, group: Group) -> None:
 def _add_normalised(report: Report, scores: Scores, group: Group, ranges: list[Ranges]) -> None:
     played = scores.columns(group.agents).dropna()
     normalised = {each.name: each.normalise(played) for each in ranges}
-    parts = [_with_set(frame).assign(normalisation=name) for name, frame in normalised.items()]
+    parts = [pd.concat({name: _with_set(frame)}, names=["normalisation"]).reset_index(0) for name, frame in normalised.items()]
     if not len(played) or not parts:
         return
     report.add_table(Table(f"{group.name}-normalised", f"Normalised scores of the group {group.name}.",
                            pd.concat(parts, ignore_index=True), report.sources))
     drawn = {name: frame for name, frame in normalised.items() if name in _OWN_FIGURES}
-    report.parts.append(Picture(f"{group.name}-normalised", f"Normalised scores of the group {group.name}.",
-                                figure.normalised_scores(drawn), report.sources))
+    if drawn:
+        report.parts.append(Picture(f"{group.name}-normalised", f"Normalised scores of the group {group.name}.",
+                                    figure.normalised_scores(drawn), report.sources))
 
 
 def _add_aggregates(report: Report, scores: Scores, group: Group, ranges: list[Ranges], bootstrap: Bootstrap) -> None:
@@ -146,10 +147,10 @@ def _add_pairs(report: Report, scores: Scores, group: Group, bootstrap: Bootstra
     report.untested += notes.of_untested(scores, group, found)
     report.add_table(Table(f"{group.name}-tests", "Games in which the agent of the row is significantly better--worse than that "
                            "of the column (Welch's t-test over trials, two-tailed, 99 %).",
-                           paired.counts(found, group.agents, "better", "worse"), report.sources,
+                           paired.counts(found, group.agents, "better", "worse", "tested"), report.sources,
                            (*notes.of_lacking(found), *notes.of_untested(scores, group, found))))
     report.add_table(Table(f"{group.name}-means", "Games in which the agent of the row has a higher--lower mean than that of the "
-                           "column.", paired.counts(found, group.agents, "higher", "lower"), report.sources,
+                           "column.", paired.counts(found, group.agents, "higher", "lower", "games"), report.sources,
                            notes.of_lacking(found)))
     report.add_table(Table(f"{group.name}-improvement", "Probability that a trial of the first scores more than one of the "
                            "second.", aggregate.improvement_rows(scores, group, bootstrap), report.sources,

@@ -100,6 +100,11 @@ class Data(unittest.TestCase):
         self.assertEqual((PAPER["set"] == "testing").sum(), 50)
         self.assertEqual(len(published("human")), 57)
 
+    def test_successors(self):
+        successors = published("successors")
+        self.assertEqual(successors.loc["asterix"].to_list(), [153400, 3996.6])
+        self.assertEqual(successors.count().to_list(), [54, 52])
+
     def test_a_beginner(self):
         self.assertEqual(published("paper2013/human")["human"].to_dict(),
                          {"asterix": 620, "seaquest": 156, "boxing": -2, "hero": 6087, "zaxxon": 820})

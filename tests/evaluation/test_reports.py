@@ -57,7 +57,7 @@ class Reports(unittest.TestCase):
 
     def test_every_table_is_there_in_three_forms(self):
         names = [f"{group}-{table}" for group in ("learning", "planning") for table in GROUPS + OF_TRIALS]
-        for name in [*names, "groups", "beside-the-paper", "learning-curves"]:
+        for name in [*names, "groups", "beside-published", "learning-curves"]:
             for form in ("csv", "md", "tex"):
                 self.assertIn(f"tables/{name}.{form}", self.files)
 
@@ -105,6 +105,12 @@ class Reports(unittest.TestCase):
         for name, text in found.items():
             self.assertEqual(text.replace(other, self.digest), self.files[f"tables/{name}"].decode(), name)
 
+    def test_scores_stand_beside_published_ones(self):
+        scores = {("basic", "asterix"): [[1]], ("iw1", "freeway"): [[2]], ("blob_prost", "skiing"): [[3]], ("mine", "pong"): [[4]]}
+        found = tables(write(self.root / "published", results_of(scores)))["beside-published.csv"]
+        self.assertEqual(found.splitlines()[1:], ["game,agent,score,published", "asterix,basic,1,862.3", "freeway,iw1,2,31",
+                                                  "skiing,blob_prost,3,-29842.6"])
+
     def test_two_folders_are_evaluated_together(self):
         halves = [{key: value for key, value in made_up().items() if (key[0] == "bass") == wanted} for wanted in (True, False)]
         scores = tables(*(write(self.root / f"half{number}", results_of(half))
@@ -122,6 +128,12 @@ class Reports(unittest.TestCase):
         found = tables(write(self.root / "small", results_of({("basic", "beamfall"): [[1], [2]]})))
         self.assertIn("other,beamfall,1.5\n", found["learning-scores.csv"])
         self.assertNotIn("learning-tests.csv", found)
+
+    def test_groups_that_have_no_game_in_common(self):
+        found = tables(write(self.root / "apart", results_of({("basic", "pong"): [[1], [2]], ("ram", "boxing"): [[3], [4]]})))
+        self.assertIn("\ntesting,boxing,n/a,3.5\ntesting,pong,1.5,n/a\n", found["learning-scores.csv"])
+        self.assertNotIn("learning-normalised.csv", found)
+        self.assertIn("basic,---,n/a\n", found["learning-tests.csv"])
 
     def test_machado2018(self):
         files = self.evaluated("machado", self.results, "--report", "machado2018")

@@ -127,6 +127,13 @@ class Paired(unittest.TestCase):
         pair, = paired.pairs(scores_of(results_of(given)), Group("learning", ("basic", "bass")))
         self.assertEqual((pair.games, pair.lacking), (["pong"], ["boxing"]))
 
+    def test_the_table_says_where_nothing_was_tested(self):
+        scores = scores_of(results_of({("basic", "pong"): [[1], [2]], ("bass", "pong"): [[5]], ("ram", "boxing"): [[5], [6]]}))
+        agents = ("basic", "bass", "ram")
+        found = paired.pairs(scores, Group("learning", agents))
+        self.assertEqual(paired.counts(found, agents, "better", "worse", "tested")["bass"].to_list(), ["n/a", "---", "n/a"])
+        self.assertEqual(paired.counts(found, agents, "higher", "lower", "games")["bass"].to_list(), ["0--1", "---", "n/a"])
+
     def test_the_first_of_a_tie_is_best(self):
         best, ties = paired.times_best(pd.DataFrame({"a": [1., 5], "b": [1., 6], "c": [0., 6]}, index=["x", "y"]))
         self.assertEqual(best.to_dict(), {"a": 1, "b": 1, "c": 0})
