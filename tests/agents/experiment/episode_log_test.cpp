@@ -72,7 +72,7 @@ TEST_CASE("Sealed contents that are no episode are refused with a sentence") {
 }
 
 TEST_CASE("A file of a gibibyte is refused unread") {
-  const Folder folder;
+  const Scratch folder;
   const std::string path = folder.path("1.episode");
   write(path, bytes_of(random_log(short_episodes(500))));
   std::filesystem::resize_file(path, std::size_t{1} << 30);

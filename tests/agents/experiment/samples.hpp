@@ -1,8 +1,6 @@
 // Episodes, plans and folders for the tests of experiments, all on our own games.
 #pragma once
 
-#include <unistd.h>
-#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -12,28 +10,9 @@
 #include "agents/experiment/plan.hpp"
 #include "agents/experiment/play.hpp"
 #include "agents/kinds/baselines.hpp"
+#include "tests/games/scratch.hpp"
 
 namespace racebeam::test {
-
-// A folder that is removed at the end.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "racebeam_agents.XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string path(const std::string& name = "") const { return name.empty() ? path_ : path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
 
 inline std::string contents(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

@@ -61,7 +61,7 @@ std::string altered_field(const std::string& table, std::size_t line, std::size_
 }  // namespace
 
 TEST_CASE("An experiment's results are confirmed, and every alteration is named") {
-  const Folder place;
+  const Scratch place;
   const ResultsFolder folder(place.path("results"));
   const Plan plan = bound_plan(kPlan);
   run(plan, folder, {.threads = 2});
@@ -154,7 +154,7 @@ TEST_CASE("An experiment's results are confirmed, and every alteration is named"
 
 TEST_CASE(
     "Results are the same on one thread and two, by either processor, in shards and after interruptions") {
-  const Folder place;
+  const Scratch place;
   const Plan plan = bound_plan(kPlan);
   const ResultsFolder whole(place.path("whole")), parts(place.path("parts"));
   run(plan, whole);
@@ -167,7 +167,7 @@ TEST_CASE(
 }
 
 TEST_CASE("A trial goes on from its checkpoint as if nothing had happened") {
-  const Folder place;
+  const Scratch place;
   const Plan plan = bound_plan(kPlan);
   const ResultsFolder whole(place.path("whole")), parts(place.path("parts"));
   run(plan, whole);
@@ -190,8 +190,8 @@ TEST_CASE("A trial goes on from its checkpoint as if nothing had happened") {
 }
 
 TEST_CASE("A unit that another process runs is named, and the rest is done") {
-  const Folder place;
-  const ResultsFolder folder(place.path());
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
   const Plan plan = bound_plan(kPlan);
   fs::create_directories(folder.work());
   {
@@ -205,8 +205,8 @@ TEST_CASE("A unit that another process runs is named, and the rest is done") {
 }
 
 TEST_CASE("A damaged checkpoint, and a background of another game, are refused") {
-  const Folder place;
-  const ResultsFolder folder(place.path());
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
   const Plan plan = bound_plan(kPlan);
   fs::create_directories(folder.work());
   write(folder.checkpoint("beamfall-random-1"), "RBCHECKP");
@@ -218,8 +218,8 @@ TEST_CASE("A damaged checkpoint, and a background of another game, are refused")
 }
 
 TEST_CASE("Rows whose image is not here are listed, and never confirmed") {
-  const Folder place;
-  const ResultsFolder folder(place.path());
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
   run(bound_plan(kPlan), folder);
   EpisodeLog log = log_of("", contents(folder.log("beamfall-random-1", "1")));
   log.image_md5 = std::string(32, '0');
@@ -235,8 +235,8 @@ TEST_CASE("Rows whose image is not here are listed, and never confirmed") {
 }
 
 TEST_CASE("A trial that diverges has one row, which is never averaged") {
-  const Folder place;
-  const ResultsFolder folder(place.path());
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
   const Plan plan =
       bound_plan(std::string(kPlan) +
                  "[agent.basic]\nalpha = 100\nlambda = 1\nleast_trace = 0\ntraining_episodes = 50\n"

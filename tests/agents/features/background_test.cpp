@@ -44,7 +44,7 @@ TEST_CASE("A background is the same again, as CSV and as a file") {
   const Background background = discover_background(beamfall(), settings);
   CHECK(discover_background(beamfall(), settings) == background);
   CHECK(background_of_csv("a.csv", csv_of(background)) == background);
-  const Folder folder;
+  const Scratch folder;
   const std::string path = folder.path("a.background");
   write(path, bytes_of(background, beamfall(), settings));
   CHECK(background_of(path, beamfall(), settings) == background);
