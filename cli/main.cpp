@@ -10,13 +10,16 @@
 
 #include "cli/arguments/options.hpp"
 #include "cli/bench/bench.hpp"
+#include "cli/commands/background.hpp"
 #include "cli/commands/classic.hpp"
 #include "cli/commands/config.hpp"
+#include "cli/commands/experiment.hpp"
 #include "cli/commands/games.hpp"
 #include "cli/commands/png.hpp"
 #include "cli/commands/roms.hpp"
 #include "cli/commands/serve.hpp"
 #include "cli/commands/trace.hpp"
+#include "cli/commands/verify.hpp"
 #include "system/printable.hpp"
 
 namespace {
@@ -96,6 +99,9 @@ int main(int argc, char** argv) {
   racebeam::add_games(app);
   racebeam::add_roms(app);
   racebeam::add_png(app);
+  racebeam::add_experiment(app);
+  racebeam::add_verify(app);
+  racebeam::add_background(app);
   try {
     const std::vector<const char*> words = words_of(argc, argv);
     app.parse(static_cast<int>(words.size()), words.data());  // executes the subcommand

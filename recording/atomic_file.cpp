@@ -113,6 +113,26 @@ void AtomicFile::commit() {
   descriptor_ = -1;
 }
 
+// The name is always the same, so that what a kill left behind is overwritten by the next attempt.
+void replace_file(const std::string& path, std::string_view bytes, Durable durable) {
+  const fs::path whole(path);
+  std::string name = ".";
+  (name += whole.filename().string()) += ".part";
+  const std::string part = (whole.parent_path() / name).string();
+  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) fail("make", path);
+  try {
+    write_all(descriptor, 0, bytes, path);
+    if (durable == Durable::kNow && ::syncfs(descriptor) != 0) fail("sync", path);
+  } catch (...) {
+    ::close(descriptor);
+    ::unlink(part.c_str());
+    throw;
+  }
+  ::close(descriptor);
+  if (::rename(part.c_str(), path.c_str()) != 0) fail("replace", path);
+}
+
 AtomicFolder::AtomicFolder(std::string path, DiskBudget& budget)
     : path_(std::move(path)), temporary_(temporary_name(path_)), budget_(budget) {
   refuse_existing(path_);

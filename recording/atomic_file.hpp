@@ -51,6 +51,16 @@ class AtomicFile {
   std::size_t size_ = 0;  // without the tail
 };
 
+// Whether a file that replaces another waits for the disk.
+enum class Durable {
+  kLater,  // a kill leaves the old file or the new one, a power cut perhaps neither
+  kNow     // where the new file is, so is all that was written to its disk before
+};
+
+// Writes a whole file aside, under the name .NAME.part, and renames it over what `path` was. One caller at a
+// time. Throws std::runtime_error; the file is then what it was before.
+void replace_file(const std::string& path, std::string_view bytes, Durable durable);
+
 class AtomicFolder {
  public:
   AtomicFolder(std::string path, DiskBudget& budget);

@@ -68,6 +68,16 @@ CLI::Option* add_count(CLI::App& app, const std::string& name, int& value, int l
   return app.add_option(name, value, help)->check(whole_number(least, kMostInt))->capture_default_str();
 }
 
+void add_cpu_option(CLI::App& app, CpuKind& cpu) {
+  const auto set_cpu = [&cpu](const std::string& name) { cpu = kCpuKinds.at(name); };
+  app.add_option_function<std::string>(
+         "--cpu", set_cpu,
+         "How instructions are executed; auto: translated where that saves time and the system permits it; "
+         "translator: all code is translated at once, whatever that costs; interpreter: no code is")
+      ->check(CLI::IsMember(kCpuKinds))
+      ->default_str("auto");
+}
+
 void add_machine_options(CLI::App& app, MachineOptions& options) {
   Settings& settings = options.settings;
   app.add_option("--rom", options.rom, "The cartridge image: a file, or builtin:NAME")->required();
@@ -91,13 +101,7 @@ void add_machine_options(CLI::App& app, MachineOptions& options) {
       ->check(one_of(rules))
       ->default_str("ale-0.12")
       ->type_name("NAME");
-  const auto set_cpu = [&settings](const std::string& name) { settings.cpu = kCpuKinds.at(name); };
-  app.add_option_function<std::string>(
-         "--cpu", set_cpu,
-         "How instructions are executed; auto: translated where that saves time and the system permits it; "
-         "translator: all code is translated at once, whatever that costs; interpreter: no code is")
-      ->check(CLI::IsMember(kCpuKinds))
-      ->default_str("auto");
+  add_cpu_option(app, settings.cpu);
   app.add_option("--mode", options.mode, "Game variation (racebeam games lists them)")
       ->check(whole_number(0, kMostInt));
   app.add_option("--difficulty", options.difficulty, "Difficulty switches (racebeam games lists them)")

@@ -27,6 +27,9 @@ struct MachineOptions {
 // --mode --difficulty. Set `options` to the subcommand's defaults first; it must outlive the parsing.
 void add_machine_options(CLI::App& app, MachineOptions& options);
 
+// Adds --cpu. `cpu` must outlive the parsing.
+void add_cpu_option(CLI::App& app, CpuKind& cpu);
+
 // Accepts whole numbers in this range. Its message says what is accepted.
 CLI::Validator whole_number(std::int64_t least, std::int64_t most);
 

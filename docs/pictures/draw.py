@@ -23,6 +23,7 @@ LIBRARIES = {
     "boxes": {
         "cli": (1, 0, 1, "cli", ["the program racebeam"], "code"),
         "server": (1, 1, 1, "server", ["sockets, streams, limits"], "code"),
+        "agents": (0, 1, 1, "agents", ["learners, searches, scores"], "code"),
         "protocol": (1, 2, 1, "protocol", ["lines in, lines out"], "code"),
         "recording": (2, 3, 1, "recording", ["pictures, films, sound"], "code"),
         "environment": (1, 4, 1, "environment", ["acts, rewards, states"], "code"),
@@ -30,7 +31,8 @@ LIBRARIES = {
         "emulator": (0, 6, 1, "emulator", ["the machine"], "code"),
         "system": (2, 6, 1, "system", ["files, processors, memory"], "code"),
     },
-    "arrows": [("cli", "server", ""), ("server", "protocol", ""), ("protocol", "recording", ""),
+    "arrows": [("cli", "server", ""), ("cli", "agents", ""), ("server", "protocol", ""), ("agents", "protocol", ""),
+               ("protocol", "recording", ""),
                ("protocol", "environment", ""), ("recording", "environment", ""), ("environment", "games", ""),
                ("games", "emulator", ""), ("games", "system", "")],
 }

@@ -40,7 +40,7 @@ const toml::node* Section::node(std::string_view key) const {
   return own || !base_ ? own : base_->get(key);
 }
 
-void Section::allow(std::initializer_list<std::string_view> keys) const {
+void Section::allow(std::span<const std::string_view> keys) const {
   for (const auto& [key, node] : table_)
     if (std::find(keys.begin(), keys.end(), key.str()) == keys.end())
       source_.refuse(line_of(key.source()), field(key.str()),

@@ -4,6 +4,7 @@
 #include <functional>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,7 +30,10 @@ class Section {
   Section(const TomlSource& source, const toml::table& table, std::string path,
           const toml::table* base = nullptr);
 
-  void allow(std::initializer_list<std::string_view> keys) const;  // refuses all others
+  void allow(std::span<const std::string_view> keys) const;  // refuses all others
+  void allow(std::initializer_list<std::string_view> keys) const {
+    allow(std::span(keys.begin(), keys.size()));
+  }
 
   const toml::node* node(std::string_view key) const;  // null if the key is absent
 

@@ -1,0 +1,113 @@
+#include "agents/base/sealed_file.hpp"
+
+#include <openssl/evp.h>
+#include <zlib.h>
+
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+
+#include "system/input_file.hpp"
+
+namespace racebeam {
+namespace {
+
+// magic, version, size of the contents, checksum; then the deflated contents
+constexpr std::size_t kVersionAt = 8, kSizeAt = 12, kChecksumAt = 20, kHeadSize = 24;
+
+template <typename T>
+void put(std::string& out, T value) {  // the lowest byte first
+  for (std::size_t byte = 0; byte < sizeof value; ++byte)
+    out += static_cast<char>(static_cast<std::uint8_t>(value >> (8 * byte)));
+}
+
+template <typename T>
+T get(std::string_view bytes, std::size_t at) {
+  T value = 0;
+  for (std::size_t byte = 0; byte < sizeof value; ++byte)
+    value = static_cast<T>(value | static_cast<T>(static_cast<std::uint8_t>(bytes[at + byte])) << (8 * byte));
+  return value;
+}
+
+const Bytef* bytes_of(std::string_view text) { return reinterpret_cast<const Bytef*>(text.data()); }
+
+// Of all bytes but its own four.
+std::uint32_t checksum(std::string_view head, std::string_view deflated) {
+  const uLong begun = crc32_z(0, bytes_of(head), kChecksumAt);
+  return static_cast<std::uint32_t>(crc32_z(begun, bytes_of(deflated), deflated.size()));
+}
+
+[[noreturn]] void refuse(const SealedKind& kind, const std::string& name, const std::string& reason) {
+  throw InvalidInput(std::string(kind.what).append(" ").append(name).append(": ").append(reason));
+}
+
+std::string inflated(const SealedKind& kind, const std::string& name, std::string_view deflated,
+                     std::size_t size) {
+  std::string contents(size, '\0');
+  uLongf got = size;
+  uLong used = deflated.size();
+  const int status = uncompress2(reinterpret_cast<Bytef*>(contents.data()), &got, bytes_of(deflated), &used);
+  if (status != Z_OK || got != size || used != deflated.size())
+    refuse(kind, name, "its contents are damaged");
+  return contents;
+}
+
+}  // namespace
+
+std::string seal(const SealedKind& kind, std::string_view contents) {
+  if (contents.size() > kind.most)
+    throw std::runtime_error(std::string("a ").append(kind.what).append(" has at most ") +
+                             std::to_string(kind.most) + " bytes");
+  uLongf size = compressBound(contents.size());
+  std::string deflated(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(deflated.data()), &size, bytes_of(contents), contents.size(),
+                kind.level) != Z_OK)
+    throw std::runtime_error("zlib cannot compress");
+  deflated.resize(size);
+  std::string sealed(kind.magic);
+  put(sealed, kind.version);
+  put(sealed, std::uint64_t{contents.size()});
+  put(sealed, checksum(sealed, deflated));
+  return sealed + deflated;
+}
+
+std::string unseal(const SealedKind& kind, const std::string& name, std::string_view bytes) {
+  if (bytes.size() < kHeadSize || !bytes.starts_with(kind.magic))
+    refuse(kind, name,
+           std::string("it does not begin with ").append(kind.magic) + "; it is cut, or no such file");
+  const auto version = get<std::uint32_t>(bytes, kVersionAt);
+  const std::string_view deflated = bytes.substr(kHeadSize);
+  if (version != kind.version)
+    refuse(kind, name,
+           "it is of version " + std::to_string(version) + "; this program reads version " +
+               std::to_string(kind.version));
+  const auto size = get<std::uint64_t>(bytes, kSizeAt);
+  if (size > kind.most)
+    refuse(kind, name,
+           "it says that it holds " + std::to_string(size) + " bytes; accepted are at most " +
+               std::to_string(kind.most));
+  if (checksum(bytes.substr(0, kHeadSize), deflated) != get<std::uint32_t>(bytes, kChecksumAt))
+    refuse(kind, name, "its checksum is wrong; it was cut or altered");
+  return inflated(kind, name, deflated, size);
+}
+
+std::string read_sealed(const SealedKind& kind, const std::string& path) {
+  const std::string bytes = read_input_file(std::string(kind.what), path, kind.most + kHeadSize);
+  return unseal(kind, std::filesystem::path(path).filename().string(), bytes);
+}
+
+std::string sha256_of(std::string_view bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned size = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1)
+    throw std::runtime_error("SHA-256 is not available");
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (unsigned i = 0; i < size; ++i) {
+    text += kDigits[digest[i] >> 4];
+    text += kDigits[digest[i] & 15];
+  }
+  return text;
+}
+
+}  // namespace racebeam

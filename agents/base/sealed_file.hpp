@@ -1,0 +1,31 @@
+// Contents in a sealed file: deflated, with a checksum that covers every byte (docs/episodes.md, "The seal").
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace racebeam {
+
+// The kind of a sealed file.
+struct SealedKind {
+  std::string_view what;   // for errors: "episode log"
+  std::string_view magic;  // eight characters
+  std::uint32_t version;
+  std::size_t most;  // bytes of the contents, and of the file
+  int level;         // of deflate, 1 to 9
+};
+
+std::string seal(const SealedKind& kind, std::string_view contents);
+
+// Throws InvalidInput, naming `name`, for bytes that seal() did not make: another kind or version, a file
+// that was cut or altered, contents of more than kind.most bytes.
+std::string unseal(const SealedKind& kind, const std::string& name, std::string_view bytes);
+
+std::string read_sealed(const SealedKind& kind, const std::string& path);  // throws InvalidInput
+
+// The SHA-256 of bytes, in lower-case hex.
+std::string sha256_of(std::string_view bytes);
+
+}  // namespace racebeam

@@ -1,0 +1,38 @@
+#include "agents/experiment/cost.hpp"
+
+#include <algorithm>
+
+namespace racebeam {
+namespace {
+
+constexpr double kReplayFramesPerSecond = 120000;  // of one core, measured
+constexpr double kLogBytesPerDecision = 0.55;      // a random action has log2(18) bits
+
+}  // namespace
+
+Cost cost_of(const Plan& plan) {
+  Cost cost;
+  const double episode_frames = plan.play.machine.max_episode_frames;
+  for (const PlanAgent& agent : plan.agents) {
+    const TrialLength& length = agent.length;
+    AgentCost own{.agent = std::string(agent.kind->name)};
+    own.units = plan.games.size() * static_cast<std::size_t>(length.trials) *
+                (agent.kind->each_action ? kActions : 1);
+    const auto units = static_cast<double>(own.units);
+    const double evaluation = units * length.evaluation_episodes * episode_frames;
+    const double training = units * (length.training_frames > 0 ? length.training_frames
+                                                                : length.training_episodes * episode_frames);
+    own.decisions = (evaluation + training) / agent.frame_skip;
+    own.core_hours = own.decisions / agent.kind->decisions_per_second / 3600;
+    cost.units += own.units;
+    cost.decisions += own.decisions;
+    cost.core_hours += own.core_hours;
+    cost.verification_core_hours += evaluation / kReplayFramesPerSecond / 3600;
+    cost.megabytes = std::max(cost.megabytes, agent.kind->megabytes);
+    cost.disk_megabytes += evaluation / agent.frame_skip * kLogBytesPerDecision / 1e6;
+    cost.agents.push_back(own);
+  }
+  return cost;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,29 @@
+// What a plan is expected to cost, from speeds that were measured.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "agents/experiment/plan.hpp"
+
+namespace racebeam {
+
+struct AgentCost {
+  std::string agent;
+  std::size_t units = 0;
+  double decisions = 0;
+  double core_hours = 0;
+};
+
+struct Cost {
+  std::vector<AgentCost> agents;
+  std::size_t units = 0;
+  double decisions = 0, core_hours = 0, verification_core_hours = 0;
+  double megabytes = 0;       // the most that a unit takes
+  double disk_megabytes = 0;  // of logs
+};
+
+// Episodes are taken to be as long as they may be, so that this is the most.
+Cost cost_of(const Plan& plan);
+
+}  // namespace racebeam

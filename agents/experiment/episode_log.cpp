@@ -1,0 +1,184 @@
+#include "agents/experiment/episode_log.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "agents/base/sealed_file.hpp"
+#include "games/game/actions.hpp"
+#include "protocol/line/words.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr SealedKind kKind = {
+    .what = "episode log", .magic = "RBEPISOD", .version = 1, .most = std::size_t{2} << 20, .level = 9};
+constexpr std::array<std::string_view, 2> kOvers = {"terminated", "truncated"};  // as EpisodeOver counts
+constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
+constexpr std::int64_t kMost64 = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
+
+void append_hash(std::string& out, std::uint64_t hash) {
+  for (int byte = 0; byte < 8; ++byte)
+    out += static_cast<char>(static_cast<std::uint8_t>(hash >> (8 * byte)));
+}
+
+std::uint64_t hash_at(std::string_view bytes) {
+  std::uint64_t hash = 0;
+  for (std::size_t byte = 0; byte < 8; ++byte)
+    hash |= std::uint64_t{static_cast<std::uint8_t>(bytes[byte])} << (8 * byte);
+  return hash;
+}
+
+// Takes the text of a log apart. Throws Refusal or InvalidInput.
+class LogReader {
+ public:
+  explicit LogReader(std::string_view contents) : left_(contents) {}
+
+  EpisodeLog read() {
+    EpisodeLog log;
+    log.settings = line("load");
+    log.game = cut_first_word(log.settings);
+    log.image_md5 = line("image");
+    read_origin(log.origin);
+    read_end(log.end);
+    if (line("") != "") fail("an empty line");
+    read_bytes(log);
+    return log;
+  }
+
+ private:
+  [[noreturn]] static void fail(const std::string& wanted) {
+    throw InvalidInput("its contents are no episode: " + wanted + " is missing");
+  }
+
+  // The rest of the next line, which begins with `word`.
+  std::string line(std::string_view word) {
+    const std::size_t end = left_.find('\n');
+    if (end == std::string_view::npos || !left_.starts_with(word))
+      fail("the line '" + std::string(word) + "'");
+    std::string_view text = left_.substr(word.size(), end - word.size());
+    left_.remove_prefix(end + 1);
+    if (!word.empty()) {
+      if (!text.starts_with(' ')) fail("the line '" + std::string(word) + "'");
+      text.remove_prefix(1);
+    }
+    return std::string(text);
+  }
+
+  static std::string cut_first_word(std::string& text) {
+    std::string_view rest = text;
+    const std::string word(next_word(rest));
+    text = std::string(rest.substr(std::min(rest.find_first_not_of(' '), rest.size())));
+    return word;
+  }
+
+  // The value of the next word key=value.
+  static std::string_view value(std::string_view& rest, std::string_view key) {
+    const KeyValue pair = key_value(next_word(rest));
+    if (pair.key != key) fail(std::string(key));
+    return pair.value;
+  }
+
+  void read_origin(EpisodeOrigin& origin) {
+    const std::string text = line("from");
+    std::string_view rest = text;
+    origin.unit = value(rest, "unit");
+    origin.agent = value(rest, "agent");
+    origin.trial = static_cast<int>(number_within(value(rest, "trial"), "trial", 1, kMostInt));
+    origin.episode = static_cast<int>(number_within(value(rest, "episode"), "episode", 1, kMostInt));
+    origin.agent_seed =
+        static_cast<std::uint32_t>(number_within(value(rest, "agent_seed"), "agent_seed", 0, kMostSeed));
+    origin.version = value(rest, "version");
+  }
+
+  void read_end(EpisodeEnd& end) {
+    const std::string text = line("ended");
+    std::string_view rest = text;
+    end.score = number_within(value(rest, "score"), "score", -kMost64, kMost64);
+    end.frames = number_within(value(rest, "frames"), "frames", 0, kMostInt);
+    end.decisions = number_within(value(rest, "decisions"), "decisions", 0, kMostInt);
+    end.over = static_cast<EpisodeOver>(choice_of(value(rest, "end"), "end", kOvers));
+    end.lives = static_cast<int>(number_within(value(rest, "lives"), "lives", -kMostInt, kMostInt));
+  }
+
+  void read_bytes(EpisodeLog& log) {
+    const auto decisions = static_cast<std::size_t>(log.end.decisions);
+    const std::size_t hashes = hashes_of(decisions);
+    if (left_.size() != 8 * hashes + decisions) fail("a hash or an action");
+    for (std::size_t i = 0; i < hashes; ++i) log.hashes.push_back(hash_at(left_.substr(8 * i)));
+    for (const char byte : left_.substr(8 * hashes)) {
+      const auto action = static_cast<std::uint8_t>(byte);
+      if (action >= kActions)
+        throw InvalidInput("it has action " + std::to_string(action) + "; there are 0 to 17");
+      log.actions.push_back(action);
+    }
+  }
+
+  std::string_view left_;
+};
+
+}  // namespace
+
+const std::size_t kMostLogBytes = kKind.most;
+
+std::string_view name_of(EpisodeOver over) { return kOvers[static_cast<std::size_t>(over)]; }
+
+std::size_t hashes_of(std::size_t decisions) { return decisions / kDecisionsPerStretch + 1; }
+
+std::string bytes_of(const EpisodeLog& log) {
+  std::string out = "load " + log.game + ' ' + log.settings + "\nimage " + log.image_md5 + "\nfrom";
+  append_pair(out, "unit", log.origin.unit);
+  append_pair(out, "agent", log.origin.agent);
+  append_pair(out, "trial", log.origin.trial);
+  append_pair(out, "episode", log.origin.episode);
+  append_pair(out, "agent_seed", std::int64_t{log.origin.agent_seed});
+  append_pair(out, "version", log.origin.version);
+  out += "\nended";
+  append_pair(out, "score", log.end.score);
+  append_pair(out, "frames", log.end.frames);
+  append_pair(out, "decisions", log.end.decisions);
+  append_pair(out, "end", name_of(log.end.over));
+  append_pair(out, "lives", log.end.lives);
+  out += "\n\n";
+  for (const std::uint64_t hash : log.hashes) append_hash(out, hash);
+  out.append(log.actions.begin(), log.actions.end());
+  return seal(kKind, out);
+}
+
+EpisodeLog log_of(const std::string& name, std::string_view bytes) {
+  const std::string contents = unseal(kKind, name, bytes);
+  try {
+    return LogReader(contents).read();
+  } catch (const std::exception& error) {  // Refusal, InvalidInput
+    throw InvalidInput("episode log " + name + ": " + error.what());
+  }
+}
+
+namespace {
+
+// The rows that would show the machine's value. Mode and difficulty are written only where they were set,
+// since setting them begins another episode.
+std::optional<std::int64_t> own_value(std::string_view name, const PlaySettings& settings) {
+  if (name == "seed") return settings.machine.random_seed;
+  return name == "mode" ? settings.mode : settings.difficulty;
+}
+
+}  // namespace
+
+std::string words_of(const PlaySettings& settings, const Environment& machine) {
+  constexpr std::array<std::string_view, 3> kOwn = {"seed", "mode", "difficulty"};
+  std::string out;
+  for (const SettingRow& row : setting_rows()) {
+    const bool own = std::ranges::find(kOwn, row.name) != kOwn.end();
+    const auto value = own ? own_value(row.name, settings) : std::nullopt;
+    if (row.name == "preset" || (own && !value)) continue;
+    ((out += out.empty() ? "" : " ") += row.name) += '=';
+    own ? append_number(out, *value) : row.append(out, settings, machine);
+  }
+  return out;
+}
+
+}  // namespace racebeam

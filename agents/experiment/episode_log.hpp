@@ -1,0 +1,57 @@
+// The log of one episode: what is needed to play it again, and what it led to (docs/episodes.md).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/line/play_settings.hpp"
+
+namespace racebeam {
+
+constexpr int kDecisionsPerStretch = 256;  // after each, a log has the state's hash
+
+enum class EpisodeOver { kTerminated, kTruncated };
+std::string_view name_of(EpisodeOver over);
+
+// What an episode led to.
+struct EpisodeEnd {
+  std::int64_t score = 0;  // the sum of raw rewards
+  std::int64_t frames = 0, decisions = 0;
+  EpisodeOver over = EpisodeOver::kTruncated;
+  int lives = 0;
+  bool operator==(const EpisodeEnd&) const = default;
+};
+
+// Who played.
+struct EpisodeOrigin {
+  std::string unit, agent;
+  int trial = 1, episode = 1;
+  std::uint32_t agent_seed = 0;
+  std::string version;  // of the program
+};
+
+struct EpisodeLog {
+  std::string game, image_md5;
+  std::string settings;  // words of `load`, the seed among them
+  EpisodeOrigin origin;
+  EpisodeEnd end;
+  std::vector<std::uint64_t> hashes;  // of the state after each stretch; the last is of the end
+  std::vector<std::uint8_t> actions;
+};
+
+// Hashes that an episode of so many decisions has.
+std::size_t hashes_of(std::size_t decisions);
+
+std::string bytes_of(const EpisodeLog& log);
+// `name` is for errors. Throws InvalidInput for bytes that are no log.
+EpisodeLog log_of(const std::string& name, std::string_view bytes);
+
+// The largest file that is a log. A larger one is refused unread.
+extern const std::size_t kMostLogBytes;
+
+// The words of `load` that start this episode again. `machine` runs it.
+std::string words_of(const PlaySettings& settings, const Environment& machine);
+
+}  // namespace racebeam

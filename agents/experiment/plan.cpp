@@ -1,0 +1,416 @@
+#include "agents/experiment/plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "agents/experiment/game_sets.hpp"
+#include "agents/experiment/play.hpp"
+#include "emulator/state/state_hash.hpp"
+#include "games/files/toml_section.hpp"
+#include "games/similar.hpp"
+#include "protocol/line/words.hpp"
+#include "system/input_file.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::size_t kMostPlanBytes = std::size_t{1} << 20;
+constexpr int kMostInt = std::numeric_limits<int>::max();
+constexpr int kMostEpisodes = 1000000;
+constexpr int kMostEpisodeFrames = 1000000;  // a log holds this many decisions
+constexpr int kMostScreens = 10000000;
+constexpr int kMostFrameSkip = 1000;
+
+// Settings of the literature, which a plan then changes.
+struct PlanPreset {
+  std::string_view name;
+  std::string_view environment;  // words of `load`
+  TrialLength learners;
+};
+constexpr std::array kPresets = {
+    PlanPreset{"paper2013",
+               "frame_skip=5 sticky=0 action_set=full max_episode_frames=18000",
+               {.trials = 30, .training_episodes = 5000, .evaluation_episodes = 500}},
+    PlanPreset{"machado2018",
+               "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000",
+               {.trials = 24, .training_frames = 200000000, .evaluation_episodes = 100}},
+    PlanPreset{"atari100k",
+               "frame_skip=4 sticky=0 action_set=full max_episode_frames=108000",
+               {.trials = 5, .training_frames = 400000, .evaluation_episodes = 100}},
+};
+
+struct LengthKey {
+  std::string_view name;
+  int TrialLength::*member;
+  int least;
+  int most;
+};
+constexpr std::array kLengthKeys = {
+    LengthKey{"trials", &TrialLength::trials, 1, kMostEpisodes},
+    LengthKey{"training_episodes", &TrialLength::training_episodes, 0, kMostEpisodes},
+    LengthKey{"training_frames", &TrialLength::training_frames, 0, kMostInt},
+    LengthKey{"evaluation_episodes", &TrialLength::evaluation_episodes, 1, kMostEpisodes},
+};
+
+struct ScreensKey {
+  std::string_view name;
+  int Plan::*member;
+};
+constexpr std::array kScreensKeys = {ScreensKey{"background_screens", &Plan::background_screens},
+                                     ScreensKey{"class_screens", &Plan::class_screens}};
+
+std::string text_of_number(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
+template <typename Rows>
+std::string list_of(const Rows& rows) {
+  std::string list;
+  for (const auto& row : rows) (list += list.empty() ? "" : ", ") += row.name;
+  return list;
+}
+
+// What the line protocol refuses, as an error of this input.
+void without_refusal(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Refusal& refusal) {
+    throw InvalidInput(refusal.what());
+  }
+}
+
+int whole_within(const Section& section, std::string_view key, int least, int most) {
+  const int value = *section.number(key);
+  if (value < least || value > most)
+    section.refuse(*section.node(key), key,
+                   std::to_string(value) + " is out of range; accepted are " + std::to_string(least) +
+                       " to " + std::to_string(most));
+  return value;
+}
+
+class PlanReader {
+ public:
+  PlanReader(std::string_view text, const std::string& file)
+      : source_{text, file}, table_(parse_toml(source_)), top_(source_, table_, "") {}
+
+  Plan read() {
+    top_.allow(kTopKeys);
+    plan_.name = top_.text("name").value_or("experiment");
+    if (top_.node("name"))
+      top_.guard(*top_.node("name"), "name",
+                 [&] { without_refusal([&] { checked_name(plan_.name, "name"); }); });
+    if (top_.node("seed")) plan_.seed = static_cast<std::uint32_t>(whole_within(top_, "seed", 0, kMostInt));
+    for (const ScreensKey& key : kScreensKeys)
+      if (top_.node(key.name)) plan_.*key.member = whole_within(top_, key.name, 1, kMostScreens);
+    plan_.version = top_.text("version").value_or("");
+    read_preset();
+    read_lengths(top_, learners_);
+    read_environment();
+    read_games();
+    read_images();
+    read_agents();
+    return std::move(plan_);
+  }
+
+ private:
+  static constexpr std::array<std::string_view, 15> kTopKeys = {"name",
+                                                                "preset",
+                                                                "seed",
+                                                                "background_screens",
+                                                                "class_screens",
+                                                                "trials",
+                                                                "training_episodes",
+                                                                "training_frames",
+                                                                "evaluation_episodes",
+                                                                "environment",
+                                                                "games",
+                                                                "images",
+                                                                "agents",
+                                                                "agent",
+                                                                "version"};
+
+  void read_preset() {
+    const std::string name = top_.text("preset").value_or("paper2013");
+    const auto found = std::ranges::find(kPresets, name, &PlanPreset::name);
+    if (found == kPresets.end())
+      top_.refuse(*top_.node("preset"), "preset",
+                  quote(name) + " is not known; accepted are " + list_of(kPresets));
+    read_words(std::string(found->environment));
+    learners_ = found->learners;
+  }
+
+  void read_words(const std::string& text) {
+    std::vector<std::string_view> words;
+    split(text, words);
+    without_refusal([&] { read_settings(words, plan_.play); });
+  }
+
+  void read_environment() {
+    if (const auto text = top_.text("environment"))
+      top_.guard(*top_.node("environment"), "environment", [&] { read_words(*text); });
+    const int limit = plan_.play.machine.max_episode_frames;
+    if (limit >= 1 && limit <= kMostEpisodeFrames) return;
+    top_.refuse_missing("environment", "max_episode_frames is " + std::to_string(limit) +
+                                           "; an experiment accepts 1 to " +
+                                           std::to_string(kMostEpisodeFrames));
+  }
+
+  // What `section` says of the length of a trial. Training has one length, in episodes or in frames.
+  void read_lengths(const Section& section, TrialLength& length) const {
+    for (const LengthKey& key : kLengthKeys) {
+      if (!section.node(key.name)) continue;
+      length.*key.member = whole_within(section, key.name, key.least, key.most);
+    }
+    const bool episodes = section.node("training_episodes"), frames = section.node("training_frames");
+    if (frames && !episodes && length.training_frames > 0) length.training_episodes = 0;
+    if (episodes && !frames && length.training_episodes > 0) length.training_frames = 0;
+    if (length.training_episodes > 0 && length.training_frames > 0)
+      section.refuse(*section.node("training_frames"), "training_frames",
+                     "training is so many episodes or so many frames, not both; one of them must be 0");
+  }
+
+  std::vector<std::string> words(std::string_view key) const {
+    const toml::array* const list = top_.list(key);
+    if (!list || list->empty()) top_.refuse_missing(key, "a list in [ ] with at least one name is required");
+    std::vector<std::string> names;
+    for (const toml::node& item : *list) {
+      const auto name = item.value_exact<std::string>();
+      if (!name) top_.refuse(item, key, "must be a text in quotes");
+      if (std::ranges::find(names, *name) != names.end())
+        top_.refuse(item, key, quote(*name) + " stands twice");
+      check_(item, key, *name);
+      names.push_back(*name);
+    }
+    return names;
+  }
+
+  void read_games() {
+    if (top_.node("games") && top_.node("games")->is_string()) {
+      const std::string name = *top_.text("games");
+      const GameSet* const set = find_game_set(name);
+      if (!set)
+        top_.refuse(*top_.node("games"), "games",
+                    "there is no set " + quote(name) + "; accepted are " + list_of(game_sets()) +
+                        ", and a list of games");
+      for (const SetGame& game : set->games) plan_.games.push_back({std::string(game.name), ""});
+      return;
+    }
+    check_ = [this](const toml::node& at, std::string_view key, const std::string& name) {
+      if (!find_game(name))
+        top_.refuse(at, key,
+                    "there is no game " + quote(name) + ";" + did_you_mean(name, game_names()) +
+                        " racebeam games lists them");
+    };
+    for (std::string& name : words("games")) plan_.games.push_back({std::move(name), ""});
+  }
+
+  void read_images() {
+    const toml::table* const images = top_.table("images");
+    if (!images) return;
+    const Section section(source_, *images, "images");
+    std::vector<std::string_view> names;
+    for (const PlanGame& game : plan_.games) names.push_back(game.name);
+    section.allow(names);
+    for (PlanGame& game : plan_.games) game.image_md5 = section.text(game.name).value_or("");
+  }
+
+  void read_agents() {
+    check_ = [this](const toml::node& at, std::string_view key, const std::string& name) {
+      if (!find_agent_kind(name))
+        top_.refuse(at, key, "there is no agent " + quote(name) + "; accepted are " + list_of(agent_kinds()));
+    };
+    const std::vector<std::string> names = words("agents");
+    const toml::table* const tables = top_.table("agent");
+    const toml::table none;
+    const Section all(source_, tables ? *tables : none, "agent");
+    all.allow(std::vector<std::string_view>(names.begin(), names.end()));
+    for (const std::string& name : names) {
+      const toml::table* const own = all.table(name);
+      plan_.agents.push_back(
+          agent(*find_agent_kind(name), Section(source_, own ? *own : none, "agent." + name)));
+    }
+  }
+
+  // Baselines learn nothing, and a search has an episode a trial, so that episodes run side by side.
+  TrialLength length_for(const AgentKind& kind) const {
+    if (kind.role == Role::kLearner) return learners_;
+    if (kind.role == Role::kPlanner) return {.trials = 10};
+    return {.evaluation_episodes = learners_.evaluation_episodes};
+  }
+
+  PlanAgent agent(const AgentKind& kind, const Section& section) const {
+    std::vector<std::string_view> keys{"frame_skip"};
+    for (const LengthKey& key : kLengthKeys) keys.push_back(key.name);
+    for (const AgentSetting& setting : kind.settings) keys.push_back(setting.name);
+    section.allow(keys);
+    PlanAgent agent{&kind, AgentValues(kind.settings), length_for(kind),
+                    kind.frame_skip.value_or(plan_.play.machine.frame_skip)};
+    read_lengths(section, agent.length);
+    if (section.node("frame_skip")) agent.frame_skip = whole_within(section, "frame_skip", 1, kMostFrameSkip);
+    for (std::size_t i = 0; i < kind.settings.size(); ++i)
+      if (section.node(kind.settings[i].name)) agent.values.set(i, value(section, kind.settings[i]));
+    return agent;
+  }
+
+  static double value(const Section& section, const AgentSetting& setting) {
+    const toml::node& node = *section.node(setting.name);
+    if (!setting.choices.empty())
+      return *section.choice(setting.name, {setting.choices.begin(), setting.choices.end()});
+    const double number = node.is_number() ? node.value<double>().value() : NAN;
+    const bool accepted =
+        number >= setting.least && number <= setting.most && (!setting.whole || number == std::floor(number));
+    if (!accepted)
+      section.refuse(node, setting.name,
+                     (node.is_number() ? text_of_number(number) : std::string("this")) +
+                         " is not accepted; it takes a " + (setting.whole ? "whole number" : "number") +
+                         " from " + text_of_number(setting.least) + " to " + text_of_number(setting.most));
+    if (setting.divides != 0 && setting.divides % static_cast<int>(number) != 0)
+      section.refuse(node, setting.name,
+                     text_of_number(number) + " does not divide the screen's " +
+                         std::to_string(setting.divides) + " pixels");
+    return number;
+  }
+
+  TomlSource source_;
+  toml::table table_;
+  Section top_;
+  std::function<void(const toml::node& at, std::string_view key, const std::string& name)> check_;
+  TrialLength learners_;
+  Plan plan_;
+};
+
+void append_line(std::string& out, std::string_view key, const std::string& value) {
+  ((out += key) += " = ").append(value) += '\n';
+}
+
+std::string quoted_list(const std::vector<std::string>& names) {
+  std::string list = "[";
+  for (const std::string& name : names) (list += list.size() > 1 ? ", \"" : "\"").append(name) += '"';
+  return list + "]";
+}
+
+std::string value_text(const AgentSetting& setting, double value) {
+  if (setting.choices.empty()) return text_of_number(value);
+  return std::string("\"").append(setting.choices[static_cast<std::size_t>(value)]) + '"';
+}
+
+void append_agent(std::string& out, const PlanAgent& agent) {
+  out.append("\n[agent.").append(agent.kind->name) += "]\n";
+  append_line(out, "frame_skip", std::to_string(agent.frame_skip));
+  for (const LengthKey& key : kLengthKeys)
+    append_line(out, key.name, std::to_string(agent.length.*key.member));
+  for (const AgentSetting& setting : agent.values.settings())
+    append_line(out, setting.name, value_text(setting, agent.values[setting.name]));
+}
+
+// The settings of the environment without a seed, as words of `load`. They do not depend on the game.
+std::string environment_words(const Plan& plan) {
+  const Environment any(load_image("builtin:beamfall"), find_game("beamfall"), Settings{});
+  const std::string text = words_of(plan.play, any);
+  std::vector<std::string_view> all;
+  split(text, all);
+  std::string words;
+  for (const std::string_view word : all)
+    if (!word.starts_with("seed=")) (words += words.empty() ? "" : " ") += word;
+  return words;
+}
+
+std::uint32_t seed_from(const Plan& plan, const Unit& unit, std::string_view purpose, std::uint32_t number) {
+  StateHash hash;
+  const std::string text = unit.name + '/' + std::string(purpose);
+  hash.add(plan.seed);
+  hash.add(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  hash.add(number);
+  return static_cast<std::uint32_t>(hash.value() >> 32);
+}
+
+}  // namespace
+
+Plan parse_plan(std::string_view text, const std::string& file) { return PlanReader(text, file).read(); }
+
+Plan load_plan(const std::string& name_or_file) {
+  const auto shipped = std::ranges::find(shipped_plans(), name_or_file, &ShippedPlan::name);
+  if (shipped != shipped_plans().end()) return parse_plan(shipped->text, "plan " + name_or_file);
+  if (name_or_file.find_first_of("./") == std::string::npos)
+    throw InvalidInput("there is no plan " + quote(name_or_file) + "; shipped are " +
+                       list_of(shipped_plans()) + "; a file's name contains . or /");
+  return parse_plan(read_input_file("plan", name_or_file, kMostPlanBytes), name_or_file);
+}
+
+std::vector<std::string> games_without_image(const Plan& plan, const Images& images) {
+  std::vector<std::string> missing;
+  for (const PlanGame& game : plan.games)
+    if (!images.find(game.name)) missing.push_back(game.name);
+  return missing;
+}
+
+void bind(Plan& plan, const Images& images, const std::string& version) {
+  if (!plan.version.empty() && plan.version != version)
+    throw InvalidInput("the plan is of version " + quote(plan.version) + "; this program is " + version);
+  plan.version = version;
+  std::string missing;
+  for (const std::string& name : games_without_image(plan, images))
+    (missing += missing.empty() ? "" : ", ") += name;
+  if (!missing.empty())
+    throw InvalidInput("no image is here of: " + missing + "; --roms names the folder that holds them");
+  for (PlanGame& game : plan.games) {
+    const std::string& found = images.find(game.name)->image->md5;
+    if (!game.image_md5.empty() && game.image_md5 != found)
+      throw InvalidInput("the plan's image of " + game.name + " has MD5 " + game.image_md5 +
+                         "; the one that is here has " + found);
+    game.image_md5 = found;
+  }
+}
+
+std::string text_of(const Plan& plan) {
+  std::vector<std::string> games, agents;
+  for (const PlanGame& game : plan.games) games.push_back(game.name);
+  for (const PlanAgent& agent : plan.agents) agents.emplace_back(agent.kind->name);
+  std::string out;
+  append_line(out, "name", '"' + plan.name + '"');
+  append_line(out, "version", '"' + plan.version + '"');
+  append_line(out, "seed", std::to_string(plan.seed));
+  for (const ScreensKey& key : kScreensKeys) append_line(out, key.name, std::to_string(plan.*key.member));
+  append_line(out, "environment", '"' + environment_words(plan) + '"');
+  append_line(out, "games", quoted_list(games));
+  append_line(out, "agents", quoted_list(agents));
+  out += "\n[images]\n";
+  for (const PlanGame& game : plan.games) append_line(out, game.name, '"' + game.image_md5 + '"');
+  for (const PlanAgent& agent : plan.agents) append_agent(out, agent);
+  return out;
+}
+
+std::vector<Unit> units_of(const Plan& plan) {
+  std::vector<Unit> units;
+  for (const PlanGame& game : plan.games) {
+    for (const PlanAgent& agent : plan.agents) {
+      for (int action = 0; action < (agent.kind->each_action ? kActions : 1); ++action) {
+        const std::string name = agent_name(*agent.kind, action);
+        for (int trial = 1; trial <= agent.length.trials; ++trial)
+          units.push_back(
+              {game.name + '-' + name + '-' + std::to_string(trial), &game, &agent, name, action, trial});
+      }
+    }
+  }
+  return units;
+}
+
+PlaySettings play_settings(const Plan& plan, const PlanAgent& agent) {
+  PlaySettings play = plan.play;
+  play.machine.frame_skip = agent.frame_skip;
+  return play;
+}
+
+std::uint32_t agent_seed(const Plan& plan, const Unit& unit) { return seed_from(plan, unit, "agent", 0); }
+
+std::uint32_t environment_seed(const Plan& plan, const Unit& unit, bool training, int episode) {
+  const auto number = static_cast<std::uint32_t>(episode);
+  return std::max(seed_from(plan, unit, training ? "training" : "evaluation", number), 1U);
+}
+
+}  // namespace racebeam

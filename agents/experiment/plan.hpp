@@ -1,0 +1,85 @@
+// The plan of an experiment: games, agents, trials, and every setting (docs/experiments.md).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "agents/kinds/agent_table.hpp"
+#include "protocol/line/images.hpp"
+
+namespace racebeam {
+
+// How long a trial is. Training ends after so many episodes, or, if `training_frames` is not 0, frames.
+struct TrialLength {
+  int trials = 1;
+  int training_episodes = 0;
+  int training_frames = 0;
+  int evaluation_episodes = 1;
+  bool operator==(const TrialLength&) const = default;
+};
+
+// An agent of the plan. One of a kind that has an agent for each action stands for all of these.
+struct PlanAgent {
+  const AgentKind* kind;
+  AgentValues values;
+  TrialLength length;
+  int frame_skip;  // frames of a decision
+};
+
+struct PlanGame {
+  std::string name;
+  std::string image_md5;  // empty: not known yet
+};
+
+struct Plan {
+  std::string name;
+  std::uint32_t seed = 1;
+  int background_screens = 18000, class_screens = 36000;
+  PlaySettings play;
+  std::vector<PlanGame> games;
+  std::vector<PlanAgent> agents;
+  std::string version;  // of the program; empty: not known yet
+};
+
+// A trial of one agent in one game: what is run, resumed and locked as a whole.
+struct Unit {
+  std::string name;  // GAME-AGENT-TRIAL
+  const PlanGame* game;
+  const PlanAgent* agent;
+  std::string agent_name;
+  int action = 0;  // of an agent that has one for each action
+  int trial = 1;
+};
+
+// `file` is for errors. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
+Plan parse_plan(std::string_view text, const std::string& file);
+
+// A shipped plan by its name, else a file.
+Plan load_plan(const std::string& name_or_file);
+
+// Sets the MD5s of the images and the version. Throws InvalidInput, which names all games without an image,
+// and a plan of other images or of another version.
+void bind(Plan& plan, const Images& images, const std::string& version);
+std::vector<std::string> games_without_image(const Plan& plan, const Images& images);
+
+// The plan with every default written out. parse_plan() reads it back.
+std::string text_of(const Plan& plan);
+
+std::vector<Unit> units_of(const Plan& plan);  // in the plan's order: games, agents, trials
+
+PlaySettings play_settings(const Plan& plan, const PlanAgent& agent);
+
+// Seeds follow from the plan's seed and the unit's name, so that no unit depends on another.
+std::uint32_t agent_seed(const Plan& plan, const Unit& unit);
+std::uint32_t environment_seed(const Plan& plan, const Unit& unit, bool training, int episode);  // never 0
+
+struct ShippedPlan {
+  std::string_view name, summary, text;
+};
+std::span<const ShippedPlan> shipped_plans();
+
+}  // namespace racebeam

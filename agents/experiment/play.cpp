@@ -1,0 +1,109 @@
+#include "agents/experiment/play.hpp"
+
+#include "protocol/line/words.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+// Plays actions and keeps account of them.
+class Account {
+ public:
+  explicit Account(Environment& machine) : machine_(machine) {}
+
+  double act(int action) {
+    const int before = machine_.frame_number();
+    const int reward = machine_.act(action);
+    end_.score += machine_.raw_rewards().a;
+    end_.frames += frames_between(before, machine_.frame_number());
+    if (++end_.decisions % kDecisionsPerStretch == 0) hashes_.push_back(machine_.state_hash());
+    return reward;
+  }
+
+  std::int64_t frames() const { return end_.frames; }
+  bool over() const { return machine_.game_over(); }
+
+  EpisodeEnd finish() {
+    if (hashes_.size() < hashes_of(static_cast<std::size_t>(end_.decisions)))
+      hashes_.push_back(machine_.state_hash());
+    end_.over = machine_.terminal() ? EpisodeOver::kTerminated : EpisodeOver::kTruncated;
+    end_.lives = machine_.lives();
+    return end_;
+  }
+
+  std::vector<std::uint64_t>& hashes() { return hashes_; }
+
+ private:
+  Environment& machine_;
+  EpisodeEnd end_;
+  std::vector<std::uint64_t> hashes_;
+};
+
+}  // namespace
+
+Stage::Stage(const Cartridge& cartridge, const PlaySettings& settings, Drawing drawing)
+    : settings_(settings), machine_(cartridge.image, cartridge.game, settings.machine) {
+  if (settings.noop_max != 0 || settings.autoreset || settings.action_set != ActionSet::kFull)
+    throw InvalidInput(
+        "an episode is played with noop_max=0, autoreset=0 and action_set=full; sticky actions and seeds "
+        "vary it");
+  machine_.set_drawing(drawing);
+}
+
+void Stage::begin(std::uint32_t seed) {
+  settings_.machine.random_seed = seed;
+  machine_.reload(seed);
+  if (settings_.mode) machine_.set_mode(*settings_.mode);
+  if (settings_.difficulty) machine_.set_difficulty(*settings_.difficulty);
+  if (settings_.mode || settings_.difficulty) machine_.reset_game();
+}
+
+Episode play(Agent& agent, Stage& stage, std::int64_t most_frames) {
+  Environment& machine = stage.machine();
+  Account account(machine);
+  Episode episode;
+  for (int action = agent.begin(machine);;) {
+    episode.actions.push_back(static_cast<std::uint8_t>(action));
+    const double reward = account.act(action);
+    if (account.over() || account.frames() >= most_frames) {
+      agent.end(reward);
+      break;
+    }
+    action = agent.next(reward, machine);
+    if (agent.diverged()) break;
+  }
+  episode.diverged = agent.diverged();
+  episode.end = account.finish();
+  episode.hashes = std::move(account.hashes());
+  return episode;
+}
+
+PlaySettings settings_of(const EpisodeLog& log) {
+  PlaySettings settings;
+  std::vector<std::string_view> words;
+  split(log.settings, words);
+  try {
+    read_settings(words, settings);
+  } catch (const Refusal& refusal) {
+    throw InvalidInput(refusal.what());
+  }
+  return settings;
+}
+
+Replay replay(const EpisodeLog& log, const Cartridge& cartridge, CpuKind cpu) {
+  PlaySettings settings = settings_of(log);
+  settings.machine.cpu = cpu;
+  Stage stage(cartridge, settings, Drawing::kNone);
+  stage.begin(settings.machine.random_seed);
+  Account account(stage.machine());
+  for (const int action : log.actions) {
+    if (account.over()) break;
+    account.act(action);
+  }
+  Replay result;
+  result.end = account.finish();
+  result.hashes = std::move(account.hashes());
+  return result;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,53 @@
+// Plays episodes: an agent's, and those of logs again.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "agents/base/agent.hpp"
+#include "agents/experiment/episode_log.hpp"
+#include "games/catalogue.hpp"
+#include "protocol/line/play_settings.hpp"
+
+namespace racebeam {
+
+// A machine on which one episode after the other is played, each as `load` begins it.
+class Stage {
+ public:
+  // `settings` are without a seed. Throws InvalidInput for settings that the game cannot have.
+  Stage(const Cartridge& cartridge, const PlaySettings& settings, Drawing drawing);
+
+  void begin(std::uint32_t seed);  // powers the machine on anew
+
+  Environment& machine() { return machine_; }
+  const PlaySettings& settings() const { return settings_; }  // with the episode's seed
+
+ private:
+  PlaySettings settings_;
+  Environment machine_;
+};
+
+struct Episode {
+  EpisodeEnd end;
+  std::vector<std::uint64_t> hashes;
+  std::vector<std::uint8_t> actions;
+  bool diverged = false;  // the agent, which ended the episode early
+};
+
+// From where stage.begin() left it until the end, or for most_frames.
+Episode play(Agent& agent, Stage& stage, std::int64_t most_frames = std::numeric_limits<std::int64_t>::max());
+
+// What a log's actions lead to.
+struct Replay {
+  EpisodeEnd end;
+  std::vector<std::uint64_t> hashes;
+};
+Replay replay(const EpisodeLog& log, const Cartridge& cartridge, CpuKind cpu);
+
+// The settings of a log. Throws InvalidInput.
+PlaySettings settings_of(const EpisodeLog& log);
+
+}  // namespace racebeam

@@ -1,0 +1,79 @@
+// The tables of an experiment's results, and where everything lies in its folder (docs/experiments.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "agents/experiment/episode_log.hpp"
+#include "agents/experiment/plan.hpp"
+
+namespace racebeam {
+
+// The columns of results.csv: a row for each evaluation episode, in the plan's order. evaluation/ reads them.
+// A trial that diverged has one row, with end=diverged, episode 0, and no score, hash or digest.
+constexpr std::array<std::string_view, 16> kResultColumns = {
+    "unit",  "game",   "image_md5", "agent", "trial", "episode",    "environment_seed", "agent_seed",
+    "score", "frames", "decisions", "end",   "lives", "state_hash", "log_digest",       "version"};
+using ResultRow = std::array<std::string, kResultColumns.size()>;
+
+// The columns of curves.csv: a row for each training episode.
+constexpr std::array<std::string_view, 8> kCurveColumns = {"unit",    "game",  "agent",  "trial",
+                                                           "episode", "score", "frames", "decisions"};
+
+// The columns of times.csv. They differ from run to run, and are kept apart for that.
+constexpr std::array<std::string_view, 5> kTimeColumns = {"unit", "training_seconds", "training_frames",
+                                                          "evaluation_seconds", "evaluation_frames"};
+
+template <std::size_t kSize>
+std::string line_of(const std::array<std::string_view, kSize>& columns) {
+  std::string line;
+  for (const std::string_view column : columns) (line += line.empty() ? "" : ",") += column;
+  return line + "\n";
+}
+
+std::string line_of(const ResultRow& row);
+
+// What the row of this log is. `digest` is of the log's bytes.
+ResultRow row_of(const EpisodeLog& log, const std::string& digest);
+ResultRow row_of_divergence(const Plan& plan, const Unit& unit, const std::string& version);
+
+std::string curve_line(const Unit& unit, int episode, const EpisodeEnd& end);
+
+// The value of a column, by its name.
+const std::string& field(const ResultRow& row, std::string_view column);
+
+// The rows of results.csv. Throws InvalidInput for columns that lack or differ, and rows that do not fit.
+std::vector<ResultRow> parse_results(const std::string& name, std::string_view text);
+
+// Paths in a folder of results.
+class ResultsFolder {
+ public:
+  explicit ResultsFolder(std::string root) : root_(std::move(root)) {}
+
+  const std::string& root() const { return root_; }
+  std::string plan() const { return root_ + "/plan.toml"; }
+  std::string results() const { return root_ + "/results.csv"; }
+  std::string curves() const { return root_ + "/curves.csv"; }
+  std::string times() const { return root_ + "/times.csv"; }
+  std::string units() const { return root_ + "/units"; }  // finished ones
+  std::string unit(const std::string& name, std::string_view table) const {
+    return (units() + '/' + name + '.').append(table) + ".csv";
+  }
+  std::string logs() const { return root_ + "/logs"; }
+  std::string logs(const std::string& unit) const { return logs() + '/' + unit; }
+  std::string log(const std::string& unit, const std::string& episode) const {
+    return logs(unit) + '/' + episode + ".episode";
+  }
+  std::string facts() const { return root_ + "/games"; }  // backgrounds and classes
+  std::string work() const { return root_ + "/work"; }    // gone when all units are finished
+  std::string checkpoint(const std::string& unit) const { return work() + '/' + unit + ".checkpoint"; }
+  std::string lock(const std::string& name) const { return work() + '/' + name + ".lock"; }
+
+ private:
+  std::string root_;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,155 @@
+#include "agents/experiment/trial.hpp"
+
+#include <ctime>
+#include <filesystem>
+
+#include "agents/base/sealed_file.hpp"
+#include "recording/atomic_file.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr SealedKind kCheckpoint = {
+    .what = "checkpoint", .magic = "RBCHECKP", .version = 1, .most = std::size_t{8} << 30, .level = 1};
+
+AgentContext context_of(const Plan& plan, const Unit& unit, const AgentValues& values,
+                        const Cartridge& cartridge, GameFacts* facts, const PlaySettings& play) {
+  return {values, unit.action, agent_seed(plan, unit), cartridge, play, facts};
+}
+
+PlaySettings settings_for(const Plan& plan, const Unit& unit, CpuKind cpu) {
+  PlaySettings play = play_settings(plan, *unit.agent);
+  play.machine.cpu = cpu;
+  return play;
+}
+
+// Processor time of this thread: other programs do not change it.
+std::int64_t microseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::int64_t{time.tv_sec} * 1000000 + time.tv_nsec / 1000;
+}
+
+}  // namespace
+
+Trial::Trial(const Plan& plan, const Unit& unit, const ResultsFolder& folder, const Cartridge& cartridge,
+             GameFacts* facts, CpuKind cpu)
+    : plan_(plan),
+      unit_(unit),
+      folder_(folder),
+      length_(unit.agent->length),
+      values_(unit.agent->values),
+      agent_(unit.agent->kind->make(
+          context_of(plan, unit, values_, cartridge, facts, settings_for(plan, unit, cpu)))),
+      stage_(cartridge, settings_for(plan, unit, cpu), agent_->drawing()) {
+  std::filesystem::create_directories(folder_.logs(unit_.name));
+  resume();
+}
+
+bool Trial::run(std::chrono::milliseconds every, const std::function<bool()>& stop) {
+  for (auto last = Clock::now(); !is_over();) {
+    if (stop()) return false;
+    run_episode();
+    if (is_over() || Clock::now() - last < every) continue;
+    write_checkpoint();
+    last = Clock::now();
+  }
+  finish();
+  return true;
+}
+
+double Trial::mean_score() const {
+  return account_.evaluated == 0 ? 0 : static_cast<double>(account_.score) / account_.evaluated;
+}
+
+bool Trial::training_is_over() const {
+  return account_.trained >= length_.training_episodes && account_.training_frames >= length_.training_frames;
+}
+
+bool Trial::is_over() const {
+  return diverged_ || (training_is_over() && account_.evaluated >= length_.evaluation_episodes);
+}
+
+void Trial::run_episode() {
+  const std::int64_t start = microseconds();
+  const bool training = !training_is_over();
+  training ? train() : evaluate();
+  (training ? account_.training_microseconds : account_.evaluation_microseconds) += microseconds() - start;
+}
+
+void Trial::train() {
+  const int number = ++account_.trained;
+  const std::int64_t left = length_.training_frames > 0 ? length_.training_frames - account_.training_frames
+                                                        : std::numeric_limits<std::int64_t>::max();
+  agent_->set_learning(true);
+  stage_.begin(environment_seed(plan_, unit_, true, number));
+  const Episode episode = play(*agent_, stage_, left);
+  account_.training_frames += episode.end.frames;
+  account_.frames += episode.end.frames;
+  curves_ += curve_line(unit_, number, episode.end);
+  diverged_ = episode.diverged;
+  if (diverged_) rows_ = line_of(row_of_divergence(plan_, unit_, plan_.version));
+}
+
+void Trial::evaluate() {
+  const int number = ++account_.evaluated;
+  agent_->set_learning(false);
+  stage_.begin(environment_seed(plan_, unit_, false, number));
+  const Episode episode = play(*agent_, stage_);
+  account_.frames += episode.end.frames;
+  account_.score += episode.end.score;
+  keep_log(episode, number);
+}
+
+void Trial::keep_log(const Episode& episode, int number) {
+  EpisodeLog log;
+  log.game = unit_.game->name;
+  log.image_md5 = unit_.game->image_md5;
+  log.settings = words_of(stage_.settings(), stage_.machine());
+  log.origin = {unit_.name, unit_.agent_name, unit_.trial, number, agent_seed(plan_, unit_), plan_.version};
+  log.end = episode.end;
+  log.hashes = episode.hashes;
+  log.actions = episode.actions;
+  const std::string bytes = bytes_of(log);
+  replace_file(folder_.log(unit_.name, std::to_string(number)), bytes, Durable::kLater);
+  rows_ += line_of(row_of(log, sha256_of(bytes)));
+}
+
+void Trial::resume() {
+  const std::string path = folder_.checkpoint(unit_.name);
+  if (!std::filesystem::exists(path)) return;
+  const std::string bytes = read_sealed(kCheckpoint, path);
+  StateReader in(bytes);
+  in.get(account_);
+  in.get(rows_);
+  in.get(curves_);
+  agent_->read(in);
+  if (!in.at_end()) throw InvalidInput("checkpoint " + path + ": it holds more than the agent reads");
+}
+
+void Trial::write_checkpoint() const {
+  StateWriter out;
+  out.put(account_);
+  out.put(rows_);
+  out.put(curves_);
+  agent_->write(out);
+  replace_file(folder_.checkpoint(unit_.name), seal(kCheckpoint, out.bytes()), Durable::kNow);
+}
+
+// The results come last: where they are, the unit is finished.
+void Trial::finish() {
+  const auto seconds = [](std::int64_t number) { return std::to_string(static_cast<double>(number) / 1e6); };
+  const std::string times = unit_.name + ',' + seconds(account_.training_microseconds) + ',' +
+                            std::to_string(account_.training_frames) + ',' +
+                            seconds(account_.evaluation_microseconds) + ',' +
+                            std::to_string(account_.frames - account_.training_frames) + '\n';
+  replace_file(folder_.unit(unit_.name, "times"), times, Durable::kLater);
+  replace_file(folder_.unit(unit_.name, "curves"), curves_, Durable::kLater);
+  replace_file(folder_.unit(unit_.name, "results"), rows_, Durable::kNow);
+  std::filesystem::remove(folder_.checkpoint(unit_.name));
+}
+
+}  // namespace racebeam

@@ -1,0 +1,64 @@
+// One unit of an experiment: a trial of an agent in a game, which goes on from its checkpoint.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "agents/experiment/plan.hpp"
+#include "agents/experiment/play.hpp"
+#include "agents/experiment/results.hpp"
+#include "agents/kinds/agent_table.hpp"
+
+namespace racebeam {
+
+class Trial {
+ public:
+  // facts: of the unit's game; it outlives the trial. cpu changes only the speed.
+  Trial(const Plan& plan, const Unit& unit, const ResultsFolder& folder, const Cartridge& cartridge,
+        GameFacts* facts, CpuKind cpu);
+
+  // Runs until the unit is finished and its files are written, or until stop(), which is asked before each
+  // episode, returns true. Returns whether the unit is finished. A checkpoint is written at the end of an
+  // episode when `every` has passed since the last one.
+  bool run(std::chrono::milliseconds every, const std::function<bool()>& stop);
+
+  // Of the evaluation so far, for people.
+  double mean_score() const;
+  std::int64_t frames() const { return account_.frames; }
+
+ private:
+  // What a checkpoint holds beside the agent and the tables.
+  struct Account {
+    std::int32_t trained = 0, evaluated = 0;  // episodes
+    std::int64_t training_frames = 0;
+    std::int64_t frames = 0;  // of all episodes
+    std::int64_t score = 0;   // the sum of evaluation episodes
+    std::int64_t training_microseconds = 0, evaluation_microseconds = 0;
+  };
+
+  bool training_is_over() const;
+  bool is_over() const;
+  void run_episode();
+  void train();
+  void evaluate();
+  void keep_log(const Episode& episode, int number);
+  void resume();
+  void write_checkpoint() const;
+  void finish();
+
+  const Plan& plan_;
+  const Unit& unit_;
+  const ResultsFolder& folder_;
+  const TrialLength& length_;
+  const AgentValues values_;
+  std::unique_ptr<Agent> agent_;
+  Stage stage_;
+  Account account_;
+  bool diverged_ = false;
+  std::string rows_, curves_;  // lines of the tables
+};
+
+}  // namespace racebeam

@@ -1,0 +1,27 @@
+// Plays every log of an experiment again, and says whether it gives the row that the results hold.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "agents/experiment/results.hpp"
+#include "protocol/line/images.hpp"
+
+namespace racebeam {
+
+struct Verdict {
+  std::size_t confirmed = 0;  // rows
+  std::size_t wrong = 0;      // rows, logs and units that are not as they should be
+  std::size_t unchecked = 0;  // rows whose image is not here, and trials that diverged
+  std::int64_t frames = 0;    // that were played
+};
+
+// One line for each row, log or unit that is not confirmed. From one thread at a time, in the order of the
+// results.
+using Finding = std::function<void(const std::string& line)>;
+
+// Throws InvalidInput if the folder's plan or results.csv cannot be read.
+Verdict verify(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
+               const Finding& finding);
+
+}  // namespace racebeam

@@ -1,0 +1,283 @@
+#include "agents/kinds/agent_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <stdexcept>
+
+#include "agents/features/game_facts.hpp"
+#include "agents/features/locality_hash.hpp"
+#include "agents/features/ram_bits.hpp"
+#include "agents/features/tile_colours.hpp"
+#include "agents/kinds/baselines.hpp"
+#include "agents/kinds/learner.hpp"
+#include "agents/kinds/planner.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::array kPerturbSettings = {
+    AgentSetting{"probability", 0.95, 0, 1, false, "section 3.1.3: of the fixed action"},
+};
+
+constexpr std::array<std::string_view, 3> kRewardScales = {"first", "none", "sign"};  // as RewardScale counts
+
+constexpr double kLeastStep = 1e-9, kMostStep = 100;
+constexpr int kMostVectors = 65535;
+
+constexpr AgentSetting alpha(double value, std::string_view source) {
+  return {"alpha", value, kLeastStep, kMostStep, false, source};
+}
+constexpr AgentSetting lambda(double value, std::string_view source) {
+  return {"lambda", value, 0, 1, false, source};
+}
+constexpr AgentSetting kGamma{"gamma", 0.999, 0, 1, false, "appendix C, All agents"};
+constexpr AgentSetting kEpsilon{"epsilon", 0.05, 0, 1, false, "appendix C, All agents"};
+constexpr AgentSetting kEvaluationEpsilon{
+    "evaluation_epsilon", 0.05, 0, 1, false, "docs/paper-notes.md, Evaluation"};
+constexpr AgentSetting kLeastTrace{"least_trace", 0.01, 0, 1, false, "docs/paper-notes.md, Traces"};
+constexpr AgentSetting kClearTraces{"clear_other_traces", 1, 0, 1, true, "docs/paper-notes.md, Traces"};
+constexpr AgentSetting kRewardScale{"reward_scale", 0, 0, 2, true, "docs/paper-notes.md, Rewards",
+                                    kRewardScales};
+
+constexpr std::array kTileSettings = {
+    alpha(0.5, "appendix C, BASS and Basic"),
+    lambda(0.9, "appendix C, BASS and Basic"),
+    kGamma,
+    kEpsilon,
+    kEvaluationEpsilon,
+    kLeastTrace,
+    kClearTraces,
+    kRewardScale,
+    AgentSetting{"grid_width", 16, 1, 160, true, "appendix C, BASS and Basic", {}, kFeatureWidth},
+    AgentSetting{"grid_height", 14, 1, 210, true, "appendix C, BASS and Basic", {}, kFeatureHeight}};
+constexpr std::array kLshSettings = {alpha(0.5, "appendix C, LSH"),
+                                     lambda(0.5, "appendix C, LSH"),
+                                     kGamma,
+                                     kEpsilon,
+                                     kEvaluationEpsilon,
+                                     kLeastTrace,
+                                     kClearTraces,
+                                     kRewardScale,
+                                     AgentSetting{"vectors", 2000, 1, kMostVectors, true, "appendix C, LSH"},
+                                     AgentSetting{"ones", 1000, 1, 100000, true, "appendix C, LSH"},
+                                     AgentSetting{"buckets", 50, 1, 65535, true, "appendix C, LSH"}};
+constexpr std::array kRamSettings = {alpha(0.2, "appendix C, RAM-based"),
+                                     lambda(0.5, "appendix C, RAM-based"),
+                                     kGamma,
+                                     kEpsilon,
+                                     kEvaluationEpsilon,
+                                     kLeastTrace,
+                                     kClearTraces,
+                                     kRewardScale};
+
+constexpr AgentSetting frames_of(double value, std::string_view source) {
+  return {"frames", value, 1, 1e9, true, source};
+}
+constexpr AgentSetting merge(double value, std::string_view source) {
+  return {"merge_duplicates", value, 0, 1, true, source};
+}
+constexpr std::array kFullTreeSettings = {frames_of(133000, "appendix C, Full-tree search"), kGamma,
+                                          merge(0, "docs/paper-notes.md, Full tree"), kRewardScale};
+constexpr std::array kWidthSettings = {frames_of(150000, "Lipovetzky et al. 2015"),
+                                       AgentSetting{"gamma", 0.995, 0, 1, false, "Lipovetzky et al. 2015"},
+                                       merge(0, "docs/paper-notes.md, Full tree"), kRewardScale};
+constexpr std::array kUctSettings = {AgentSetting{"simulations", 500, 1, 1e9, true, "appendix C, UCT"},
+                                     AgentSetting{"depth_frames", 300, 1, 1e6, true, "appendix C, UCT"},
+                                     AgentSetting{"exploration", 0.1, 0, 1e6, false, "appendix C, UCT"},
+                                     kGamma,
+                                     merge(1, "section 3.2.1"),
+                                     kRewardScale};
+
+RewardScale reward_scale(const AgentValues& values) {
+  return static_cast<RewardScale>(values.whole("reward_scale"));
+}
+
+SarsaSettings sarsa_settings(const AgentValues& values) {
+  return {.step_size = values["alpha"],
+          .trace_decay = values["lambda"],
+          .discount = values["gamma"],
+          .exploration = values["epsilon"],
+          .evaluation_exploration = values["evaluation_epsilon"],
+          .least_trace = values["least_trace"],
+          .clear_other_traces = values["clear_other_traces"] != 0,
+          .reward_scale = reward_scale(values)};
+}
+
+std::unique_ptr<Agent> learner(const AgentContext& context, std::unique_ptr<FeatureSet> features) {
+  return std::make_unique<Learner>(std::move(features), sarsa_settings(context.values), context.seed);
+}
+
+std::unique_ptr<Agent> tile_learner(const AgentContext& context, int colours, bool pairs) {
+  const AgentValues& values = context.values;
+  return learner(context,
+                 std::make_unique<TileColours>(context.facts->background(), values.whole("grid_width"),
+                                               values.whole("grid_height"), colours, pairs));
+}
+
+std::unique_ptr<Agent> make_basic(const AgentContext& context) {
+  return tile_learner(context, kColours, false);
+}
+std::unique_ptr<Agent> make_bass(const AgentContext& context) { return tile_learner(context, 8, true); }
+
+std::unique_ptr<Agent> make_lsh(const AgentContext& context) {
+  const AgentValues& values = context.values;
+  return learner(context, std::make_unique<LocalityHash>(values.whole("vectors"), values.whole("ones"),
+                                                         values.whole("buckets"), context.seed + 1));
+}
+
+std::unique_ptr<Agent> make_ram(const AgentContext& context) {
+  return learner(context, std::make_unique<RamBits>());
+}
+
+std::unique_ptr<Agent> make_random(const AgentContext& context) {
+  return std::make_unique<FixedPolicy>(0, 0.0, context.seed);
+}
+
+std::unique_ptr<Agent> make_const(const AgentContext& context) {
+  return std::make_unique<FixedPolicy>(context.action, 1.0, context.seed);
+}
+
+std::unique_ptr<Agent> make_perturb(const AgentContext& context) {
+  return std::make_unique<FixedPolicy>(context.action, context.values["probability"], context.seed);
+}
+
+std::unique_ptr<Agent> tree_planner(const AgentContext& context, bool needs_novelty) {
+  const AgentValues& values = context.values;
+  return std::make_unique<TreePlanner>(context,
+                                       TreeSettings{.frames = values.whole("frames"),
+                                                    .discount = values["gamma"],
+                                                    .merge_duplicates = values["merge_duplicates"] != 0,
+                                                    .needs_novelty = needs_novelty,
+                                                    .reward_scale = reward_scale(values)});
+}
+
+std::unique_ptr<Agent> make_full_tree(const AgentContext& context) { return tree_planner(context, false); }
+std::unique_ptr<Agent> make_iw1(const AgentContext& context) { return tree_planner(context, true); }
+
+std::unique_ptr<Agent> make_uct(const AgentContext& context) {
+  const AgentValues& values = context.values;
+  const int depth = values.whole("depth_frames") / context.play.machine.frame_skip;
+  return std::make_unique<UctPlanner>(context,
+                                      UctSettings{.simulations = values.whole("simulations"),
+                                                  .depth = std::max(depth, 1),
+                                                  .exploration = values["exploration"],
+                                                  .discount = values["gamma"],
+                                                  .merge_duplicates = values["merge_duplicates"] != 0,
+                                                  .reward_scale = reward_scale(values)});
+}
+
+constexpr std::array kKinds = {
+    AgentKind{.name = "random",
+              .summary = "a random action on every frame",
+              .role = Role::kBaseline,
+              .frame_skip = 1,
+              .settings = {},
+              .decisions_per_second = 120000,
+              .megabytes = 2,
+              .make = make_random},
+    AgentKind{.name = "const",
+              .summary = "one action throughout; 18 agents",
+              .role = Role::kBaseline,
+              .each_action = true,
+              .frame_skip = {},
+              .settings = {},
+              .decisions_per_second = 25000,
+              .megabytes = 2,
+              .make = make_const},
+    AgentKind{.name = "perturb",
+              .summary = "one action, sometimes a random one; 18 agents",
+              .role = Role::kBaseline,
+              .each_action = true,
+              .frame_skip = {},
+              .settings = kPerturbSettings,
+              .decisions_per_second = 25000,
+              .megabytes = 2,
+              .make = make_perturb},
+    AgentKind{.name = "basic",
+              .summary = "SARSA on the colours of 16 x 14 tiles",
+              .role = Role::kLearner,
+              .frame_skip = {},
+              .settings = kTileSettings,
+              .decisions_per_second = 8000,
+              .megabytes = 20,
+              .make = make_basic},
+    AgentKind{.name = "bass",
+              .summary = "SARSA on SECAM's colours of tiles, and all pairs of these",
+              .role = Role::kLearner,
+              .frame_skip = {},
+              .settings = kTileSettings,
+              .decisions_per_second = 1000,
+              .megabytes = 140,
+              .make = make_bass},
+    AgentKind{.name = "lsh",
+              .summary = "SARSA on locality sensitive hashes of the screen",
+              .role = Role::kLearner,
+              .frame_skip = {},
+              .settings = kLshSettings,
+              .decisions_per_second = 4000,
+              .megabytes = 40,
+              .make = make_lsh},
+    AgentKind{.name = "ram",
+              .summary = "SARSA on the bits of RAM, and all pairs of these",
+              .role = Role::kLearner,
+              .frame_skip = {},
+              .settings = kRamSettings,
+              .decisions_per_second = 500,
+              .megabytes = 60,
+              .make = make_ram},
+    AgentKind{.name = "full_tree",
+              .summary = "breadth-first search of the tree of all actions",
+              .role = Role::kPlanner,
+              .frame_skip = {},
+              .settings = kFullTreeSettings,
+              .decisions_per_second = 1,
+              .megabytes = 130,
+              .make = make_full_tree},
+    AgentKind{.name = "uct",
+              .summary = "UCT with random rollouts",
+              .role = Role::kPlanner,
+              .frame_skip = {},
+              .settings = kUctSettings,
+              .decisions_per_second = 1,
+              .megabytes = 10,
+              .make = make_uct},
+    AgentKind{.name = "iw1",
+              .summary = "IW(1): breadth-first search of states with a new byte of RAM",
+              .role = Role::kPlanner,
+              .frame_skip = {},
+              .settings = kWidthSettings,
+              .decisions_per_second = 1,
+              .megabytes = 130,
+              .make = make_iw1},
+};
+
+}  // namespace
+
+AgentValues::AgentValues(std::span<const AgentSetting> settings) : settings_(settings) {
+  for (const AgentSetting& setting : settings) values_.push_back(setting.value);
+}
+
+double AgentValues::operator[](std::string_view name) const {
+  const auto found = std::ranges::find(settings_, name, &AgentSetting::name);
+  if (found == settings_.end()) throw std::out_of_range("no setting " + std::string(name));
+  return values_[static_cast<std::size_t>(found - settings_.begin())];
+}
+
+std::span<const AgentKind> agent_kinds() { return kKinds; }
+
+const AgentKind* find_agent_kind(std::string_view name) {
+  const auto found = std::ranges::find(kKinds, name, &AgentKind::name);
+  return found == kKinds.end() ? nullptr : &*found;
+}
+
+std::string agent_name(const AgentKind& kind, int action) {
+  std::string name(kind.name);
+  if (!kind.each_action) return name;
+  name += '_';
+  for (const char letter : action_name(action))
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return name;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,80 @@
+// The agents that a plan can name: one table. A new agent is a class and a row of it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "agents/base/agent.hpp"
+#include "games/catalogue.hpp"
+#include "protocol/line/play_settings.hpp"
+
+namespace racebeam {
+
+// A number that a plan can set, or a word of `choices`, whose index is the value.
+struct AgentSetting {
+  std::string_view name;
+  double value;  // the default
+  double least, most;
+  bool whole = false;
+  std::string_view source;  // of the default: the paper's line, or docs/paper-notes.md
+  std::span<const std::string_view> choices = {};
+  int divides = 0;  // the value must divide this number; 0: it need not
+};
+
+// The settings of one agent, each with a value within its range.
+class AgentValues {
+ public:
+  AgentValues() = default;
+  explicit AgentValues(std::span<const AgentSetting> settings);
+
+  double operator[](std::string_view name) const;  // throws std::out_of_range for a name that is not there
+  int whole(std::string_view name) const { return static_cast<int>((*this)[name]); }
+  void set(std::size_t place, double value) { values_[place] = value; }  // as in settings()
+  std::span<const AgentSetting> settings() const { return settings_; }
+  bool operator==(const AgentValues& other) const { return values_ == other.values_; }
+
+ private:
+  std::span<const AgentSetting> settings_;
+  std::vector<double> values_;
+};
+
+class GameFacts;
+
+// What an agent is made of.
+struct AgentContext {
+  const AgentValues& values;
+  int action = 0;  // of an agent that has one for each action
+  std::uint64_t seed = 0;
+  Cartridge cartridge;
+  PlaySettings play;
+  GameFacts* facts = nullptr;  // what was discovered about the game before
+};
+
+// What an experiment does with an agent if the plan says nothing else.
+enum class Role { kBaseline, kLearner, kPlanner };
+
+struct AgentKind {
+  std::string_view name;
+  std::string_view summary;
+  Role role;
+  bool each_action = false;       // there is one of this kind for each of the 18 actions
+  std::optional<int> frame_skip;  // frames of a decision; none: the plan's
+  std::span<const AgentSetting> settings;
+  double decisions_per_second;  // measured on one core; for estimates
+  double megabytes;             // of memory, measured
+  std::unique_ptr<Agent> (*make)(const AgentContext& context);
+};
+
+std::span<const AgentKind> agent_kinds();
+const AgentKind* find_agent_kind(std::string_view name);  // null if there is none
+
+// const_fire, or the kind's name alone.
+std::string agent_name(const AgentKind& kind, int action);
+
+}  // namespace racebeam

@@ -1,0 +1,33 @@
+// The agents that learn nothing, which the others are compared with: Random, Const and Perturb
+// (docs/paper-notes.md, "Baselines").
+#pragma once
+
+#include "agents/base/agent.hpp"
+#include "agents/base/random.hpp"
+
+namespace racebeam {
+
+// Chooses its own action with a probability, else one of all 18. Random has probability 0, Const 1.
+class FixedPolicy final : public Agent {
+ public:
+  FixedPolicy(int action, double probability, std::uint64_t seed)
+      : action_(action), probability_(probability), random_(seed) {}
+
+  int begin(const Environment&) override { return choose(); }
+  int next(double, const Environment&) override { return choose(); }
+  void end(double) override {}
+  void write(StateWriter& out) const override { out.put(random_); }
+  void read(StateReader& in) override { in.get(random_); }
+
+ private:
+  int choose() {
+    if (random_.uniform() < probability_) return action_;
+    return static_cast<int>(random_.below(kActions));
+  }
+
+  const int action_;
+  const double probability_;
+  Random random_;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,69 @@
+// Agents that search before each decision. They play on the game's machine, and search on their own.
+#pragma once
+
+#include "agents/base/agent.hpp"
+#include "agents/kinds/agent_table.hpp"
+#include "agents/planning/machine_model.hpp"
+#include "agents/planning/search_tree.hpp"
+#include "agents/planning/uct.hpp"
+
+namespace racebeam {
+
+// The full tree, and IW(1).
+class TreePlanner final : public Agent {
+ public:
+  TreePlanner(const AgentContext& context, const TreeSettings& settings)
+      : model_(context.cartridge, context.play.machine, static_cast<std::uint32_t>(context.seed) | 1U),
+        search_(model_, settings, context.seed) {}
+
+  int begin(const Environment& environment) override {
+    return search_.choose(MachineModel::state_of(environment));
+  }
+  int next(double, const Environment& environment) override { return begin(environment); }
+  void end(double) override {}
+  void write(StateWriter& out) const override {
+    out.put(search_.random());
+    out.put(search_.scaler());
+  }
+  void read(StateReader& in) override {
+    in.get(search_.random());
+    in.get(search_.scaler());
+  }
+
+ private:
+  MachineModel model_;
+  TreeSearch search_;
+};
+
+class UctPlanner final : public Agent {
+ public:
+  UctPlanner(const AgentContext& context, const UctSettings& settings)
+      : model_(context.cartridge, context.play.machine, static_cast<std::uint32_t>(context.seed) | 1U),
+        uct_(model_, settings, context.seed) {}
+
+  int begin(const Environment& environment) override {
+    uct_.forget();
+    return action_ = uct_.choose(MachineModel::state_of(environment));
+  }
+  int next(double, const Environment& environment) override {
+    const Model::State state = MachineModel::state_of(environment);
+    uct_.keep(action_, state);
+    return action_ = uct_.choose(state);
+  }
+  void end(double) override { uct_.forget(); }
+  void write(StateWriter& out) const override {
+    out.put(uct_.random());
+    out.put(uct_.scaler());
+  }
+  void read(StateReader& in) override {
+    in.get(uct_.random());
+    in.get(uct_.scaler());
+  }
+
+ private:
+  MachineModel model_;
+  Uct uct_;
+  int action_ = 0;
+};
+
+}  // namespace racebeam

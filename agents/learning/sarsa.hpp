@@ -1,0 +1,88 @@
+// SARSA(lambda) over linear features, with replacing traces and an epsilon-greedy policy. Bellemare et al.
+// 2013, section 3.1; Sutton and Barto 1998, section 8.4. docs/paper-notes.md says what the paper leaves open.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "agents/base/random.hpp"
+#include "agents/base/reward_scale.hpp"
+#include "agents/base/state_bytes.hpp"
+#include "agents/features/feature_set.hpp"
+#include "games/game/actions.hpp"
+
+namespace racebeam {
+
+// Defaults: "Experimental Parameters" of the paper, appendix C, where not said otherwise.
+struct SarsaSettings {
+  double step_size = 0.5;                // alpha, of Basic, BASS and LSH
+  double trace_decay = 0.9;              // lambda, of Basic, BASS and DISCO
+  double discount = 0.999;               // gamma, of all agents
+  double exploration = 0.05;             // epsilon, of all agents
+  double evaluation_exploration = 0.05;  // paper-notes: in evaluation, too
+  double least_trace = 0.01;             // paper-notes: smaller traces are dropped
+  bool clear_other_traces = true;        // paper-notes: of the same feature, those of the actions not taken
+  RewardScale reward_scale = RewardScale::kFirst;  // paper-notes
+};
+
+class Sarsa {
+ public:
+  // features: the number of indices. actions: at most 18.
+  Sarsa(const SarsaSettings& settings, std::size_t features, std::uint64_t seed, int actions = kActions);
+
+  // The first action of an episode, in a state with these features.
+  int begin(const ActiveFeatures& features);
+  // The reward of the action before, and the state that it led to. Returns the next action.
+  int next(double reward, const ActiveFeatures& features);
+  // The reward of the last action. The value of what follows is 0.
+  void end(double reward);
+
+  void set_learning(bool learning) { learning_ = learning; }
+  bool diverged() const { return diverged_; }
+
+  double weight(std::size_t feature, int action) const { return weights_[place(feature, action)]; }
+  double value(const ActiveFeatures& features, int action) const;
+  double trace(std::size_t feature, int action) const;  // 0: none
+
+  void write(StateWriter& out) const;
+  void read(StateReader& in);
+
+ private:
+  struct Trace {
+    std::uint32_t place;  // of the weight
+    std::uint32_t owner;  // the feature; or, if its actions have traces of their own, the same as `place`
+    float size;
+  };
+  using Values = std::array<double, kActions>;
+
+  std::size_t place(std::size_t feature, int action) const {
+    return feature * actions_ + static_cast<std::size_t>(action);
+  }
+  std::size_t owner(std::size_t feature, int action) const {
+    return settings_.clear_other_traces ? feature : place(feature, action);
+  }
+  void compute_values(const ActiveFeatures& features);
+  void compute_binary_values(const ActiveFeatures& features);
+  int choose();
+  void replace_traces();
+  void update(double error);
+  void drop_trace(std::size_t number);
+  void clear_traces();
+
+  SarsaSettings settings_;
+  std::size_t actions_;
+  std::vector<float> weights_;        // of all actions of feature 0, then of feature 1, ...
+  std::vector<Trace> traces_;         // in no order: each is of another weight
+  std::vector<std::uint32_t> where_;  // of each owner: the number of its trace, from 1; 0: none
+  Values values_{};                   // of the state that was last seen
+  ActiveFeatures features_;           // of the state in which action_ was taken
+  int action_ = 0;
+  double most_active_ = 1;  // the largest sum of counts so far
+  RewardScaler scaled_;
+  bool learning_ = true, diverged_ = false;
+  Random random_;
+};
+
+}  // namespace racebeam

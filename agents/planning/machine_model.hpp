@@ -1,0 +1,36 @@
+// A machine as a planner's model. It is a machine of the planner's own: the generator of the game that is
+// played is never seen, and with sticky actions the model draws its own chances.
+#pragma once
+
+#include "agents/planning/model.hpp"
+#include "environment/environment.hpp"
+#include "games/catalogue.hpp"
+
+namespace racebeam {
+
+class MachineModel final : public Model {
+ public:
+  MachineModel(const Cartridge& cartridge, Settings settings, std::uint32_t seed);
+
+  // The state of the game that is played, without its generator.
+  static State state_of(const Environment& game) { return game.save(); }
+
+  int actions() const override { return kActions; }
+  void enter(const State& state) override;
+  double act(int action) override;
+  bool over() const override { return machine_.game_over(); }
+  State save() const override { return machine_.save(); }
+  // Without sticky actions, what the players hold decides nothing: each action sets it anew. States that
+  // differ in it alone are equal, as the paper's duplicates are.
+  std::uint64_t hash(const State& state) const override;
+  bool equal(const State& a, const State& b) const override;
+  std::span<const std::uint8_t> features() const override { return machine_.ram(); }
+  std::int64_t frames() const override { return frames_; }
+
+ private:
+  const bool sticky_;
+  Environment machine_;
+  std::int64_t frames_ = 0;
+};
+
+}  // namespace racebeam

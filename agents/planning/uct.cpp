@@ -1,0 +1,141 @@
+#include "agents/planning/uct.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace racebeam {
+
+Uct::Uct(Model& model, const UctSettings& settings, std::uint64_t seed)
+    : model_(model), settings_(settings), random_(seed), scaled_(settings.reward_scale) {}
+
+int Uct::choose(const Model::State& root) {
+  const std::int64_t before = model_.frames();
+  model_.enter(root);
+  if (!root_) {
+    root_ = make_node();
+    root_->state = root;
+  }
+  if (root_->over) return static_cast<int>(random_.below(static_cast<std::size_t>(model_.actions())));
+  while (root_->visits < settings_.simulations || root_->children.empty()) simulate();
+  frames_ = model_.frames() - before;
+  return most_visited().action;
+}
+
+void Uct::keep(int action, const Model::State& state) {
+  if (!root_) return;
+  const auto found =
+      std::ranges::find(root_->children, action, [](const auto& child) { return child->action; });
+  if (found == root_->children.end() || (*found)->over || !model_.equal((*found)->state, state)) {
+    root_.reset();
+    return;
+  }
+  std::unique_ptr<Node> next = std::move(*found);
+  next->parent = nullptr;
+  next->reward = 0;
+  next->state = state;
+  root_ = std::move(next);
+}
+
+// Of the model's place.
+std::unique_ptr<Uct::Node> Uct::make_node() {
+  auto node = std::make_unique<Node>();
+  node->over = model_.over();
+  if (node->over) return node;
+  node->untried.resize(static_cast<std::size_t>(model_.actions()));
+  std::iota(node->untried.begin(), node->untried.end(), 0);
+  return node;
+}
+
+// Goes down to a leaf, a node that nobody visited, and plays on from there.
+void Uct::simulate() {
+  Node* node = root_.get();
+  int depth = 0;
+  while (node->visits > 0 && !node->over && depth < settings_.depth) {
+    Node* const grown = grow(*node);
+    node = grown ? grown : &select(*node);
+    ++depth;
+  }
+  double value = 0;
+  if (!node->over && depth < settings_.depth) {
+    if (node == root_.get()) model_.enter(node->state);
+    value = rollout(settings_.depth - depth);
+  }
+  update(node, value, settings_.discount);
+}
+
+// A child by an action that was not tried; the model is then there. Null: all were tried, and those that led
+// to the state of a sibling are left out.
+Uct::Node* Uct::grow(Node& node) {
+  while (!node.untried.empty()) {
+    std::swap(node.untried[random_.below(node.untried.size())], node.untried.back());
+    const int action = node.untried.back();
+    node.untried.pop_back();
+    model_.enter(node.state);
+    const double reward = scaled_(model_.act(action));
+    auto child = make_node();
+    child->parent = &node;
+    child->action = action;
+    child->reward = reward;
+    child->state = model_.save();
+    if (settings_.merge_duplicates) {
+      child->hash = model_.hash(child->state);
+      const auto twin = [&](const auto& other) {
+        return other->hash == child->hash && other->reward == child->reward && other->over == child->over &&
+               model_.equal(other->state, child->state);
+      };
+      if (std::ranges::any_of(node.children, twin)) continue;
+    }
+    node.children.push_back(std::move(child));
+    return node.children.back().get();
+  }
+  return nullptr;
+}
+
+// UCB1. Of equal children the first stays; their order was drawn.
+Uct::Node& Uct::select(Node& node) const {
+  const double logarithm = std::log(static_cast<double>(node.visits));
+  const auto bound = [&](const auto& child) {
+    return child->mean + settings_.exploration * std::sqrt(logarithm / static_cast<double>(child->visits));
+  };
+  return **std::ranges::max_element(node.children, {}, bound);
+}
+
+double Uct::rollout(int steps) {
+  double sum = 0, discount = 1;
+  for (; steps > 0 && !model_.over(); --steps, discount *= settings_.discount)
+    sum += discount *
+           scaled_(model_.act(static_cast<int>(random_.below(static_cast<std::size_t>(model_.actions())))));
+  return sum;
+}
+
+// `value` is of what follows the node.
+void Uct::update(Node* node, double value, double discount) {
+  for (; node != nullptr; node = node->parent) {
+    value = node->reward + discount * value;
+    ++node->visits;
+    node->mean += (value - node->mean) / static_cast<double>(node->visits);
+  }
+}
+
+// Of equal numbers of visits, the better mean counts, then the draw that made the order.
+const Uct::Node& Uct::most_visited() {
+  return **std::ranges::max_element(root_->children, [](const auto& a, const auto& b) {
+    return a->visits != b->visits ? a->visits < b->visits : a->mean < b->mean;
+  });
+}
+
+std::size_t Uct::nodes() const {
+  std::size_t count = 0;
+  std::vector<const Node*> open;
+  if (root_) open.push_back(root_.get());
+  while (!open.empty()) {
+    const Node* const node = open.back();
+    open.pop_back();
+    ++count;
+    for (const auto& child : node->children) open.push_back(child.get());
+  }
+  return count;
+}
+
+}  // namespace racebeam

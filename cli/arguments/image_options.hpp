@@ -1,0 +1,25 @@
+// The options of subcommands that play many games: where their images are, and how many threads play.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "emulator/translator/translator.hpp"
+#include "protocol/line/images.hpp"
+
+namespace racebeam {
+
+struct ImageOptions {
+  std::vector<std::string> folders;
+  unsigned threads = 0;  // 0: one for each processor that the process may use
+  CpuKind cpu = CpuKind::kAuto;
+};
+
+// Adds --roms --threads --cpu. `options` must outlive the parsing.
+void add_image_options(CLI::App& app, ImageOptions& options);
+
+Images images_of(const ImageOptions& options);  // throws InvalidInput
+unsigned threads_of(const ImageOptions& options);
+
+}  // namespace racebeam

@@ -1,0 +1,116 @@
+#include "cli/commands/experiment.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "agents/experiment/cost.hpp"
+#include "agents/experiment/experiment.hpp"
+#include "agents/experiment/plan.hpp"
+#include "cli/arguments/image_options.hpp"
+#include "cli/arguments/options.hpp"
+#include "protocol/line/words.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr auto kFooter = R"(PLAN is a TOML file, or the name of a plan that is part of the program:
+  smoke   our own games, for half a minute
+  hour    the paper's five training games, for an hour on two cores
+  paper   all 55 games of the paper
+
+RESULTS is a folder. It gets the plan with every setting written out, results.csv with a row for each evaluation
+episode, curves.csv with a row for each training episode, times.csv, and a log of each evaluation episode. The
+command can be stopped at any time, and repeated: finished units are not run again, and unfinished ones go on.
+
+Examples:
+  racebeam experiment smoke --into results
+  racebeam experiment hour --roms ~/atari --into results
+  racebeam experiment paper --roms ~/atari --into results --shard 3/100
+  racebeam verify results)";
+
+struct Options {
+  std::string plan, into, shard;
+  bool dry_run = false;
+  int checkpoint_seconds = 60;
+  ImageOptions images;
+};
+
+// K/N
+void read_shard(const std::string& text, ExperimentSettings& settings) {
+  if (text.empty()) return;
+  std::string_view first = text;
+  const auto shards = parse_number<std::size_t>(cut_behind(first, '/'));
+  const auto shard = parse_number<std::size_t>(first);
+  if (!shard || !shards || *shard < 1 || *shard > *shards)
+    throw InvalidInput("--shard is " + quote(text) + "; it takes K/N, with K from 1 to N");
+  settings.shard = *shard;
+  settings.shards = *shards;
+}
+
+std::string hours(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, seconds < 7200 ? "%.0f min" : "%.1f h",
+                seconds < 7200 ? seconds / 60 : seconds / 3600);
+  return text;
+}
+
+// On a terminal one line that changes, elsewhere a line a unit.
+void report(const Progress& at) {
+  const bool terminal = ::isatty(STDOUT_FILENO) == 1;
+  std::printf("%s%zu/%zu %s: %d episodes, mean score %.1f%s", terminal ? "\r\033[K" : "", at.finished, at.all,
+              at.unit.c_str(), at.episodes, at.mean_score, terminal ? "" : "\n");
+  if (terminal) std::printf(", %s left%s", hours(at.left.count()).c_str(), at.finished == at.all ? "\n" : "");
+  std::fflush(stdout);
+}
+
+void print_cost(const Plan& plan, const Images& images) {
+  const Cost cost = cost_of(plan);
+  for (const AgentCost& agent : cost.agents)
+    std::printf("%-12s %6zu units  %14.0f decisions  %10.1f core-hours\n", agent.agent.c_str(), agent.units,
+                agent.decisions, agent.core_hours);
+  std::printf("%-12s %6zu units  %14.0f decisions  %10.1f core-hours\n", "all", cost.units, cost.decisions,
+              cost.core_hours);
+  std::printf("memory: at most %.0f MB a thread; disk: about %.0f MB; verification: %.1f core-hours\n",
+              cost.megabytes, cost.disk_megabytes, cost.verification_core_hours);
+  for (const std::string& game : games_without_image(plan, images))
+    std::printf("missing image: %s\n", game.c_str());
+}
+
+void run(const Options& options) {
+  Plan plan = load_plan(options.plan);
+  const Images images = images_of(options.images);
+  if (options.dry_run) return print_cost(plan, images);
+  if (options.into.empty()) throw CLI::RequiredError("--into");
+  ExperimentSettings settings;
+  settings.threads = threads_of(options.images);
+  settings.checkpoints = std::chrono::seconds(options.checkpoint_seconds);
+  settings.cpu = options.images.cpu;
+  read_shard(options.shard, settings);
+  bind(plan, images, RACEBEAM_VERSION);
+  run_experiment(plan, images, ResultsFolder(options.into), settings, report);
+}
+
+}  // namespace
+
+void add_experiment(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("experiment", "Run agents on games, as a plan says");
+  command.add_option("PLAN", options->plan, "A plan's name, or a TOML file")->required();
+  command.add_option("--into", options->into, "The folder of the results; it may hold a part of them");
+  command.add_flag("--dry-run", options->dry_run,
+                   "Only list the units, their cost, and the images that are missing");
+  command.add_option("--shard", options->shard,
+                     "Run a part, such as 3/100: each hundredth unit from the third on");
+  add_count(command, "--checkpoint-seconds", options->checkpoint_seconds, 0,
+            "Least time between two checkpoints of a unit");
+  add_image_options(command, options->images);
+  command.footer(kFooter);
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace racebeam

@@ -1,0 +1,81 @@
+#include "cli/commands/verify.hpp"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "agents/base/sealed_file.hpp"
+#include "agents/experiment/verify.hpp"
+#include "cli/arguments/image_options.hpp"
+#include "cli/arguments/options.hpp"
+#include "system/input_file.hpp"
+#include "system/printable.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr auto kFooter =
+    R"(Plays the log of each row of RESULTS/results.csv again, and compares the row, its log and what the machine gives.
+Each row that is not confirmed gets a line. With --table, also says whether a table or a report was made from
+these results: it must contain the SHA-256 of results.csv.
+
+Exit status: 0 all rows are confirmed; 1 rows, logs or tables are wrong, missing or too many; 2 nothing is wrong,
+but some rows could not be checked, such as those of a game without an image.
+
+Example:
+  racebeam verify results --roms ~/atari)";
+
+constexpr std::size_t kMostTableBytes = std::size_t{1} << 30;
+
+struct Options {
+  std::string results;
+  std::vector<std::string> tables;
+  ImageOptions images;
+};
+
+// Returns whether the file says that it was made from these results.
+bool check_table(const std::string& path, const std::string& digest) {
+  const bool same = read_input_file("table", path, kMostTableBytes).find(digest) != std::string::npos;
+  std::printf("%s %s\n", printable(path).c_str(),
+              same ? "was made from these results"
+                   : ("was not made from these results: it lacks their digest, " + digest).c_str());
+  return same;
+}
+
+int run(const Options& options) {
+  const ResultsFolder folder(options.results);
+  const auto start = std::chrono::steady_clock::now();
+  const Verdict verdict =
+      verify(folder, images_of(options.images), threads_of(options.images), options.images.cpu,
+             [](const std::string& line) { std::printf("%s\n", printable(line).c_str()); });
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  bool tables = true;
+  const std::string digest = sha256_of(read_input_file("results", folder.results(), kMostTableBytes));
+  for (const std::string& path : options.tables) tables = check_table(path, digest) && tables;
+  std::printf("%zu rows confirmed, %zu wrong, %zu could not be checked; %lld frames in %.1f s\n",
+              verdict.confirmed, verdict.wrong, verdict.unchecked, static_cast<long long>(verdict.frames),
+              seconds.count());
+  if (verdict.wrong > 0 || !tables) return 1;
+  return verdict.unchecked > 0 ? 2 : 0;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command =
+      *app.add_subcommand("verify", "Play the episodes of an experiment again, and confirm its scores");
+  command.add_option("RESULTS", options->results, "The folder of the results")->required();
+  command.add_option("--table", options->tables,
+                     "A table or report that was made from them; may be repeated")
+      ->allow_extra_args(false);
+  add_image_options(command, options->images);
+  command.footer(kFooter);
+  command.callback([options] {
+    if (const int status = run(*options); status != 0) throw CLI::RuntimeError(status);
+  });
+}
+
+}  // namespace racebeam

@@ -1,0 +1,138 @@
+#include "agents/experiment/plan.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "agents/experiment/game_sets.hpp"
+#include "system/invalid_input.hpp"
+#include "tests/agents/experiment/samples.hpp"
+
+using namespace racebeam;
+using namespace racebeam::test;
+
+namespace {
+
+std::string refusal_of(const std::string& text) {
+  try {
+    parse_plan(text, "test.toml");
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+constexpr auto kStart = "games = [\"beamfall\"]\nagents = [\"basic\", \"random\"]\n";
+
+}  // namespace
+
+TEST_CASE("A plan that is written out reads back the same") {
+  for (const ShippedPlan& shipped : shipped_plans()) {
+    const Plan plan = load_plan(std::string(shipped.name));
+    const std::string text = text_of(plan);
+    INFO(text);
+    CHECK(text_of(parse_plan(text, "again")) == text);
+  }
+}
+
+TEST_CASE("Presets give the settings of their papers") {
+  const Plan paper = parse_plan(kStart, "");
+  CHECK(paper.play.machine.frame_skip == 5);
+  CHECK(paper.play.machine.sticky == 0);
+  CHECK(paper.play.machine.max_episode_frames == 18000);
+  CHECK(paper.agents[0].length == TrialLength{30, 5000, 0, 500});
+  CHECK(paper.agents[0].values["alpha"] == 0.5);
+  CHECK(paper.agents[1].frame_skip == 1);
+  CHECK(paper.agents[1].length == TrialLength{1, 0, 0, 500});
+  const Plan machado = parse_plan(std::string("preset = \"machado2018\"\n") + kStart, "");
+  CHECK(machado.play.machine.sticky == 0.25F);
+  CHECK(machado.agents[0].length.training_frames == 200000000);
+  CHECK(machado.agents[0].length.training_episodes == 0);
+  const Plan atari = parse_plan(std::string("preset = \"atari100k\"\n") + kStart, "");
+  CHECK(atari.play.machine.frame_skip == 4);
+  CHECK(atari.agents[0].length.training_frames == 400000);
+}
+
+TEST_CASE("Mistakes in a plan are named with their line") {
+  const auto check = [](const std::string& more, const std::string& expected) {
+    CHECK_THAT(refusal_of(kStart + more), Catch::StartsWith(expected));
+  };
+  check("trails = 1\n", "test.toml:3: trails: unknown key; accepted are name, preset");
+  check("trials = 0\n", "test.toml:3: trials: 0 is out of range; accepted are 1 to 1000000");
+  check("preset = \"dqn\"\n",
+        "test.toml:3: preset: 'dqn' is not known; accepted are paper2013, machado2018, atari100k");
+  check("environment = \"frame_skip=0\"\n", "test.toml:3: environment: frame_skip is '0'");
+  check("environment = \"speed=9\"\n", "test.toml:3: environment: there is no setting 'speed'");
+  check("environment = \"max_episode_frames=0\"\n", "test.toml:1: environment: max_episode_frames is 0");
+  check("[agent.basic]\nepsilon = 1.5\n",
+        "test.toml:4: agent.basic.epsilon: 1.5 is not accepted; it takes a number from 0 to 1");
+  check("[agent.basic]\nalpha = 0\n",
+        "test.toml:4: agent.basic.alpha: 0 is not accepted; it takes a number from 1e-09");
+  check("[agent.basic]\nalpha = nan\n", "test.toml:4: agent.basic.alpha: ");
+  check("[agent.basic]\nalpha = \"much\"\n", "test.toml:4: agent.basic.alpha: this is not accepted");
+  check("[agent.basic]\nframe_skip = 0\n", "test.toml:4: agent.basic.frame_skip: 0 is out of range");
+  check("[agent.basic]\ngrid_width = 17\n",
+        "test.toml:4: agent.basic.grid_width: 17 does not divide the screen's 160 pixels");
+  check("[agent.basic]\nreward_scale = \"second\"\n",
+        "test.toml:4: agent.basic.reward_scale: 'second' is not known; accepted are first, none and sign");
+  check("[agent.basic]\nbeta = 1\n",
+        "test.toml:4: agent.basic.beta: unknown key; accepted are frame_skip, trials");
+  check("[agent.ram]\nalpha = 1\n", "test.toml:3: agent.ram: unknown key; accepted are basic and random");
+  check("training_episodes = 5\ntraining_frames = 5\n", "test.toml:4: training_frames: training is so many");
+  CHECK_THAT(refusal_of("games = [\"beamfal\"]\n"),
+             Catch::StartsWith("test.toml:1: games: there is no game 'beamfal'; did you mean beamfall?"));
+  CHECK_THAT(refusal_of("games = \"all\"\n"),
+             Catch::StartsWith("test.toml:1: games: there is no set 'all'; accepted are training"));
+  CHECK_THAT(refusal_of("games = []\n"), Catch::StartsWith("test.toml:1: games: a list in [ ]"));
+  CHECK_THAT(refusal_of("games = [\"beamfall\", \"beamfall\"]\n"),
+             Catch::StartsWith("test.toml:1: games: 'beamfall' stands twice"));
+  CHECK_THAT(
+      refusal_of("games = [\"beamfall\"]\nagents = [\"dqn\"]\n"),
+      Catch::StartsWith("test.toml:2: agents: there is no agent 'dqn'; accepted are random, const, perturb"));
+  CHECK_THAT(refusal_of("games = ["), Catch::StartsWith("test.toml:1: TOML: "));
+}
+
+TEST_CASE("All games without an image are named at once") {
+  Plan plan = parse_plan("games = [\"asterix\", \"beamfall\", \"pong\"]\nagents = [\"random\"]\n", "");
+  CHECK_THROWS_WITH(bind(plan, Images(), "0.1.0"),
+                    "no image is here of: asterix, pong; --roms names the folder that holds them");
+}
+
+TEST_CASE("A plan of another image or version is refused") {
+  const std::string start(kStart);
+  Plan plan = parse_plan(start + "version = \"0.0.9\"\n", "");
+  CHECK_THROWS_WITH(bind(plan, Images(), "0.1.0"), "the plan is of version '0.0.9'; this program is 0.1.0");
+  plan = parse_plan(start + "[images]\nbeamfall = \"abc\"\n", "");
+  CHECK_THROWS_WITH(bind(plan, Images(), "0.1.0"),
+                    Catch::StartsWith("the plan's image of beamfall has MD5 abc; the one that is here has "));
+}
+
+TEST_CASE("Baselines are 37, in the plan's order, with seeds of their own") {
+  const Plan plan =
+      parse_plan("games = [\"beamfall\", \"updraft\"]\nagents = [\"random\", \"const\", \"perturb\"]\n", "");
+  const std::vector<Unit> units = units_of(plan);
+  REQUIRE(units.size() == 2 * 37);
+  CHECK(units[0].name == "beamfall-random-1");
+  CHECK(units[1].name == "beamfall-const_noop-1");
+  CHECK(units[36].name == "beamfall-perturb_downleftfire-1");
+  CHECK(units[37].name == "updraft-random-1");
+  std::set<std::uint32_t> seeds;
+  for (const Unit& unit : units) {
+    seeds.insert(agent_seed(plan, unit));
+    for (const int episode : {1, 2}) {
+      for (const bool training : {true, false}) seeds.insert(environment_seed(plan, unit, training, episode));
+    }
+  }
+  CHECK(seeds.size() == units.size() * 5);
+}
+
+TEST_CASE("The sets of games are the paper's") {
+  CHECK(find_game_set("paper")->games.size() == 55);
+  CHECK(find_game_set("training")->games.size() == 5);
+  CHECK(find_game_set("testing")->games.size() == 50);
+  CHECK(find_game_set("atari100k")->games.size() == 26);
+  for (const GameSet& set : game_sets())
+    for (const SetGame& game : set.games) {
+      INFO(game.name);
+      CHECK(find_game(game.name) != nullptr);
+    }
+}

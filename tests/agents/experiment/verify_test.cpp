@@ -1,0 +1,254 @@
+#include "agents/experiment/verify.hpp"
+
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "agents/base/file_lock.hpp"
+#include "agents/base/sealed_file.hpp"
+#include "agents/experiment/trial.hpp"
+#include "agents/features/game_facts.hpp"
+#include "system/invalid_input.hpp"
+#include "tests/agents/experiment/samples.hpp"
+
+using namespace racebeam;
+using namespace racebeam::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto kPlan = R"(games = ["beamfall"]
+agents = ["random", "perturb", "basic"]
+trials = 1
+training_episodes = 2
+evaluation_episodes = 2
+background_screens = 300
+environment = "max_episode_frames=1000"
+)";
+
+struct Verified {
+  Verdict verdict;
+  std::string findings;
+};
+
+Verified verified(const ResultsFolder& folder, const Images& images = Images()) {
+  Verified result;
+  result.verdict = verify(folder, images, 2, CpuKind::kAuto,
+                          [&](const std::string& line) { result.findings += line + "\n"; });
+  return result;
+}
+
+// The contents of all files but the times, by their paths.
+std::map<std::string, std::string> files_of(const ResultsFolder& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder.root())) {
+    const std::string path = fs::relative(entry.path(), folder.root()).string();
+    if (!entry.is_directory() && path.find("times") == std::string::npos)
+      files[path] = contents(entry.path().string());
+  }
+  return files;
+}
+
+std::string altered_field(const std::string& table, std::size_t line, std::size_t column,
+                          const std::string& value) {
+  std::vector<ResultRow> rows = parse_results("", table);
+  rows.at(line).at(column) = value;
+  std::string text = line_of(kResultColumns);
+  for (const ResultRow& row : rows) text += line_of(row);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("An experiment's results are confirmed, and every alteration is named") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan = bound_plan(kPlan);
+  run(plan, folder, {.threads = 2});
+  const Verified good = verified(folder);
+  INFO(good.findings);
+  REQUIRE(good.verdict.confirmed == 2 * 20);
+  REQUIRE(good.verdict.wrong == 0);
+  REQUIRE(good.verdict.unchecked == 0);
+  CHECK(good.verdict.frames > 2 * 20 * 100);
+  const std::string table = contents(folder.results());
+
+  SECTION("each column of each kind of row") {
+    for (const std::size_t line : {std::size_t{0}, std::size_t{5}, std::size_t{39}}) {
+      for (std::size_t column = 0; column < kResultColumns.size(); ++column) {
+        INFO(kResultColumns[column]);
+        write(folder.results(), altered_field(table, line, column, "1234"));
+        const Verified found = verified(folder);
+        REQUIRE(found.verdict.confirmed == 39);
+        REQUIRE(found.verdict.wrong >= 1);
+        REQUIRE(found.findings != "");
+      }
+    }
+  }
+  SECTION("a score that the log agrees with, which the machine does not give") {
+    const std::string path = folder.log("beamfall-random-1", "1");
+    EpisodeLog log = log_of("1.episode", contents(path));
+    log.end.score += 10;
+    const std::string bytes = bytes_of(log);
+    write(path, bytes);
+    std::string altered = altered_field(table, 0, 8, std::to_string(log.end.score));
+    write(folder.results(), altered_field(altered, 0, 14, sha256_of(bytes)));
+    CHECK_THAT(verified(folder).findings,
+               Catch::Contains("score is '" + std::to_string(log.end.score) + "'; the replay gives '" +
+                               std::to_string(log.end.score - 10) + "'; every state is the same"));
+  }
+  SECTION("an action that was exchanged") {
+    const std::string path = folder.log("beamfall-random-1", "1");
+    EpisodeLog log = log_of("1.episode", contents(path));
+    REQUIRE(log.actions.size() > 600);
+    for (std::size_t i = 300; i < 500; ++i) log.actions[i] = 3;
+    const std::string bytes = bytes_of(log);
+    write(path, bytes);
+    write(folder.results(), altered_field(table, 0, 14, sha256_of(bytes)));
+    CHECK_THAT(verified(folder).findings,
+               Catch::Contains("the first stretch that differs: decisions 257 to 512"));
+  }
+  SECTION("logs that were exchanged, dropped, cut and added") {
+    const std::string first = folder.log("beamfall-random-1", "1"),
+                      second = folder.log("beamfall-random-1", "2");
+    fs::rename(first, first + ".x");
+    fs::rename(second, first);
+    fs::rename(first + ".x", second);
+    CHECK(verified(folder).verdict.wrong == 2);
+    fs::remove(first);
+    CHECK_THAT(verified(folder).findings, Catch::Contains("1.episode: there is no such file"));
+    write(first, contents(second).substr(0, 50));
+    CHECK_THAT(verified(folder).findings, Catch::Contains("its checksum is wrong"));
+    write(folder.log("beamfall-random-1", "3"), contents(second));
+    CHECK_THAT(verified(folder).findings, Catch::Contains("3.episode: no row of results.csv has this log"));
+  }
+  SECTION("rows that are missing, doubled and too many") {
+    const std::size_t last = table.rfind('\n', table.size() - 2) + 1;
+    write(folder.results(), table.substr(0, last));
+    Verified found = verified(folder);
+    CHECK_THAT(found.findings, Catch::Contains("the row of beamfall-basic-1, episode 2 is missing"));
+    CHECK(found.verdict.wrong == 2);  // its log is surplus
+    write(folder.results(), table + table.substr(last));
+    CHECK_THAT(verified(folder).findings, Catch::Contains("beamfall-basic-1, episode 2): stands twice"));
+    write(folder.results(), altered_field(table, 0, 5, "9"));
+    CHECK_THAT(verified(folder).findings,
+               Catch::Contains("beamfall-random-1, episode 9): is not in the plan"));
+  }
+  SECTION("a table with other columns, and one that was cut") {
+    write(folder.results(), "unit,score\n");
+    CHECK_THROWS_WITH(verified(folder),
+                      Catch::StartsWith("results.csv: its first line must name the columns unit,game"));
+    write(folder.results(), table.substr(0, table.size() - 3));
+    CHECK_THROWS_WITH(verified(folder), Catch::Contains("the last line does not end"));
+    write(folder.results(), table + "a,b\n");
+    CHECK_THROWS_WITH(verified(folder), Catch::Contains("the row has 2 fields"));
+  }
+  SECTION("a folder that is not the plan's") {
+    Plan other = bound_plan(std::string("seed = 2\n") + kPlan);
+    CHECK_THROWS_WITH(run(other, folder),
+                      Catch::Contains("the first difference is: here 'seed = 2', there 'seed = 1'"));
+    fs::remove(folder.plan());
+    CHECK_THROWS_AS(verified(folder), InvalidInput);
+  }
+}
+
+TEST_CASE(
+    "Results are the same on one thread and two, by either processor, in shards and after interruptions") {
+  const Scratch place;
+  const Plan plan = bound_plan(kPlan);
+  const ResultsFolder whole(place.path("whole")), parts(place.path("parts"));
+  run(plan, whole);
+  run(plan, parts, {.threads = 2, .shard = 2, .shards = 3, .cpu = CpuKind::kInterpreter});
+  run(plan, parts, {.threads = 1, .shard = 1, .shards = 3});
+  CHECK(contents(parts.results()).size() < contents(whole.results()).size());
+  run(plan, parts, {.threads = 2});
+  CHECK(files_of(whole) == files_of(parts));
+  CHECK(!fs::exists(parts.work()));
+}
+
+TEST_CASE("A trial goes on from its checkpoint as if nothing had happened") {
+  const Scratch place;
+  const Plan plan = bound_plan(kPlan);
+  const ResultsFolder whole(place.path("whole")), parts(place.path("parts"));
+  run(plan, whole);
+  const std::vector<Unit> units = units_of(plan);
+  const Images images;
+  for (const std::string& path : {parts.units(), parts.logs(), parts.facts(), parts.work()})
+    fs::create_directories(path);
+  for (const Unit& unit : units) {
+    const Cartridge& cartridge = *images.find("beamfall");
+    for (bool finished = false; !finished;) {
+      GameFacts facts(cartridge, {plan.seed, plan.background_screens, plan.class_screens, plan.play},
+                      parts.facts());
+      Trial trial(plan, unit, parts, cartridge, &facts, CpuKind::kAuto);
+      finished =
+          trial.run(std::chrono::milliseconds(0), [episodes = 0]() mutable { return episodes++ == 1; });
+    }
+  }
+  run(plan, parts);
+  CHECK(files_of(whole) == files_of(parts));
+}
+
+TEST_CASE("A unit that another process runs is named, and the rest is done") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan = bound_plan(kPlan);
+  fs::create_directories(folder.work());
+  {
+    const FileLock other(folder.lock("beamfall-random-1"));
+    CHECK_THROWS_WITH(run(plan, folder),
+                      Catch::StartsWith("beamfall-random-1 is being run by another process"));
+  }
+  CHECK(parse_results("", contents(folder.results())).size() == 38);
+  run(plan, folder);
+  CHECK(verified(folder).verdict.confirmed == 40);
+}
+
+TEST_CASE("A damaged checkpoint, and a background of another game, are refused") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan = bound_plan(kPlan);
+  fs::create_directories(folder.work());
+  write(folder.checkpoint("beamfall-random-1"), "RBCHECKP");
+  CHECK_THROWS_WITH(run(plan, folder), Catch::StartsWith("checkpoint beamfall-random-1.checkpoint: "));
+  fs::remove(folder.checkpoint("beamfall-random-1"));
+  const Cartridge other{load_image("builtin:updraft"), find_game("updraft")};
+  write(folder.facts() + "/beamfall.background", bytes_of(Background{}, other, {1, 300, 300, plan.play}));
+  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("is of 'game=updraft"));
+}
+
+TEST_CASE("Rows whose image is not here are listed, and never confirmed") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  run(bound_plan(kPlan), folder);
+  EpisodeLog log = log_of("", contents(folder.log("beamfall-random-1", "1")));
+  log.image_md5 = std::string(32, '0');
+  const std::string bytes = bytes_of(log);
+  write(folder.log("beamfall-random-1", "1"), bytes);
+  std::string table = altered_field(contents(folder.results()), 0, 2, log.image_md5);
+  write(folder.results(), altered_field(table, 0, 14, sha256_of(bytes)));
+  const Verified found = verified(folder);
+  CHECK(found.verdict.confirmed == 39);
+  CHECK(found.verdict.unchecked == 1);
+  CHECK(found.verdict.wrong == 0);
+  CHECK_THAT(found.findings, Catch::Contains("could not be checked: no image with MD5 000"));
+}
+
+TEST_CASE("A trial that diverges has one row, which is never averaged") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan =
+      bound_plan(std::string(kPlan) +
+                 "[agent.basic]\nalpha = 100\nlambda = 1\nleast_trace = 0\ntraining_episodes = 50\n"
+                 "reward_scale = \"none\"\n");
+  run(plan, folder);
+  const auto rows = parse_results("", contents(folder.results()));
+  REQUIRE(rows.size() == 39);
+  CHECK(field(rows[38], "end") == "diverged");
+  CHECK(field(rows[38], "score") == "");
+  const Verified found = verified(folder);
+  CHECK(found.verdict.confirmed == 38);
+  CHECK(found.verdict.unchecked == 1);
+  write(folder.results(), altered_field(contents(folder.results()), 38, 8, "5"));
+  CHECK(verified(folder).verdict.wrong == 1);
+}

@@ -1,0 +1,84 @@
+#include "agents/features/background.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "agents/base/random.hpp"
+#include "agents/features/game_facts.hpp"
+#include "system/invalid_input.hpp"
+#include "tests/agents/experiment/samples.hpp"
+
+using namespace racebeam;
+using namespace racebeam::test;
+
+TEST_CASE("A background under moving sprites comes out exactly") {
+  Random random(1);
+  Background truth;
+  for (auto& colour : truth) colour = static_cast<std::uint8_t>(random.below(kColours));
+  ColourHistogram histogram;
+  for (int count = 0; count < 300; ++count) {
+    std::array<std::uint8_t, kFeaturePixels> screen;
+    for (std::size_t pixel = 0; pixel < screen.size(); ++pixel)
+      screen[pixel] = static_cast<std::uint8_t>(truth[pixel] << 1);
+    for (int sprite = 0; sprite < 6; ++sprite) {
+      const std::size_t left = random.below(kFeatureWidth - 8), top = random.below(kFeatureHeight - 8);
+      for (std::size_t y = top; y < top + 8; ++y)
+        for (std::size_t x = left; x < left + 8; ++x) screen[y * kFeatureWidth + x] = 0x42;
+    }
+    histogram.add(screen);
+  }
+  CHECK(histogram.most_frequent() == truth);
+}
+
+TEST_CASE("Of colours that are as frequent, the lowest is the background") {
+  ColourHistogram histogram;
+  std::array<std::uint8_t, kFeaturePixels> screen;
+  for (const int colour : {9, 4, 9, 4}) {
+    screen.fill(static_cast<std::uint8_t>(colour << 1));
+    histogram.add(screen);
+  }
+  CHECK(histogram.most_frequent()[0] == 4);
+}
+
+TEST_CASE("A background is the same again, as CSV and as a file") {
+  const SampleSettings settings{1, 500, 500, short_episodes()};
+  const Background background = discover_background(beamfall(), settings);
+  CHECK(discover_background(beamfall(), settings) == background);
+  CHECK(background_of_csv("a.csv", csv_of(background)) == background);
+  const Scratch folder;
+  const std::string path = folder.path("a.background");
+  write(path, bytes_of(background, beamfall(), settings));
+  CHECK(background_of(path, beamfall(), settings) == background);
+  SampleSettings other = settings;
+  other.seed = 2;
+  CHECK_THROWS_WITH(background_of(path, beamfall(), other),
+                    Catch::Contains("seed=1 ") && Catch::Contains("wanted is"));
+}
+
+TEST_CASE("A background of another size is refused") {
+  const std::string good = csv_of(Background{});
+  const auto refusal = [](const std::string& text) {
+    try {
+      background_of_csv("a.csv", text);
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(refusal(good) == "");
+  CHECK(refusal("") == "a.csv: it has 0 lines; accepted are 210");
+  CHECK(refusal(good + good) == "a.csv:211: there are more than 210 lines");
+  CHECK(refusal("0," + good) == "a.csv:1: it does not have 160 colours");
+  CHECK(refusal(good.substr(2)) == "a.csv:1: it does not have 160 colours");
+  CHECK(refusal("128" + good.substr(1)) ==
+        "a.csv:1: '128' is no colour; accepted are 160 numbers from 0 to 127, with commas between");
+  CHECK(refusal("x" + good.substr(1)).starts_with("a.csv:1: 'x' is no colour"));
+}
+
+TEST_CASE("Screens are those of random play, as many as were asked for") {
+  int seen = 0;
+  sample_screens(beamfall(), {1, 1, 1, short_episodes(2000)}, 1500, 4, [&](const Environment& machine) {
+    ++seen;
+    REQUIRE(machine.screen().size() == kFeaturePixels);
+  });
+  CHECK(seen == 1500);
+}

@@ -1,0 +1,158 @@
+"""racebeam experiment and racebeam verify."""
+
+import os
+import pathlib
+import random
+import resource
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from harness import BINARY, PATIENCE, main
+
+os.environ.pop("RACEBEAM_ROMS", None)
+
+PLAN = """games = ["beamfall"]
+agents = ["random", "const", "basic", "lsh", "uct"]
+trials = 1
+training_episodes = 8
+evaluation_episodes = 3
+background_screens = 500
+environment = "max_episode_frames=1500"
+[agent.uct]
+trials = 2
+simulations = 5
+"""
+
+
+def run(*words, **options):
+    """Status, output and errors of racebeam, as text."""
+    done = subprocess.run([BINARY, *words], capture_output=True, text=True, timeout=10 * PATIENCE, **options)
+    return done.returncode, done.stdout, done.stderr
+
+
+def files(folder):
+    """The contents of all files of results by their paths, without times."""
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(folder.rglob("*"))
+            if path.is_file() and "times" not in path.name}
+
+
+class Experiment(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.place = pathlib.Path(place.name)
+        self.plan = self.place / "plan.toml"
+        self.plan.write_text(PLAN)
+
+    def experiment(self, into, *words, **options):
+        return run("experiment", str(self.plan), "--into", str(self.place / into), *words, **options)
+
+    def test_a_line_a_unit_and_all_rows_confirmed(self):
+        status, printed, errors = self.experiment("results")
+        self.assertEqual((status, errors), (0, ""))
+        self.assertEqual(len(printed.splitlines()), 1 + 18 + 1 + 1 + 2)
+        self.assertRegex(printed, r"(?m)^\d+/23 beamfall-basic-1: 3 episodes, mean score [0-9.]+$")
+        status, printed, errors = run("verify", str(self.place / "results"))
+        self.assertEqual((status, errors), (0, ""))
+        self.assertRegex(printed, r"^65 rows confirmed, 0 wrong, 0 could not be checked; \d+ frames in ")
+        self.assertEqual(self.experiment("results"), (0, "", ""))  # nothing is run again
+
+    def test_killed_at_any_moment_the_end_is_the_same(self):
+        self.assertEqual(self.experiment("whole", "--threads", "1")[0], 0)
+        chance = random.Random(5)
+        kills = 0
+        command = [BINARY, "experiment", str(self.plan), "--into", str(self.place / "parts"), "--threads", "2",
+                   "--checkpoint-seconds", "0"]
+        for _ in range(20):
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+            time.sleep(chance.uniform(0.01, 0.25))
+            process.send_signal(signal.SIGKILL)
+            kills += process.wait() == -signal.SIGKILL
+        self.assertGreater(kills, 0)
+        self.assertEqual(self.experiment("parts", "--cpu", "interpreter", env=os.environ | {"RACEBEAM_SIMD": "plain"})[0], 0)
+        self.assertEqual(files(self.place / "parts"), files(self.place / "whole"))
+
+    def test_altered_results_are_named(self):
+        self.experiment("results")
+        table = self.place / "results" / "results.csv"
+        lines = table.read_text().splitlines(keepends=True)
+        fields = lines[1].split(",")
+        fields[8] = str(int(fields[8]) + 1)
+        table.write_text("".join([lines[0], ",".join(fields), *lines[2:]]))
+        status, printed, _ = run("verify", str(self.place / "results"))
+        self.assertEqual(status, 1)
+        self.assertRegex(printed, r"results.csv:2 \(beamfall-random-1, episode 1\): not confirmed: score is '\d+'; its log has")
+
+    def test_tables_say_what_they_were_made_from(self):
+        self.experiment("results")
+        report = self.place / "report.md"
+        report.write_text("made from results.csv sha256:0000")
+        status, printed, _ = run("verify", str(self.place / "results"), "--table", str(report))
+        self.assertEqual(status, 1)
+        self.assertIn("was not made from these results: it lacks their digest, ", printed)
+        digest = subprocess.run(["sha256sum", str(self.place / "results" / "results.csv")], capture_output=True, text=True)
+        report.write_text("made from results.csv sha256:" + digest.stdout.split()[0])
+        status, printed, _ = run("verify", str(self.place / "results"), "--table", str(report))
+        self.assertEqual(status, 0, printed)
+
+    def test_a_disk_that_is_full_loses_nothing_that_is_finished(self):
+        self.assertEqual(self.experiment("whole")[0], 0)
+
+        def few_bytes():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1200, 1200))
+        status, _, errors = self.experiment("parts", preexec_fn=few_bytes)
+        self.assertEqual(status, 1)
+        self.assertRegex(errors, r"^racebeam: cannot write .*: File too large\n$")
+        self.assertEqual(self.experiment("parts")[0], 0)
+        self.assertEqual(files(self.place / "parts"), files(self.place / "whole"))
+
+    def test_bad_input_is_named_and_nothing_is_written(self):
+        for words, status, sentence in (
+                (["no"], 1, "there is no plan 'no'; shipped are paper, hour, smoke; a file's name contains . or /"),
+                (["./none.toml"], 1, "plan ./none.toml: there is no such file"),
+                (["paper"], 1, "no image is here of: asterix, beam_rider, freeway, seaquest, space_invaders, alien, "),
+                (["smoke", "--shard", "3/2"], 1, "--shard is '3/2'; it takes K/N, with K from 1 to N"),
+                (["smoke", "--shard", "x"], 1, "--shard is 'x'; it takes K/N, with K from 1 to N"),
+                (["smoke", "--threads", "-1"], 2, "--threads: '-1' is not a whole number from 0 to 1024")):
+            found = run("experiment", *words, "--into", str(self.place / "bad"))
+            self.assertEqual(found[0], status, found)
+            self.assertTrue(found[2].startswith("racebeam: " + sentence), found[2])
+            self.assertFalse((self.place / "bad").exists())
+        self.assertEqual(run("experiment", "smoke")[0], 2)
+        status, _, errors = run("verify", str(self.place / "none"))
+        self.assertEqual(status, 1)
+        self.assertRegex(errors, "^racebeam: plan .*/none/plan.toml: there is no such file\n$")
+
+    def test_a_dry_run_lists_cost_and_missing_images(self):
+        status, printed, _ = run("experiment", "paper", "--dry-run")
+        self.assertEqual(status, 0)
+        self.assertIn("missing image: zaxxon\n", printed)
+        self.assertRegex(printed, r"(?m)^basic +1650 units +\d+ decisions +[0-9.]+ core-hours$")
+
+    def test_a_background_is_discovered_drawn_and_read_again(self):
+        into = self.place / "pictures"
+        words = ("background", "beamfall", "--screens", "500", "--into")
+        self.assertEqual(run(*words, str(into))[0], 0)
+        for name in ("background", "secam", "tiles"):
+            self.assertTrue((into / f"beamfall-{name}.png").read_bytes().startswith(b"\x89PNG"))
+        table = (into / "beamfall.csv").read_text()
+        self.assertEqual([len(line.split(",")) for line in table.splitlines()], [160] * 210)
+        again = self.place / "again"
+        self.assertEqual(run(*words, str(again), "--csv", str(into / "beamfall.csv"))[0], 0)
+        self.assertEqual((again / "beamfall.background").read_bytes(), (into / "beamfall.background").read_bytes())
+        (into / "beamfall.csv").write_text(table + "1\n")
+        status, _, errors = run(*words, str(self.place / "bad"), "--csv", str(into / "beamfall.csv"))
+        self.assertEqual(status, 1)
+        self.assertIn("beamfall.csv:211: there are more than 210 lines", errors)
+        self.assertFalse((self.place / "bad").exists())
+        status, _, errors = run("background", "asterix", "--into", str(self.place / "bad"))
+        self.assertEqual((status, errors), (1, "racebeam: no image is here of 'asterix'; --roms names the folder "
+                                               "that holds it\n"))
+
+
+if __name__ == "__main__":
+    main()
