@@ -113,7 +113,7 @@ Inputs& Console::inputs() { return impl_->state().inputs; }
 Sound& Console::sound() { return impl_->board.sound; }
 const Sound& Console::sound() const { return impl_->board.sound; }
 const State& Console::state() const {
-  impl_->settle_latches();
+  impl_->settle_latches(*impl_->pictures.current);
   return impl_->board.state;
 }
 
@@ -150,7 +150,10 @@ std::span<const std::uint8_t> Console::previous_picture() const {
 }
 
 const FrameBuffers& Console::pictures() const { return impl_->pictures; }
-void Console::restore_pictures(const FrameBuffers& pictures) { impl_->take(pictures); }
+void Console::restore_pictures(const FrameBuffers& pictures) {
+  impl_->settle_latches(*impl_->pictures.current);  // they follow from the picture
+  impl_->take(pictures);
+}
 
 std::shared_ptr<const FrameBuffer> Console::drawn(std::shared_ptr<FrameBuffer> picture) const {
   impl_->draw_now(picture);

@@ -41,7 +41,6 @@ struct Console::Impl {
   struct {
     Collisions sought = 0;
     Collisions unknown = 0;  // latches of the state that have not been computed
-    RecordedStep step;       // the step that computes them, if there are any
   } latches;
 
   DeferredRenderPolicy render_policy;
@@ -67,9 +66,9 @@ struct Console::Impl {
   bool run_step(FrameBuffer& picture, const FrameStart& start, RenderMode mode);
   FrameStart frame_start() const { return {board.state, board.cartridge_ram, board.sound}; }
   bool reads_unknown_latches(FrameStart& start, bool drew);
-  void note_latches(const FrameStart& start, Collisions looked_for);
-  Collisions collisions_of_last_step();
-  void settle_latches();
+  void note_latches(FrameStart& start, Collisions looked_for);
+  void settle_latches(FrameBuffer& last);
+  Collisions collisions_after(FrameBuffer& last);
   void rewind(const FrameStart& start);
   void draw_now(std::shared_ptr<FrameBuffer>& picture);
   std::shared_ptr<FrameBuffer> own_copy(const FrameBuffer& picture);

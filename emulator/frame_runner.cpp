@@ -29,7 +29,7 @@ void Console::Impl::step(bool observed, bool follow) {
   FrameStart start = frame_start();
   const bool keeps_old_pixels = draw && !pictures.current->is_undrawn && is_own(pictures.current);
   if (!opens || keeps_old_pixels || !step_over(start, draw, deferred)) {
-    settle_latches();
+    settle_latches(*pictures.previous);
     start = frame_start();
     draw_now(pictures.current);
     run_step(canvas(), start, RenderMode::kDrawn);
@@ -123,32 +123,31 @@ bool Console::Impl::reads_unknown_latches(FrameStart& start, bool drew) {
   latches.sought |= unsought;
   if (drew && (latches.unknown & unsought) == 0) return false;
   rewind(start);
-  settle_latches();
+  settle_latches(*pictures.previous);
   start = frame_start();
   return true;
 }
 
 // Called after a step from `start`. looked_for: the pairs whose collisions were computed in it.
-void Console::Impl::note_latches(const FrameStart& start, Collisions looked_for) {
-  TiaState before = start.state.tia;
+void Console::Impl::note_latches(FrameStart& start, Collisions looked_for) {
   if (latches.unknown != 0 && !board.tia.cleared()) {  // they persist
-    before.collisions = collisions_of_last_step();
-    state().tia.collisions |= before.collisions;
+    start.state.tia.collisions = collisions_after(*pictures.previous);
+    state().tia.collisions |= start.state.tia.collisions;
     latches.sought = kAllPairs;  // for a game that keeps collisions over frames
   }
   latches.unknown = kAllPairs & ~looked_for & ~state().tia.collisions;
-  if (latches.unknown != 0) board.record_step(latches.step, before, start.state.frame.lines);
 }
 
-// All pairs, at the end of the step with unknown latches.
-Collisions Console::Impl::collisions_of_last_step() {
-  return board.replay(latches.step, *pictures.current, nullptr, RenderMode::kNone);
-}
-
-void Console::Impl::settle_latches() {
+// Computes the unknown latches. last: the frame that left them unknown, the last one.
+void Console::Impl::settle_latches(FrameBuffer& last) {
   if (latches.unknown == 0) return;
-  state().tia.collisions = collisions_of_last_step();
+  state().tia.collisions = collisions_after(last);
   latches.unknown = 0;
+}
+
+// All latches at the end of a frame that was run without its pixels.
+Collisions Console::Impl::collisions_after(FrameBuffer& last) {
+  return board.replay(last.undrawn, last, nullptr, RenderMode::kNone);
 }
 
 const FrameBuffer* Console::Impl::other_than(const FrameBuffer& picture) const {
