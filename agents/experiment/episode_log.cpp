@@ -32,7 +32,7 @@ std::uint64_t hash_at(std::string_view bytes) {
   return hash;
 }
 
-// Takes the text of a log apart. Throws Refusal or InvalidInput.
+// Takes the text of a log apart. Throws RequestError or InvalidInput.
 class LogReader {
  public:
   explicit LogReader(std::string_view contents) : left_(contents) {}
@@ -152,7 +152,7 @@ EpisodeLog log_of(const std::string& name, std::string_view bytes) {
   const std::string contents = unseal(kKind, name, bytes);
   try {
     return LogReader(contents).read();
-  } catch (const std::exception& error) {  // Refusal, InvalidInput
+  } catch (const std::exception& error) {  // RequestError, InvalidInput
     throw InvalidInput("episode log " + name + ": " + error.what());
   }
 }

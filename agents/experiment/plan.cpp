@@ -75,12 +75,12 @@ std::string list_of(const Rows& rows) {
   return list;
 }
 
-// What the line protocol refuses, as an error of this input.
-void without_refusal(const std::function<void()>& work) {
+// A request error of the line protocol, as an error of this input.
+void as_invalid_input(const std::function<void()>& work) {
   try {
     work();
-  } catch (const Refusal& refusal) {
-    throw InvalidInput(refusal.what());
+  } catch (const RequestError& error) {
+    throw InvalidInput(error.what());
   }
 }
 
@@ -103,7 +103,7 @@ class PlanReader {
     plan_.name = top_.text("name").value_or("experiment");
     if (top_.node("name"))
       top_.guard(*top_.node("name"), "name",
-                 [&] { without_refusal([&] { checked_name(plan_.name, "name"); }); });
+                 [&] { as_invalid_input([&] { checked_name(plan_.name, "name"); }); });
     if (top_.node("seed")) plan_.seed = static_cast<std::uint32_t>(whole_within(top_, "seed", 0, kMostInt));
     for (const ScreensKey& key : kScreensKeys)
       if (top_.node(key.name)) plan_.*key.member = whole_within(top_, key.name, 1, kMostScreens);
@@ -147,7 +147,7 @@ class PlanReader {
   void read_words(const std::string& text) {
     std::vector<std::string_view> words;
     split(text, words);
-    without_refusal([&] { read_settings(words, plan_.play); });
+    as_invalid_input([&] { read_settings(words, plan_.play); });
   }
 
   void read_environment() {

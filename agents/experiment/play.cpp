@@ -84,8 +84,8 @@ PlaySettings settings_of(const EpisodeLog& log) {
   split(log.settings, words);
   try {
     read_settings(words, settings);
-  } catch (const Refusal& refusal) {
-    throw InvalidInput(refusal.what());
+  } catch (const RequestError& error) {
+    throw InvalidInput(error.what());
   }
   return settings;
 }
