@@ -258,6 +258,15 @@ class Halves(unittest.TestCase):
             envs.send(np.array([(steps[env] - 1) % 3 for env in info["env_id"]]))
             observations, *_, info = envs.recv()
 
+    def test_all_are_shown(self):
+        for settings in ({"batch_size": 1}, {"autoreset_mode": "SameStep", **SHORT}):
+            envs = AtariVectorEnv("beamfall", 4, seed=1, **settings)
+            if "batch_size" not in settings:
+                self.assertIn("final_obs", play(envs, 3)[-1][4])
+            seen, info = envs.show()
+            self.assertEqual((seen.shape, info["env_id"].tolist()), ((4, 4, 84, 84), [0, 1, 2, 3]))
+            self.assertNotIn("final_obs", info)
+
     def test_what_plays_is_not_touched(self):
         envs = AtariVectorEnv("beamfall", 4, batch_size=2)
         envs.reset(seed=1)
@@ -331,9 +340,12 @@ class BadInput(unittest.TestCase):
     def test_seeds_and_masks(self):
         envs = AtariVectorEnv("beamfall", 2, seed=1)
         for seed, error in (("12", TypeError), (1.5, TypeError), (-3, InvalidInput), ([1], InvalidInput), ([1, -5], InvalidInput),
-                            (2**32, InvalidInput), ([1, "x"], TypeError)):
+                            (2**32, InvalidInput), ([1, "x"], TypeError), (np.zeros((2, 3)), TypeError)):
             with self.subTest(seed=seed), self.assertRaises(error):
                 envs.reset(seed=seed)
+        for options in (3, "x", [("reset_mask", None)]):
+            with self.assertRaises(TypeError):
+                envs.reset(options=options)
         for mask, error in (([True, False], TypeError), (np.array([1, 0]), TypeError), (np.array([True]), InvalidInput)):
             with self.subTest(mask=mask), self.assertRaises(error):
                 envs.reset(options={"reset_mask": mask})
