@@ -25,7 +25,7 @@ __all__ = ["AtariVectorEnv"]
 Rom = Union[str, os.PathLike[str], bytes]
 Info = dict[str, Any]
 RAM_SIZE, SCREEN_WIDTH = 128, 160
-MOST_ENVS = 2**31 - 1  # the memory sets a lower limit
+MOST_ENVS = 10**7  # the memory sets a lower limit
 
 
 class Machines(Protocol):
