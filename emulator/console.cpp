@@ -144,6 +144,10 @@ std::span<const std::uint8_t> Console::picture() const {
   return impl_->pictures.current->pixels().first(impl_->picture_size());
 }
 
+bool Console::frame_is_open() const {
+  return impl_->board.state.frame.open != 0 && !impl_->pictures.current->is_undrawn;
+}
+
 std::span<const std::uint8_t> Console::previous_picture() const {
   impl_->draw_now(impl_->pictures.previous);
   return impl_->pictures.previous->pixels().first(impl_->picture_size());

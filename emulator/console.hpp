@@ -61,6 +61,7 @@ class Console {
   int height() const;        // rows of picture(): the picture's height, at least 200
   std::span<const std::uint8_t> picture() const;           // height() x 160 palette indices, drawn last
   std::span<const std::uint8_t> previous_picture() const;  // the picture before it
+  bool frame_is_open() const;  // the next step goes on with it, in the same picture
 
   // Both buffers in their order, for a saved state; undrawn ones as they are. They are shared until the
   // console draws on one of them again, so that saving and restoring copy no pixels. Restored pictures must

@@ -69,6 +69,11 @@ void Environment::Impl::run_frame(const Presses& presses, bool draw) {
 }
 
 void Environment::Impl::step_console(bool draw) {
+  went_on = console.frame_is_open();
+  if (went_on) {
+    const auto shown = console.picture();
+    open_picture.assign(shown.begin(), shown.end());
+  }
   console.step(draw);
   play.ram_is_stale = 0;
   blend_is_due = true;

@@ -150,6 +150,7 @@ int Environment::episode_frame_number() const { return static_cast<int>(impl_->p
 int Environment::height() const { return impl_->console.height(); }
 std::span<const std::uint8_t> Environment::screen() const { return impl_->screen(); }
 std::span<const std::uint8_t> Environment::previous_screen() const {
+  if (impl_->went_on) return impl_->open_picture;
   return impl_->console.previous_picture();
 }
 Format Environment::format() const { return impl_->console.format(); }

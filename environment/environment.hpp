@@ -101,7 +101,7 @@ class Environment {
 
   int height() const;                                     // rows of the screen
   std::span<const std::uint8_t> screen() const;           // height x 160 palette indices, row-major
-  std::span<const std::uint8_t> previous_screen() const;  // of the frame before; never averaged
+  std::span<const std::uint8_t> previous_screen() const;  // a frame ago; never averaged
   Format format() const;                                  // never Format::kAuto
   std::span<const std::uint8_t, kRamSize> ram() const;
   std::span<const std::uint8_t, kAudioSize> audio() const;  // of the last act; zeros without Settings::sound

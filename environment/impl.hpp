@@ -48,6 +48,10 @@ struct Environment::Impl {
   std::function<void()> each_frame;  // empty: no watcher
   Drawing drawing;
 
+  // A frame that took more than one step shows one picture, which changes: what it showed before the last.
+  bool went_on = false;
+  std::vector<std::uint8_t> open_picture;
+
   // With colour averaging, the screen is made when it is first asked for.
   const Blend* const blend;  // null: no averaging
   std::vector<std::uint8_t> blended;

@@ -61,6 +61,7 @@ void Environment::Impl::copy_reset(const ResetEnd& end) {
   raw_rewards = {};
   play.ram_is_stale = 0;
   blend_is_due = true;
+  went_on = false;
 }
 
 void Environment::Impl::run_reset() {
@@ -72,6 +73,7 @@ void Environment::Impl::run_reset() {
   for (const int action : game->starting_actions) run_frames(action, 1);
   play.rewards = {};
   raw_rewards = {};
+  went_on = false;
 }
 
 void Environment::Impl::run_frames(int action, int count) {

@@ -68,6 +68,7 @@ void Environment::Impl::restore(const Saved& saved) {
   raw_rewards = {};
   if (saved.random) random = *saved.random;
   blend_is_due = true;
+  went_on = false;
 }
 
 // Two game files can have the same name and different properties.

@@ -198,6 +198,52 @@ TEST_CASE("Averaging blends the picture with the one before it") {
   }
 }
 
+// Draws 100 lines, thinks for longer than a step lasts, and draws 100 more; the colour is the frame's number.
+std::shared_ptr<const Image> thinking_image() {
+  constexpr std::uint8_t kProgram[] = {
+      0xA9, 0x02,        // F000 frame LDA #2
+      0x85, 0x00,        // F002       STA VSYNC
+      0x85, 0x02,        // F004       STA WSYNC
+      0xA9, 0x00,        // F006       LDA #0
+      0x85, 0x00,        // F008       STA VSYNC      the frame closes here
+      0x85, 0x91,        // F00A       STA $91        the game goes on
+      0xE6, 0x80,        // F00C       INC $80
+      0xA5, 0x80,        // F00E       LDA $80
+      0x85, 0x09,        // F010       STA COLUBK
+      0xA2, 0x64,        // F012       LDX #100
+      0x85, 0x02,        // F014 upper STA WSYNC
+      0xCA,              // F016       DEX
+      0xD0, 0xFB,        // F017       BNE upper
+      0xA0, 0x64,        // F019       LDY #100
+      0xCA,              // F01B think DEX
+      0xD0, 0xFD,        // F01C       BNE think
+      0x88,              // F01E       DEY
+      0xD0, 0xFA,        // F01F       BNE think
+      0xA2, 0x64,        // F021       LDX #100
+      0x85, 0x02,        // F023 lower STA WSYNC
+      0xCA,              // F025       DEX
+      0xD0, 0xFB,        // F026       BNE lower
+      0x4C, 0x00, 0xF0,  // F028       JMP frame
+  };
+  std::vector<std::uint8_t> bytes(4096);
+  std::ranges::copy(kProgram, bytes.begin());
+  bytes[0xFFD] = 0xF0;
+  return make_image(std::move(bytes), "thinking");
+}
+
+TEST_CASE("The screen before is what was shown a frame ago, be it of the same picture") {
+  Environment environment(thinking_image(), game(), plain());
+  environment.set_drawing(Drawing::kEvery);
+  std::vector<std::vector<std::uint8_t>> seen;
+  for (int frame = 0; frame < 12; ++frame) {
+    const auto screen = environment.screen();
+    seen.emplace_back(screen.begin(), screen.end());
+    environment.act(0);
+    CHECK(std::ranges::equal(environment.previous_screen(), seen.back()));
+  }
+  CHECK(std::ranges::adjacent_find(seen, std::not_equal_to()) != seen.end());
+}
+
 TEST_CASE("RGB and grey pictures follow the palette") {
   Environment environment = steered();
   std::vector<std::uint8_t> rgb, grey;

@@ -61,9 +61,9 @@ void share_out(const Rows<T>& rows, std::size_t count, const std::array<std::spa
     *parts[row] = {reinterpret_cast<Part*>(rows.data()) + row * count, count};
 }
 
-BatchArrays arrays_of(const Batch& batch, const Results& results) {
+BatchArrays arrays_of(const Batch& batch, std::size_t count, const Results& results) {
   const auto& [observations, ram, numbers, flags, final_observations, final_numbers] = results;
-  const std::size_t count = batch.batch_size(), screens = count * batch.observation_size();
+  const std::size_t screens = count * batch.observation_size();
   BatchArrays to;
   to.observations = bytes_of(observations, screens);
   to.ram = bytes_of(ram, count * kRamSize);
@@ -80,12 +80,12 @@ BatchArrays arrays_of(const Batch& batch, const Results& results) {
   return to;
 }
 
-// Without the GIL, and one thread at a time.
+// Without the GIL, and one thread at a time. The results are of all machines.
 template <class Ask>
 void fill(VectorMachines& self, const Results& results, const Ask& ask) {
   const Turn turn(self.lock());
   Batch& batch = self.batch();
-  ask(batch, arrays_of(batch, results));
+  ask(batch, arrays_of(batch, batch.size(), results));
 }
 
 // All machines have as many actions as the first.
@@ -141,7 +141,9 @@ void send_resets(VectorMachines& self, const std::optional<Given<std::int64_t>>&
 }
 
 void receive(VectorMachines& self, const Results& results) {
-  fill(self, results, [](Batch& batch, const BatchArrays& out) { batch.receive(out); });
+  const Turn turn(self.lock());
+  Batch& batch = self.batch();
+  batch.receive(arrays_of(batch, batch.batch_size(), results));
 }
 
 void reset(VectorMachines& self, const std::optional<Given<bool>>& chosen,

@@ -104,8 +104,8 @@ class _Envs(AtariVectorEnv):
         """The environments of the last results."""
         return self._received
 
-    def _room(self, out: Pixels | None) -> Results:
-        return super()._room(out)._replace(ram=np.empty((self.batch_size, 128), np.uint8))
+    def _room(self, out: Pixels | None, envs: int | None = None) -> Results:
+        return super()._room(out, envs)._replace(ram=np.empty((envs or self.batch_size, 128), np.uint8))
 
     def _info(self, results: Results) -> Info:
         ids = results.env_id

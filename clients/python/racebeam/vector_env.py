@@ -25,7 +25,7 @@ __all__ = ["AtariVectorEnv"]
 Rom = Union[str, os.PathLike[str], bytes]
 Info = dict[str, Any]
 RAM_SIZE, SCREEN_WIDTH = 128, 160
-MOST_ENVS = 2**31 - 1  # the memory sets a lower limit
+MOST_ENVS = 10**7  # the memory sets a lower limit
 
 
 class Machines(Protocol):
@@ -157,7 +157,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
                                "the same")
         self.observation_space = batch_space(self.single_observation_space, self.batch_size)
         self.action_space = batch_space(self.single_action_space, self.batch_size)
-        self._shape = (self.batch_size, *shape)
+        self._shape = shape
 
     # Playing
 
@@ -170,6 +170,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         out: the array that becomes the observations; None: a new one.
         """
         self._check_open()
+        if not isinstance(options, (dict, type(None))):
+            raise TypeError(f"options are {options!r}; they must be a dict")
         seeds, mask = self._seeds(seed), self._mask((options or {}).get("reset_mask"))
         results = self._room(out)
         if self.batch_size == self.num_envs:
@@ -214,12 +216,12 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             self._machines.send(meant, self._received)
 
     def show(self) -> tuple[Any, Info]:
-        """What the environments show now, such as after restore()."""
+        """What all environments show now, such as after restore()."""
         self._check_open()
-        results = self._room(None)
+        results = self._room(None, self.num_envs)
         self._machines.show(results)
         results.rewards[:] = results.raw_rewards[:] = 0  # nothing was played
-        return self._begun(results)
+        return self._seen(results), self._info(results)
 
     # Seeds and actions
 
@@ -228,7 +230,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             return None
         if not isinstance(seed, (Sequence, np.ndarray)):
             return _seed(seed) + np.arange(self.num_envs, dtype=np.int64)
-        seeds = [-1 if one is None or one == -1 else _seed(one) for one in seed]
+        seeds = [-1 if one is None else _seed(one, -1) for one in seed]
         if len(seeds) != self.num_envs:
             raise InvalidInput(f"there are {len(seeds)} seeds for {self.num_envs} environments")
         return np.array(seeds, np.int64)
@@ -262,16 +264,19 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
     # What is shown
 
-    def _room(self, out: Pixels | None) -> Results:
-        """Memory for what is shown next."""
-        shape = self._shape
+    def _room(self, out: Pixels | None, envs: int | None = None) -> Results:
+        """Memory for what is shown next, of so many environments; None: of a batch."""
+        shape = (envs or self.batch_size, *self._shape)
         if out is None:
             out = np.empty(shape, np.uint8)
         elif not (isinstance(out, np.ndarray) and out.dtype == np.uint8 and out.shape == shape and out.flags.carray):
             raise InvalidInput(f"out must be a writable, contiguous array of uint8 with the shape {shape}")
         finals = np.empty(shape, np.uint8) if self._has_finals else None
         observations, ram = (None, out) if self._shows_ram else (out, None)
-        return Results.around(observations, ram, self.batch_size, finals)
+        return Results.around(observations, ram, shape[0], finals)
+
+    def _seen(self, results: Results) -> Any:
+        return results.ram if self._shows_ram else results.observations
 
     def _begun(self, results: Results) -> tuple[Any, Info]:
         observations, *_, info = self._shown(results)
@@ -279,8 +284,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _shown(self, results: Results) -> tuple[Any, Any, Any, Any, Info]:
         self._received = results.env_id
-        observations = results.ram if self._shows_ram else results.observations
-        info = self._info(results)
+        observations, info = self._seen(results), self._info(results)
         if self._has_finals and results.finished.any():
             self._add_finals(info, observations, results)
         return observations, results.rewards, results.terminated, results.truncated, info
@@ -364,11 +368,11 @@ def _machines(names: list[str], game_of_env: Numbers, rom: Rom | None, settings:
     return _core.VectorMachines(found, game_of_env, chosen)
 
 
-def _seed(value: Any) -> int:
+def _seed(value: Any, least: int = SEEDS[0]) -> int:
     """Raises TypeError for what is no whole number."""
     seed = operator.index(value)
-    if not SEEDS[0] <= seed <= SEEDS[1]:
-        raise InvalidInput(f"the seed is {seed}; it takes {SEEDS[0]} to {SEEDS[1]}")
+    if not least <= seed <= SEEDS[1]:
+        raise InvalidInput(f"the seed is {seed}; it takes {least} to {SEEDS[1]}")
     return seed
 
 
