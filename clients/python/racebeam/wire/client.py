@@ -306,6 +306,7 @@ class Session:
         """Ends the session. More than once does nothing."""
         if not self._is_closed:
             self._is_closed = True
+            self.unanswered.clear()
             self._close()
 
     def reconnect(self) -> Session:
