@@ -1,6 +1,6 @@
 """The settings of many environments: the arguments of AtariVectorEnv, checked, as the core names them.
 
-The names are those of _core.VectorSettings, and mostly those of the line protocol (PROTOCOL.md, "load" and "open").
+The names are those of _core.VectorSettings, and mostly those of the line protocol (protocol/PROTOCOL.md, "games and load").
 """
 
 from __future__ import annotations
