@@ -22,7 +22,7 @@ struct Parts {
     machine.inputs.paddle_fire = 0;
     play.held = {};
   }
-  StateParts parts() const { return {machine, play, saved.values.tally, saved.cartridge_ram}; }
+  StateParts parts() const { return {machine, play, saved.values.rule, saved.cartridge_ram}; }
 };
 
 Settings with_seed(Settings settings, std::uint32_t seed) {
