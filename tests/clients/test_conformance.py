@@ -23,7 +23,10 @@ def printed_by(names):
 
 class Comparison(unittest.TestCase):
     def setUp(self):
-        self.printed = printed_by(comparison.section_names(FILES, clients.EVERY_WAY))
+        paired = {name for pair in comparison.alike(FILES) for name in pair}
+        names = comparison.section_names(FILES, clients.EVERY_WAY)
+        # The tests change the first section, and leave out the last. A section of a pair would count twice.
+        self.printed = printed_by(sorted(names - paired)[:1] + sorted(names & paired) + sorted(names - paired)[1:])
 
     def differences(self, printed, reference):
         return comparison.differences(printed, FILES, reference, clients.EVERY_WAY)
