@@ -11,6 +11,7 @@
 #include "cli/arguments/options.hpp"
 #include "cli/bench/bench.hpp"
 #include "cli/commands/background.hpp"
+#include "cli/commands/classes.hpp"
 #include "cli/commands/classic.hpp"
 #include "cli/commands/config.hpp"
 #include "cli/commands/experiment.hpp"
@@ -102,6 +103,7 @@ int main(int argc, char** argv) {
   racebeam::add_experiment(app);
   racebeam::add_verify(app);
   racebeam::add_background(app);
+  racebeam::add_classes(app);
   try {
     const std::vector<const char*> words = words_of(argc, argv);
     app.parse(static_cast<int>(words.size()), words.data());  // executes the subcommand
