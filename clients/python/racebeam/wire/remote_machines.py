@@ -48,7 +48,7 @@ class RemoteMachines:
         self._actions = self._actions_of(settings)
         self._field = _field(settings, self.height())
         self._screens: list[Pixels] = []
-        self._machine.ask(self._session.observe, *NUMBERS, *FLAGS, self._field + ":base64",
+        self._machine.ask(self._session.observe, *NUMBERS, *FLAGS, self._field + (":raw" if "raw" in self._session.offered else ":base64"),
                           *(["rgb:zlib"] if settings["screens"] else []))
         self._open(settings)
 
