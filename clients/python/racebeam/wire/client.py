@@ -19,6 +19,7 @@ from __future__ import annotations
 import base64
 import binascii
 import collections
+import json
 import os
 import re
 import shutil
@@ -32,10 +33,14 @@ from collections.abc import Callable, Iterable
 from typing import IO, Any
 
 PROTOCOL = 1  # the version that this client speaks
+ANNOUNCEMENT = 1  # the version of announce files that this client reads
 LONGEST_REPLY = 1 << 28  # bytes; a server that sends a longer line is taken for broken
 
 # What bytes are written in when `observe` does not say.
 USUAL_ENCODING = {"ram": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
+
+WAIT = re.compile(r"(file:.+)\?wait=(\d+(?:\.\d+)?)")
+BETWEEN_TRIES = 0.05  # seconds
 
 STACK = re.compile(r"(?:grey|rgb)(\d+)x(\d+)x(\d+)")  # fields such as grey100x50x4
 NUMBER = re.compile(r"-?(0|[1-9]\d{0,14})(\.\d+)?")
@@ -116,16 +121,18 @@ def connect(address: str | None = None, *, token: str | None = None, tls: ssl.SS
       tcp://HOST:PORT, tls://HOST:PORT, unix:PATH
       pipes:PREFIX   the named pipes PREFIX_out and PREFIX_in
       stdio          standard input and output of this process
-      file:PATH      the first address in the server's --ready-file that is one of these
-    token: for servers that ask for one. tls: trusts the server's certificate; None: the system's authorities do. timeout:
+      file:PATH      the first address in the server's --ready-file or --announce file that is one of these
+      file:PATH?wait=SECONDS   the same; waits for the file, and for the server in it
+    token: for servers that ask for one; None: that of the announce file, if there is one. tls: trusts the server's certificate; None: the system's authorities do. timeout:
     seconds to wait for a connection, and for each reply, on sockets; None: for ever. longest_reply: bytes.
 
-    Raises ValueError for another address, OSError when nothing answers there, and Refused for a wrong token.
+    Raises ValueError for another address, and for a file that names none; OSError when nothing answers there; and Refused for
+    a wrong token.
     """
-    address = _in_file(address or os.environ.get("RACEBEAM_ADDRESS", ""))
-    session = _open(address, tls, timeout, arrays)
+    session, announced = _reach(address or os.environ.get("RACEBEAM_ADDRESS", ""), tls, timeout, arrays)
+    address, token = session.address, token or announced
     try:
-        session.address, session.longest_reply = address, longest_reply
+        session.longest_reply = longest_reply
         session._again = lambda: connect(address, token=token, tls=tls, timeout=timeout, longest_reply=longest_reply,
                                          arrays=arrays)
         said = session.hello(token)
@@ -148,15 +155,47 @@ def _program() -> str:
     return program.path()
 
 
-def _in_file(address: str) -> str:
-    """The address that a ready file names first; another address as it is."""
+def _reach(address: str, tls: ssl.SSLContext | None, timeout: float | None, arrays: bool) -> tuple[Session, str | None]:
+    """A session at `address`, without a greeting, and the token of the file that `address` names."""
+    waits = WAIT.fullmatch(address)
+    file, seconds = waits.groups() if waits else (address, 0)
+    until = time.monotonic() + float(seconds)
+    while True:
+        try:
+            found, token = _in_file(file)
+            session = _open(found, tls, timeout, arrays)
+            session.address = found
+            return session, token
+        except OSError:
+            if time.monotonic() >= until:
+                raise
+            time.sleep(BETWEEN_TRIES)
+
+
+def _in_file(address: str) -> tuple[str, str | None]:
+    """The first address of a ready file or an announce file that this client can use, and the token of the latter. Another
+    address as it is."""
     if not address.startswith("file:"):
-        return address
-    with open(address.removeprefix("file:")) as file:
-        for line in file:
-            if line.startswith(("tcp://", "tls://", "unix:", "pipes:")):
-                return line.strip()
-    raise ValueError(f"{address} names no address that this client can use")
+        return address, None
+    path = address.removeprefix("file:")
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    announced = _announcement(path, text) if text.startswith("{") else {"addresses": text.splitlines(), "token": None}
+    for line in announced["addresses"]:
+        if line.startswith(("tcp://", "tls://", "unix:", "pipes:")):
+            return line, announced["token"]
+    raise ValueError(f"{path} names no address that this client can use")
+
+
+def _announcement(path: str, text: str) -> dict[str, Any]:
+    try:
+        announced = json.loads(text)
+    except ValueError:
+        raise ValueError(f"{path} is not a whole announce file") from None
+    version = announced.get("racebeam_announce")
+    if version != ANNOUNCEMENT:
+        raise ValueError(f"{path} is an announce file of version {version}; this client reads version {ANNOUNCEMENT}")
+    return announced
 
 
 def _open(address: str, tls: ssl.SSLContext | None, timeout: float | None, arrays: bool) -> Session:
