@@ -21,6 +21,7 @@
 #include "cli/commands/serve.hpp"
 #include "cli/commands/trace.hpp"
 #include "cli/commands/verify.hpp"
+#include "cli/commands/with.hpp"
 #include "system/printable.hpp"
 
 namespace {
@@ -37,7 +38,7 @@ constexpr auto kFooter = R"(Try first:
 Each subcommand has a help text, such as racebeam serve --help.
 
 Exit status: 0 success; 1 failure, with one line on standard error that gives the reason; 2 usage error;
-255 a classic client requested an action that does not exist.)";
+3 to 5 the start of a server failed (see racebeam serve --help); 255 a classic client requested an action that does not exist.)";
 
 std::string subcommand_names(const CLI::App& app) {
   std::string names;
@@ -93,6 +94,7 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   app.require_subcommand(1);
   racebeam::add_serve(app);
+  racebeam::add_with(app);
   racebeam::add_config(app);
   racebeam::add_classic(app);
   racebeam::add_trace(app);

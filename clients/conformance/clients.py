@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = pathlib.Path(__file__).resolve().parent
 BUILT = ROOT / "build/clients"
 
-EVERY_WAY = frozenset({"unix", "pipes", "file", "launch", "tls"})
+EVERY_WAY = frozenset({"unix", "pipes", "file", "announce", "launch", "tls"})
 EVERYTHING = EVERY_WAY | {"raw"}
 
 
@@ -55,6 +55,6 @@ CLIENTS = (
       for program in ("lua5.1", "lua5.4", "luajit")),
     Client("javascript", "js", ("node", str(HERE / "runner.mjs")), "clients/js/src/*.js"),
     Client("bash", "shell", ("bash", str(HERE / "runner.bash")), "clients/shell/racebeam.bash",
-           offers=frozenset({"pipes", "file", "launch"}),
+           offers=frozenset({"pipes", "file", "announce", "launch"}),
            variables=(("PATH", f"{ROOT}/clients/shell:{os.environ['PATH']}"),)),
 )

@@ -24,12 +24,11 @@ __all__ = ["AsyncSession", "connect", "launch"]
 async def connect(address: str | None = None, *, token: str | None = None, tls: ssl.SSLContext | None = None,
                   longest_reply: int = LONGEST_REPLY, arrays: bool = False) -> AsyncSession:
     """As racebeam.connect(), of sockets: tcp://, tls:// and unix: addresses, and file: with one of these."""
-    address = client.address_of(address)
-    connection, host = await asyncio.to_thread(client.connected, address, None)
+    (connection, host), address, announced = await asyncio.to_thread(client.reached, address, lambda found: client.connected(found, None))
     context = (tls or ssl.create_default_context()) if host else None
     reader, writer = await asyncio.open_connection(sock=connection, limit=longest_reply, ssl=context,
                                                    server_hostname=host or None)
-    return await _greeted(AsyncSession(reader, writer, address, longest_reply, arrays), token)
+    return await _greeted(AsyncSession(reader, writer, address, longest_reply, arrays), token or announced)
 
 
 async def launch(*options: str, program: str | None = None, arrays: bool = False) -> AsyncSession:

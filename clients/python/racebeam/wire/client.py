@@ -19,6 +19,7 @@ from __future__ import annotations
 import base64
 import binascii
 import collections
+import json
 import os
 import re
 import shutil
@@ -29,19 +30,24 @@ import sys
 import time
 import zlib
 from collections.abc import Callable, Iterable
-from typing import IO, Any
+from typing import IO, Any, TypeVar
 
 PROTOCOL = 1  # the version that this client speaks
+ANNOUNCEMENT = 1  # the version of announce files that this client reads
 LONGEST_REPLY = 1 << 28  # bytes; a server that sends a longer line is taken for broken
 
 # What bytes are written in when `observe` does not say.
 USUAL_ENCODING = {"ram": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
+
+WAIT = re.compile(r"(file:.+)\?wait=(\d+(?:\.\d+)?)")
+BETWEEN_TRIES = 0.05  # seconds
 
 STACK = re.compile(r"(?:grey|rgb)(\d+)x(\d+)x(\d+)")  # fields such as grey100x50x4
 NUMBER = re.compile(r"-?(0|[1-9]\d{0,14})(\.\d+)?")
 
 Texts = dict[str, Any]  # texts by key, and bytes where the encoding is raw
 Values = dict[str, Any]
+Opened = TypeVar("Opened")
 
 
 class Refused(Exception):
@@ -123,14 +129,17 @@ def connect(address: str | None = None, *, token: str | None = None, tls: ssl.SS
       tcp://HOST:PORT, tls://HOST:PORT, unix:PATH
       pipes:PREFIX   the named pipes PREFIX_out and PREFIX_in
       stdio          standard input and output of this process
-      file:PATH      the first address in the server's --ready-file that is one of these
-    token: for servers that ask for one. tls: trusts the server's certificate; None: the system's authorities do. timeout:
-    seconds to wait for a connection, and for each reply, on sockets; None: for ever. longest_reply: bytes.
+      file:PATH      the first address in the server's --ready-file or --announce file that is one of these
+      file:PATH?wait=SECONDS   the same; waits for the file, and for the server in it
+    token: for servers that ask for one; None: that of the announce file, if there is one. tls: trusts the server's certificate;
+    None: the system's authorities do. timeout: seconds to wait for a connection, and for each reply, on sockets; None: for ever.
+    longest_reply: bytes.
 
-    Raises ValueError for another address, OSError when nothing answers there, and Refused for a wrong token.
+    Raises ValueError for another address, and for a file that names none; OSError when nothing answers there; and Refused for
+    a wrong token.
     """
-    address = address_of(address)
-    session = _open(address, tls, timeout, arrays)
+    session, address, announced = reached(address, lambda found: _open(found, tls, timeout, arrays))
+    token = token or announced
     try:
         session.address, session.longest_reply = address, longest_reply
         session._again = lambda: connect(address, token=token, tls=tls, timeout=timeout, longest_reply=longest_reply,
@@ -153,16 +162,47 @@ def _program() -> str:
     return program.path()
 
 
-def address_of(address: str | None) -> str:
-    """That of RACEBEAM_ADDRESS for None; the address that a ready file names first; another address as it is."""
+def reached(address: str | None, opened: Callable[[str], Opened]) -> tuple[Opened, str, str | None]:
+    """What `opened` returns for `address`, and for RACEBEAM_ADDRESS without one; the address itself, or the one in the file that it
+    names; and the token of an announce file. Tries again as long as the address says."""
     address = address or os.environ.get("RACEBEAM_ADDRESS", "")
+    waits = WAIT.fullmatch(address)
+    file, seconds = waits.groups() if waits else (address, 0)
+    until = time.monotonic() + float(seconds)
+    while True:
+        try:
+            found, token = _in_file(file)
+            return opened(found), found, token
+        except OSError:
+            if time.monotonic() >= until:
+                raise
+            time.sleep(BETWEEN_TRIES)
+
+
+def _in_file(address: str) -> tuple[str, str | None]:
+    """The first address of a ready file or an announce file that this client can use, and the token of the latter. Another
+    address as it is."""
     if not address.startswith("file:"):
-        return address
-    with open(address.removeprefix("file:")) as file:
-        for line in file:
-            if line.startswith(("tcp://", "tls://", "unix:", "pipes:")):
-                return line.strip()
-    raise ValueError(f"{address} names no address that this client can use")
+        return address, None
+    path = address.removeprefix("file:")
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    announced = _announcement(path, text) if text.startswith("{") else {"addresses": text.splitlines(), "token": None}
+    for line in announced["addresses"]:
+        if line.startswith(("tcp://", "tls://", "unix:", "pipes:")):
+            return line, announced["token"]
+    raise ValueError(f"{path} names no address that this client can use")
+
+
+def _announcement(path: str, text: str) -> dict[str, Any]:
+    try:
+        announced = json.loads(text)
+    except ValueError:
+        raise ValueError(f"{path} is not a whole announce file") from None
+    version = announced.get("racebeam_announce")
+    if version != ANNOUNCEMENT:
+        raise ValueError(f"{path} is an announce file of version {version}; this client reads version {ANNOUNCEMENT}")
+    return announced
 
 
 def _open(address: str, tls: ssl.SSLContext | None, timeout: float | None, arrays: bool) -> Session:
