@@ -207,6 +207,7 @@ inline boost::asio::awaitable<AsyncSession> async_connect(std::string_view addre
 /// Starts a server of its own, which ends with the session.
 /// @param program by default that of the environment variable RACEBEAM_PROGRAM, else `racebeam`
 /// @param arguments of `racebeam serve`
+/// @param options `token` has no effect
 inline boost::asio::awaitable<AsyncSession> async_launch(std::string_view program = {},
                                                          const std::vector<std::string>& arguments = {},
                                                          const Options& options = Options::usual()) {

@@ -144,6 +144,8 @@ class Commands {
   }
 
   /// Plays lists of actions from a state; the session itself does not change: a Branch for each list.
+  /// @param state its name
+  /// @param lists actions, such as `"FIRE*3", "UP"`
   /// @param keep the beginning of the names of the states in which the lists ended, which are then kept
   auto branch(std::string_view state, const std::vector<std::vector<std::string>>& lists,
               std::string_view keep = {}) {
@@ -157,6 +159,7 @@ class Commands {
   }
 
   /// Creates machines with the loaded game and settings: the Group of each.
+  /// @param count machines
   /// @param settings such as `"autoreset=same-step"`
   template <class... Settings>
   auto open(int count, const Settings&... settings) {
@@ -178,6 +181,7 @@ class Commands {
 
   /// Begins a recording in the server's folder: Group.
   /// @param kinds such as `y4m,wav`
+  /// @param name of the files
   /// @param settings `Setting("machine", N)` records a machine of `open`
   template <class... Settings>
   auto record(std::string_view kinds, std::string_view name, const Settings&... settings) {
