@@ -22,6 +22,7 @@ class Client:
     sources: str                   # a pattern: the files of the client
     offers: frozenset = EVERY_WAY  # beside TCP, as in `section ... needs WHAT`
     build: tuple[str, ...] = ()    # a command
+    compiler: tuple[str, ...] = ()  # a command that takes a program, so that the runner need not compile it
     probe: tuple[str, ...] = ()    # a command that succeeds where the runner has what it needs
     variables: tuple[tuple[str, str], ...] = ()
 
@@ -53,6 +54,10 @@ CLIENTS = (
              probe=(program, "-e", "require 'socket' require 'ssl'"),
              variables=(("LUA_PATH", f"{ROOT}/clients/lua/?.lua;{ROOT}/clients/lua/?/init.lua;;"),))
       for program in ("lua5.1", "lua5.4", "luajit")),
+    Client("c++", "cpp", ("python3", "-B", str(HERE / "run_cpp.py"), str(HERE / "runner.cpp")), "clients/cpp/racebeam/**/*.hpp",
+           build=("python3", "-B", str(HERE / "run_cpp.py"), "--build", str(HERE / "runner.cpp")),
+           compiler=("python3", "-B", str(HERE / "run_cpp.py"), "--build"),
+           probe=("python3", "-B", str(HERE / "run_cpp.py"), "--probe")),
     Client("javascript", "js", ("node", str(HERE / "runner.mjs")), "clients/js/src/*.js"),
     Client("bash", "shell", ("bash", str(HERE / "runner.bash")), "clients/shell/racebeam.bash",
            offers=frozenset({"pipes", "file", "announce", "launch"}),

@@ -18,6 +18,7 @@ sys.path.insert(0, str(SOURCE / "tests/server"))
 
 from harness import BINARY, SKIPPED  # noqa: E402
 
+VERSION = re.search(r"project\(racebeam VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text())[1]
 UNREACHABLE = re.compile("Could not transfer|Unknown host|Could not resolve|could not be resolved|offline mode")
 
 
@@ -41,7 +42,7 @@ class Maven(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout[-5000:])
             self.assertRegex(done.stdout, r"Tests run: 1\d, Failures: 0, Errors: 0, Skipped: 0")
             made = jars(first)
-            self.assertEqual(sorted(made), [f"racebeam-0.1.0{kind}.jar" for kind in ("-javadoc", "-sources", "")])
+            self.assertEqual(sorted(made), [f"racebeam-{VERSION}{kind}.jar" for kind in ("-javadoc", "-sources", "")])
             self.assertEqual(maven(second, "-Dmaven.test.skip=true", "verify").returncode, 0)
             self.assertEqual(jars(second), made)
 

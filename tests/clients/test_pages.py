@@ -24,6 +24,8 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 EXAMPLES = {
     "shell": (),  # tests/clients/test_shell.py
     "js": (("clients/js/examples/many.mjs", (), r"scores (\d+ ?){8}\n"),),
+    "cpp": (("clients/cpp/examples/follow.cpp", (), r"scores( \d+){8}\n"),
+            ("clients/cpp/examples/planner.cpp", ("10",), r"score \d+\n")),
     "lua": (("clients/lua/examples/gap.lua", (), r"score \d+ in \d+ acts\n"),
             ("clients/lua/examples/follow.lua", (), r"score \d+, \d\.\d KiB of garbage a step; a screen has 32\.8 KiB\n")),
     "java": (("clients/java/examples/Planner.java", ("10",), r"score \d+, \d+ frames run\n"),
@@ -42,6 +44,14 @@ STDIO = {
                    }
                  }
                }""",
+    "cpp": """#include <iostream>
+              #include <racebeam/client.hpp>
+              int main() {
+                auto game = racebeam::client::connect("stdio");
+                game.load("beamfall");
+                game.observe("frame");
+                std::cerr << game.act("FIRE*7").number("frame") << std::endl;
+              }""",
     "lua": """local game = require("racebeam").connect("stdio")
               game:load("beamfall")
               game:observe("frame")
@@ -82,9 +92,14 @@ class Page(unittest.TestCase):
         name = re.search(r"public class (\w+)", body)
         path = pathlib.Path(folder, (name[1] if name else "program") + pathlib.Path(self.client.runner[-1]).suffix)
         path.write_text(body)
+        self.compile(path)
         (path.parent / "node_modules").mkdir()  # where Node looks for packages; others do not mind
         (path.parent / "node_modules/racebeam").symlink_to(SOURCE / "clients/js")
         return path
+
+    def compile(self, program):
+        if self.client.compiler:
+            subprocess.run([*self.client.compiler, str(program)], check=True)
 
     def check(self, program, words, pattern):
         done = subprocess.run([*self.client.runner[:-1], str(program), *words], env=self.environment, stdout=subprocess.PIPE,
@@ -112,6 +127,7 @@ class Page(unittest.TestCase):
     def test_its_examples_play(self):
         for path, words, pattern in EXAMPLES[self.client.language]:
             with self.subTest(path=path):
+                self.compile(SOURCE / path)
                 self.check(SOURCE / path, words, pattern)
 
 

@@ -1,0 +1,221 @@
+#pragma once
+
+#include <cstdlib>
+#include <deque>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <boost/asio/this_coro.hpp>
+
+#include "racebeam/client/commands.hpp"
+#include "racebeam/client/fields.hpp"
+#include "racebeam/client/lines.hpp"
+
+namespace racebeam::client {
+
+/// Version of the protocol that this client speaks.
+inline constexpr int kProtocol = 1;
+
+/// One session for coroutines of Boost.Asio. It is used by one coroutine at a time, on the executor that it
+/// was made with; a second one gets std::logic_error. On several threads, that executor must be a strand.
+class AsyncSession : public Commands<AsyncSession> {
+ public:
+  /// A session over a connection that is open. Use async_connect() or async_launch().
+  explicit AsyncSession(std::shared_ptr<detail::Lines> lines) : lines_(std::move(lines)) {}
+  AsyncSession(AsyncSession&&) noexcept = default;
+  AsyncSession& operator=(AsyncSession&& other) noexcept = default;
+  ~AsyncSession() { close(); }
+
+  /// Ends the session. More than once does nothing.
+  void close() noexcept {
+    if (lines_) lines_->close();
+    ended_ = true;
+  }
+
+  /// Sends any request, and returns its reply. Replies of requests that were sent ahead stay to be received.
+  boost::asio::awaitable<Reply> request(std::string_view line) { return ask_for(std::string(line), whole); }
+
+  /// Sends a request without waiting for its reply.
+  boost::asio::awaitable<void> send(std::string_view line) { return put_alone(std::string(line)); }
+
+  /// The next reply to a request that was sent ahead.
+  boost::asio::awaitable<Reply> receive() {
+    const Turn turn(busy_);
+    if (arrived_.empty()) arrived_.push_back(co_await outcome());
+    Outcome next = std::move(arrived_.front());
+    arrived_.pop_front();
+    co_return take(std::move(next));
+  }
+
+ private:
+  friend class Commands<AsyncSession>;
+  friend class Session;
+
+  using Outcome = std::variant<Reply, Refused>;
+
+  /// Bytes of requests without a reply. A server that cannot send its replies stops reading, so this must fit
+  /// in its pipe.
+  static constexpr std::size_t kMostAhead = 1U << 15U;
+
+  class Turn {
+   public:
+    explicit Turn(bool& busy) : busy_(busy) {
+      if (busy) throw std::logic_error("another coroutine waits for this session");
+      busy = true;
+    }
+    ~Turn() { busy_ = false; }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    bool& busy_;
+  };
+
+  template <class Read>
+  auto ask_for(std::string line, Read read) -> boost::asio::awaitable<decltype(read(std::declval<Reply>()))> {
+    const Turn turn(busy_);
+    co_await put(std::move(line));
+    while (unanswered_.size() > 1) arrived_.push_back(co_await outcome());
+    co_return read(take(co_await outcome()));
+  }
+
+  static Reply whole(Reply reply) { return reply; }
+
+  boost::asio::awaitable<void> put_alone(std::string line) {
+    const Turn turn(busy_);
+    co_await put(std::move(line));
+  }
+
+  boost::asio::awaitable<void> put(std::string line) {
+    const std::size_t begin = line.find_first_not_of(' ');
+    if (line.find('\n') != std::string::npos || (begin != std::string::npos && line[begin] == '#'))
+      throw std::invalid_argument("a request is one line, and no comment: '" + line + "'");
+    while (ahead_ > 0 && ahead_ + line.size() > kMostAhead) arrived_.push_back(co_await outcome());
+    if (ended_) throw Lost("the session has ended");
+    ahead_ += line.size();
+    unanswered_.push_back(line);
+    line += '\n';
+    try {
+      co_await lines_->write(line);
+    } catch (const TimedOut&) {
+      close();
+      throw;
+    } catch (const Lost&) {  // the server may have said why it ends, before it did: outcome() reads that
+    }
+  }
+
+  boost::asio::awaitable<Outcome> outcome() {
+    if (ended_) throw Lost("the session has ended");
+    try {
+      std::string line = co_await lines_->read();
+      std::string request;  // without one, the server says why it ends
+      if (!unanswered_.empty()) {
+        request = std::move(unanswered_.front());
+        unanswered_.pop_front();
+        ahead_ -= request.size();
+      }
+      co_return understood(request, std::move(line));
+    } catch (const Lost&) {
+      close();
+      throw;
+    } catch (const std::invalid_argument& damaged) {
+      close();
+      throw Lost(std::string("a reply of the server is damaged: ").append(damaged.what()));
+    }
+  }
+
+  Outcome understood(std::string_view request, std::string line) {
+    constexpr std::string_view kError = "error ";
+    if (line.starts_with(kError)) {
+      const std::size_t end = line.find(' ', kError.size());
+      return Refused(line.substr(kError.size(), end - kError.size()),
+                     end == std::string::npos ? "" : line.substr(end + 1));
+    }
+    if (line != "ok" && !line.starts_with("ok "))
+      throw std::invalid_argument(std::string("'").append(line, 0, 60).append("' is no reply"));
+    return fields_.follow(request, std::move(line));
+  }
+
+  static Reply take(Outcome outcome) {
+    if (const Refused* refused = std::get_if<Refused>(&outcome)) throw Refused(*refused);
+    return std::get<Reply>(std::move(outcome));
+  }
+
+  std::shared_ptr<detail::Lines> lines_;
+  detail::Fields fields_;
+  std::deque<std::string> unanswered_;
+  std::deque<Outcome> arrived_;  // replies that were read to make room for a request
+  std::size_t ahead_ = 0;        // bytes of `unanswered_`
+  bool ended_ = false;
+  bool busy_ = false;
+};
+
+namespace detail {
+
+inline std::string environment_variable(const char* name, const char* otherwise) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : otherwise;
+}
+
+inline asio::awaitable<AsyncSession> opened(std::shared_ptr<Lines> lines) {
+  co_await lines->open();
+  co_return AsyncSession(std::move(lines));
+}
+
+inline asio::awaitable<AsyncSession> connected(std::string address, Options options) {
+  const asio::any_io_executor executor = co_await asio::this_coro::executor;
+  auto connection = make_connection(executor, parse_address(address), options);
+  const auto lines = std::make_shared<Lines>(std::move(connection), executor, options);
+  AsyncSession session = co_await opened(lines);
+  std::string greeting = "hello";
+  if (!options.token.empty()) greeting += " token=" + options.token;
+  const Reply hello = co_await session.request(greeting);
+  if (!hello.first().has("protocol") || hello.first().text("protocol") != std::to_string(kProtocol))
+    throw Lost("'" + hello.line().substr(0, 60) + "' does not say protocol=" + std::to_string(kProtocol));
+  co_return session;
+}
+
+inline asio::awaitable<AsyncSession> launched(std::vector<std::string> command, Options options) {
+  const asio::any_io_executor executor = co_await asio::this_coro::executor;
+  auto connection = std::make_unique<ProcessConnection>(executor, std::move(command));
+  const auto lines = std::make_shared<Lines>(std::move(connection), executor, options);
+  co_return co_await opened(lines);
+}
+
+}  // namespace detail
+
+// These are no coroutines themselves, and the defaults are no temporary objects: g++ 12 destroys some
+// temporary arguments in co_await twice.
+
+/// Connects to the server at an address, by default that in the environment variable RACEBEAM_ADDRESS:
+/// `tcp://HOST:PORT`, `tls://HOST:PORT`, `unix:PATH`, `pipes:PREFIX`, `stdio`, or `file:PATH`, a server's
+/// `--ready-file`.
+///
+/// Throws std::invalid_argument if the address has another form, Lost if no server of this protocol answers,
+/// and Refused if the server refuses the session.
+inline boost::asio::awaitable<AsyncSession> async_connect(std::string_view address = {},
+                                                          const Options& options = Options::usual()) {
+  return detail::connected(
+      address.empty() ? detail::environment_variable("RACEBEAM_ADDRESS", "") : std::string(address), options);
+}
+
+/// Starts a server of its own, which ends with the session.
+/// @param program by default that of the environment variable RACEBEAM_PROGRAM, else `racebeam`
+/// @param arguments of `racebeam serve`
+/// @param options `token` has no effect
+inline boost::asio::awaitable<AsyncSession> async_launch(std::string_view program = {},
+                                                         const std::vector<std::string>& arguments = {},
+                                                         const Options& options = Options::usual()) {
+  std::vector<std::string> command{
+      program.empty() ? detail::environment_variable("RACEBEAM_PROGRAM", "racebeam") : std::string(program),
+      "serve", "--stdio", "--log-level", "warning"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return detail::launched(std::move(command), options);
+}
+
+}  // namespace racebeam::client

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace racebeam::client {
+
+/// The server refused a request: `error CODE sentence`. The session continues.
+class Refused : public std::runtime_error {
+ public:
+  /// @param code for programs, such as `bad-action`
+  /// @param sentence for people
+  Refused(std::string code, std::string sentence)
+      : std::runtime_error(std::string(code).append(": ").append(sentence)),
+        code_(std::move(code)),
+        sentence_(std::move(sentence)) {}
+
+  /// The error code, as protocol/PROTOCOL.md lists it.
+  const std::string& code() const noexcept { return code_; }
+  /// What the server says to people.
+  const std::string& sentence() const noexcept { return sentence_; }
+
+ private:
+  std::string code_, sentence_;
+};
+
+/// The server is not there, has gone, or sent what is no reply. The session has ended.
+class Lost : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The server did not answer in time. The session has ended.
+class TimedOut : public Lost {
+ public:
+  using Lost::Lost;
+};
+
+}  // namespace racebeam::client

@@ -1,0 +1,10 @@
+"""Prints a header in which the comments of declarations are those of Doxygen: the lines of // before one, and // behind one."""
+
+import re
+import sys
+
+BEFORE = re.compile(r"^(\s*)//(?!/)")
+BEHIND = re.compile(r"^(\s*[^/\s].*[;,{]\s+)//(?!/)")
+
+for line in open(sys.argv[1], encoding="utf-8"):
+    print(BEHIND.sub(r"\1///<", BEFORE.sub(r"\1///", line)), end="")
