@@ -1,13 +1,16 @@
 """racebeam.sb3.VecEnv is an environment of Stable-Baselines3. Skipped where that is not installed."""
 
+import importlib.util
 import unittest
 
 import package
 
 package.require("numpy", "gymnasium", "stable_baselines3")
 
+import gymnasium
 import numpy as np
 from stable_baselines3 import PPO
+from stable_baselines3.common.env_util import make_atari_env
 from stable_baselines3.common.evaluation import evaluate_policy
 from stable_baselines3.common.monitor import Monitor
 from stable_baselines3.common.vec_env import VecEnv as Base
@@ -25,14 +28,14 @@ class Interface(unittest.TestCase):
         self.assertIsInstance(self.envs, Base)
         other = AtariVectorEnv("beamfall", 2, seed=1, frameskip=60, autoreset_mode="SameStep", start="baselines", lives="end")
         self.assertTrue(np.array_equal(self.envs.reset(), other.reset()[0]))
-        returns, lengths, episodes, ends = np.zeros(2), np.zeros(2), 0, 0
+        returns, episodes, ends = np.zeros(2), 0, 0
         frames_before = np.zeros(2)
         for step in range(120):
             seen, rewards, done, infos = self.envs.step(np.full(2, step % 6))
             expected, theirs, terminated, truncated, told = other.step(np.full(2, step % 6))
             self.assertTrue(np.array_equal(seen, expected) and np.array_equal(rewards, theirs))
             self.assertEqual((rewards.dtype, done.tolist()), (np.float32, (terminated | truncated).tolist()))
-            returns, lengths = returns + told["raw_reward"], lengths + 1
+            returns += told["raw_reward"]
             for env, info in enumerate(infos):
                 self.assertEqual("terminal_observation" in info, done[env])
                 frames = told["episode_frame_number"][env]
@@ -45,8 +48,9 @@ class Interface(unittest.TestCase):
                     self.assertTrue(np.array_equal(info["terminal_observation"], told["final_obs"][env]))
                     self.assertIs(info["TimeLimit.truncated"], False)
                 if "episode" in info:
-                    self.assertEqual((info["episode"]["r"], info["episode"]["l"]), (returns[env], lengths[env]))
-                    returns[env] = lengths[env] = 0
+                    frames = told["final_info"]["episode_frame_number"][env]
+                    self.assertEqual((info["episode"]["r"], info["episode"]["l"]), (returns[env], frames))
+                    returns[env] = 0
                     episodes += 1
         self.assertGreater(ends, episodes)
         self.assertGreater(episodes, 0)
@@ -57,6 +61,25 @@ class Interface(unittest.TestCase):
                 return np.ones(len(observations), int), state
         mean, deviation = evaluate_policy(Fire(), self.envs, n_eval_episodes=4)
         self.assertGreater(mean, 0)
+
+    @unittest.skipIf(importlib.util.find_spec("cv2") is None, "make_atari_env needs OpenCV")
+    def test_it_plays_what_make_atari_env_plays(self):
+        ours = VecEnv("beamfall", 1, noop_max=0, reward_clipping=False)
+        theirs = make_atari_env(lambda **more: gymnasium.make("racebeam/Beamfall-v5", frameskip=1, repeat_action_probability=0.0, **more), 1,
+                                seed=3, wrapper_kwargs={"noop_max": 0, "clip_reward": False})
+        ours.seed(3)
+        seen, expected, ended = ours.reset()[:, -1:], theirs.reset(), 0
+        for step in range(800):
+            self.assertLess((seen != expected.transpose(0, 3, 1, 2)).mean(), 0.05)
+            action = np.array([ours.action_space.n * (step // 3 * 7 % 11) // 11])
+            seen, rewards, done, infos = ours.step(action)
+            expected, *told = theirs.step(action)
+            seen = seen[:, -1:]
+            self.assertEqual((rewards.tolist(), done.tolist(), infos[0]["lives"]), (*(part.tolist() for part in told[:2]), told[2][0]["lives"]))
+            parts = [[info["episode"][key] for key in "rl"] if "episode" in info else None for info in (infos[0], told[2][0])]
+            self.assertEqual(parts[0], parts[1])
+            ended += parts[0] is not None
+        self.assertGreater(ended, 0)
 
     def test_seeds(self):
         self.envs.seed(5)

@@ -28,16 +28,19 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
 
     settings: those of AtariVectorEnv. Observations are stack x height x width. A lost life ends an episode, and the
     game goes on. infos have "lives", and where an episode ends "terminal_observation" and "TimeLimit.truncated". Where the
-    game ends they have "episode": the sum of the rewards as the game gives them, the steps, and the seconds. That is also
+    game ends they have "episode": the sum of the rewards as the game gives them, its frames, and the seconds. That is also
     where it ends in the frames before the next life is played.
+
+    For the same seeds, rewards, ends and lives are those of make_atari_env() over AtariEnv. A pixel is the brighter of two
+    frames in grey, and there in each colour, so that some differ.
     """
 
     def __init__(self, game: str | Sequence[str], num_envs: int | None = None, *, seed: int | None = None, **settings: Any) -> None:
         self._envs = AtariVectorEnv(game, num_envs, seed=seed, **{**USUAL, **settings})
         self._began = time.time()
-        self._results: Any = None
+        self._actions: Any = None
         count = self._envs.num_envs
-        self._returns, self._lengths = np.zeros(count, np.int64), np.zeros(count, np.int64)
+        self._returns = np.zeros(count, np.int64)
         super().__init__(count, self._envs.single_observation_space, self._envs.single_action_space)
 
     def reset(self) -> npt.NDArray[np.uint8]:
@@ -45,29 +48,31 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
         observations, info = self._envs.reset(seed=seeds)
         self._reset_seeds()
         self._reset_options()
-        self._returns[:] = self._lengths[:] = 0
+        self._returns[:] = 0
         self.reset_infos = [{"lives": int(lives)} for lives in info["lives"]]
         seen: npt.NDArray[np.uint8] = observations
         return seen
 
     def step_async(self, actions: Any) -> None:
-        self._envs.send(actions)
+        self._actions = actions
 
     def step_wait(self) -> tuple[Any, npt.NDArray[np.float32], npt.NDArray[np.bool_], list[dict[str, Any]]]:
-        observations, rewards, terminated, truncated, info = self._envs.recv()
+        observations, rewards, terminated, truncated, info = self._envs.step(self._actions)
         self._returns += info["raw_reward"]
-        self._lengths += 1
         infos: list[dict[str, Any]] = [{"lives": lives} for lives in info["lives"].tolist()]
         done = terminated | truncated
         for env in np.flatnonzero(done):
-            infos[env].update(self._end_of(int(env), info, bool(truncated[env])))
+            self.reset_infos[env] = infos[env]
+            infos[env] = self._end_of(int(env), info, bool(truncated[env]))
         return observations, rewards.astype(np.float32), done, infos
 
     def _end_of(self, env: int, info: dict[str, Any], is_truncated: bool) -> dict[str, Any]:
-        told = {"terminal_observation": info["final_obs"][env], "TimeLimit.truncated": is_truncated}
-        if info["episode_frame_number"][env] < info["final_info"]["episode_frame_number"][env]:  # it is another game
-            told["episode"] = {"r": float(self._returns[env]), "l": int(self._lengths[env]), "t": round(time.time() - self._began, 6)}
-            self._returns[env] = self._lengths[env] = 0
+        final = info["final_info"]
+        told = {"lives": int(final["lives"][env]), "terminal_observation": info["final_obs"][env], "TimeLimit.truncated": is_truncated}
+        frames = int(final["episode_frame_number"][env])
+        if info["episode_frame_number"][env] < frames:  # it is another game
+            told["episode"] = {"r": float(self._returns[env]), "l": frames, "t": round(time.time() - self._began, 6)}
+            self._returns[env] = 0
         return told
 
     def close(self) -> None:
