@@ -20,8 +20,8 @@ class StateWriter {
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
 
-  template <typename T>
-  void put(const std::vector<T>& values) {
+  template <typename T, typename Allocator>
+  void put(const std::vector<T, Allocator>& values) {
     static_assert(std::is_trivially_copyable_v<T>);
     put(std::uint64_t{values.size()});
     bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
@@ -50,8 +50,8 @@ class StateReader {
     std::memcpy(&value, take(sizeof value).data(), sizeof value);
   }
 
-  template <typename T>
-  void get(std::vector<T>& values) {
+  template <typename T, typename Allocator>
+  void get(std::vector<T, Allocator>& values) {
     const std::string_view bytes = take_counted(sizeof(T));
     values.resize(bytes.size() / sizeof(T));
     if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());

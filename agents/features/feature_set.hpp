@@ -10,7 +10,7 @@
 
 namespace racebeam {
 
-// Indices of features, each once. `counts` has as many numbers, or none if all are 1.
+// Indices of features, in ascending order, each once. `counts` has as many numbers, or none if all are 1.
 struct ActiveFeatures {
   std::vector<std::uint32_t> indices;
   std::vector<float> counts;

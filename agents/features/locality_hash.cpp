@@ -42,19 +42,19 @@ void LocalityHash::forget() {
   before_.fill(0);
 }
 
-void LocalityHash::change(std::size_t pixel, std::uint8_t before, std::uint8_t now) {
-  for (unsigned left = before ^ now; left != 0; left &= left - 1) {
-    const std::size_t bit = pixel * kBitsOfColour + static_cast<std::size_t>(std::countr_zero(left));
-    const bool set = (now & left & -left) != 0;
-    for (std::uint32_t at = first_[bit]; at < first_[bit + 1]; ++at) {
-      const Entry& entry = entries_[at];
-      sums_[entry.vector] += set ? entry.hash : -entry.hash;
-    }
+// The hashes of the pixel's bits that are set now are added, and those of bits that were set are taken away.
+void LocalityHash::apply(const Change& change) {
+  for (unsigned left = change.before ^ change.now; left != 0; left &= left - 1) {
+    const std::size_t bit = change.pixel * kBitsOfColour + static_cast<std::size_t>(std::countr_zero(left));
+    const std::int32_t sign = (change.now & left & -left) != 0 ? 1 : -1;
+    for (std::uint32_t at = first_[bit]; at < first_[bit + 1]; ++at)
+      sums_[entries_[at].vector] += sign * entries_[at].hash;
   }
 }
 
-void LocalityHash::extract(Screen screen, ActiveFeatures& active) {
+void LocalityHash::find_changes(Screen screen) {
   constexpr std::uint64_t kSevenBits = 0x7F7F7F7F7F7F7F7F;
+  changes_.clear();
   for (std::size_t pixel = 0; pixel < kFeaturePixels; pixel += 8) {
     std::uint64_t now, before;
     std::memcpy(&now, screen.data() + pixel, 8);
@@ -64,11 +64,26 @@ void LocalityHash::extract(Screen screen, ActiveFeatures& active) {
     if (differs == 0) continue;
     std::memcpy(before_.data() + pixel, &now, 8);
     while (differs != 0) {
-      const auto shift = static_cast<std::size_t>(std::countr_zero(differs)) & ~std::size_t{7};
-      change(pixel + shift / 8, static_cast<std::uint8_t>(before >> shift),
-             static_cast<std::uint8_t>(now >> shift));
+      const auto shift = static_cast<unsigned>(std::countr_zero(differs)) & ~7U;
+      changes_.push_back({static_cast<std::uint32_t>(pixel) + shift / 8,
+                          static_cast<std::uint8_t>(before >> shift),
+                          static_cast<std::uint8_t>(now >> shift)});
       differs &= ~(std::uint64_t{0xFF} << shift);
     }
+  }
+}
+
+// The entries of a pixel's seven bits lie in a row, in four of the processor's lines.
+void LocalityHash::fetch_entries(const Change& change) const {
+  const Entry* const entries = entries_.data() + first_[change.pixel * kBitsOfColour];
+  for (std::size_t line = 0; line < 4; ++line) __builtin_prefetch(entries + line * kEntriesOfLine);
+}
+
+void LocalityHash::extract(Screen screen, ActiveFeatures& active) {
+  find_changes(screen);
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    if (i + kFetchAhead < changes_.size()) fetch_entries(changes_[i + kFetchAhead]);
+    apply(changes_[i]);
   }
   active.clear();
   for (std::size_t vector = 0; vector < sums_.size(); ++vector)

@@ -2,6 +2,7 @@
 // (appendix A.4 of the paper; docs/paper-notes.md, "Features").
 #pragma once
 
+#include "agents/base/huge_pages.hpp"
 #include "agents/features/feature_set.hpp"
 #include "agents/features/screen.hpp"
 
@@ -31,11 +32,23 @@ class LocalityHash final : public FeatureSet {
     std::uint16_t hash;
   };
 
-  void change(std::size_t pixel, std::uint8_t before, std::uint8_t now);
+  static constexpr std::size_t kEntriesOfLine = 64 / sizeof(Entry);  // of the processor's cache
+  static constexpr std::size_t kFetchAhead = 8;                      // changes
+
+  // A pixel with another colour than on the screen before.
+  struct Change {
+    std::uint32_t pixel;
+    std::uint8_t before, now;
+  };
+
+  void find_changes(Screen screen);
+  void fetch_entries(const Change& change) const;
+  void apply(const Change& change);
 
   const std::uint32_t buckets_;
-  std::vector<std::uint32_t> first_;  // of each bit's entries; one more for the end
-  std::vector<Entry> entries_;
+  HugeTable<std::uint32_t> first_;  // of each bit's entries; one more for the end
+  HugeTable<Entry> entries_;
+  std::vector<Change> changes_;
   std::vector<std::int32_t> sums_;                     // of each vector: hashes of the bits that both have
   std::array<std::uint8_t, kFeaturePixels> before_{};  // colours
   FeatureScreen screen_;

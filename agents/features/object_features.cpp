@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <functional>
 #include <tuple>
 #include <utility>
@@ -57,7 +58,8 @@ ObjectFeatures::ObjectFeatures(const Background& background, const ObjectClasses
       classes_(static_cast<std::uint32_t>(classes.size())),
       first_place_(classes_),
       first_pair_(first_place_ + classes_ * places_.size()),
-      counts_(first_pair_ + pairs_of(classes_) * kApproaches * distances_.size()) {}
+      counts_(first_pair_ + pairs_of(classes_) * kApproaches * distances_.size()),
+      counted_(counts_.size() / 64 + 1) {}
 
 void ObjectFeatures::extract(Screen screen, ActiveFeatures& active) {
   active.clear();
@@ -65,25 +67,35 @@ void ObjectFeatures::extract(Screen screen, ActiveFeatures& active) {
   std::array<bool, kMostClasses> present{};
   for (const Instance& instance : instances) present[instance.class_number] = true;
   for (std::uint32_t number = 0; number < classes_; ++number)
-    if (!present[number]) add(number, active);
+    if (!present[number]) add(number);
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const Instance& one = instances[i];
     for (std::uint32_t tiling = 0; tiling < places_.tilings(); ++tiling)
-      add(first_place_ + one.class_number * places_.size() + places_.tile(tiling, one.box.x(), one.box.y()),
-          active);
-    for (std::size_t j = 0; j < i; ++j) add_pair(one, instances[j], active);
+      add(first_place_ + one.class_number * places_.size() + places_.tile(tiling, one.box.x(), one.box.y()));
+    for (std::size_t j = 0; j < i; ++j) add_pair(one, instances[j]);
   }
-  for (const std::uint32_t feature : active.indices)
-    active.counts.push_back(std::exchange(counts_[feature], 0.0F));
+  take_counts(active);
 }
 
-void ObjectFeatures::add(std::uint32_t feature, ActiveFeatures& active) {
-  if (counts_[feature] == 0) active.indices.push_back(feature);
+void ObjectFeatures::add(std::uint32_t feature) {
   ++counts_[feature];
+  counted_[feature / 64] |= std::uint64_t{1} << (feature % 64);
+}
+
+// Moves what was counted to `active`.
+void ObjectFeatures::take_counts(ActiveFeatures& active) {
+  for (std::size_t word = 0; word < counted_.size(); ++word) {
+    for (std::uint64_t left = std::exchange(counted_[word], 0); left != 0; left &= left - 1) {
+      const auto feature =
+          static_cast<std::uint32_t>(word * 64) + static_cast<std::uint32_t>(std::countr_zero(left));
+      active.indices.push_back(feature);
+      active.counts.push_back(std::exchange(counts_[feature], 0.0F));
+    }
+  }
 }
 
 // From the lower class to the higher; none for two of the same class.
-void ObjectFeatures::add_pair(const Instance& one, const Instance& other, ActiveFeatures& active) {
+void ObjectFeatures::add_pair(const Instance& one, const Instance& other) {
   if (one.class_number == other.class_number) return;
   const auto& [from, to] =
       one.class_number < other.class_number ? std::tie(one, other) : std::tie(other, one);
@@ -93,7 +105,7 @@ void ObjectFeatures::add_pair(const Instance& one, const Instance& other, Active
   const std::uint32_t pair = pair_index(from.class_number, to.class_number);
   const std::uint32_t first = first_pair_ + (pair * kApproaches + approaches) * distances_.size();
   for (std::uint32_t tiling = 0; tiling < distances_.tilings(); ++tiling)
-    add(first + distances_.tile(tiling, x + kFeatureWidth - 1, y + kFeatureHeight - 1), active);
+    add(first + distances_.tile(tiling, x + kFeatureWidth - 1, y + kFeatureHeight - 1));
 }
 
 }  // namespace racebeam

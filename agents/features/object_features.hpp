@@ -50,13 +50,15 @@ class ObjectFeatures final : public FeatureSet {
   void extract(Screen screen, ActiveFeatures& active);
 
  private:
-  void add(std::uint32_t feature, ActiveFeatures& active);
-  void add_pair(const Instance& one, const Instance& other, ActiveFeatures& active);
+  void add(std::uint32_t feature);
+  void add_pair(const Instance& one, const Instance& other);
+  void take_counts(ActiveFeatures& active);
 
   InstanceFinder finder_;
   TileCoding places_, distances_;
   std::uint32_t classes_, first_place_, first_pair_;
-  std::vector<float> counts_;  // of each feature; 0 between calls
+  std::vector<float> counts_;           // of each feature; 0 between calls
+  std::vector<std::uint64_t> counted_;  // a bit for each feature with a count
   FeatureScreen screen_;
 };
 

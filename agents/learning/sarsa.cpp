@@ -11,18 +11,19 @@ namespace {
 using Doubles [[gnu::vector_size(16)]] = double;
 using Floats [[gnu::vector_size(8)]] = float;
 
+constexpr int kFetchAhead = 24;  // features whose weights are on their way from memory
+
 }  // namespace
 
 Sarsa::Sarsa(const SarsaSettings& settings, std::size_t features, std::uint64_t seed, int actions)
     : settings_(settings),
       actions_(static_cast<std::size_t>(actions)),
       weights_(features * actions_),
-      where_(settings.clear_other_traces ? features : features * actions_),
       scaled_(settings.reward_scale),
       random_(seed) {}
 
 int Sarsa::begin(const ActiveFeatures& features) {
-  clear_traces();
+  traces_.clear();
   compute_values(features);
   action_ = choose();
   features_ = features;
@@ -31,7 +32,6 @@ int Sarsa::begin(const ActiveFeatures& features) {
 
 int Sarsa::next(double reward, const ActiveFeatures& features) {
   const double scaled_reward = scaled_(reward);
-  if (learning_) replace_traces();
   const double before = learning_ ? value(features_, action_) : 0;
   compute_values(features);
   const int action = choose();
@@ -44,21 +44,31 @@ int Sarsa::next(double reward, const ActiveFeatures& features) {
 void Sarsa::end(double reward) {
   const double scaled_reward = scaled_(reward);
   if (!learning_) return;
-  replace_traces();
   update(scaled_reward - value(features_, action_));
-  clear_traces();
+  traces_.clear();
 }
 
 double Sarsa::value(const ActiveFeatures& features, int action) const {
   double sum = 0;
-  for (std::size_t i = 0; i < features.indices.size(); ++i)
+  for (std::size_t i = 0; i < features.indices.size(); ++i) {
+    fetch_weights(features, i + kFetchAhead);
     sum += double{features.count(i)} * double{weights_[place(features.indices[i], action)]};
+  }
   return sum;
+}
+
+// A row of weights lies in two of the processor's lines.
+void Sarsa::fetch_weights(const ActiveFeatures& features, std::size_t i) const {
+  if (i >= features.indices.size()) return;
+  const float* const row = weights_.data() + place(features.indices[i], 0);
+  __builtin_prefetch(row);
+  __builtin_prefetch(row + actions_ - 1);
 }
 
 // The sums of all actions at once, each in the order of the features.
 void Sarsa::compute_values(const ActiveFeatures& features) {
-  if (actions_ == kActions && features.counts.empty()) return compute_binary_values(features);
+  if (actions_ == kActions)
+    return features.counts.empty() ? compute_all_values<false>(features) : compute_all_values<true>(features);
   Values sums{};
   for (std::size_t i = 0; i < features.indices.size(); ++i) {
     const float* const weights = weights_.data() + place(features.indices[i], 0);
@@ -68,16 +78,20 @@ void Sarsa::compute_values(const ActiveFeatures& features) {
   values_ = sums;
 }
 
-// The same for counts of 1 and 18 actions, two at a time: the sums stay in registers, as a loop over actions
-// would not keep them.
-void Sarsa::compute_binary_values(const ActiveFeatures& features) {
+// The same for 18 actions, two at a time: the sums stay in registers, as a loop over actions would not keep
+// them.
+template <bool kCounted>
+void Sarsa::compute_all_values(const ActiveFeatures& features) {
   std::array<Doubles, kActions / 2> sums{};
-  for (const std::uint32_t feature : features.indices) {
-    const float* const weights = weights_.data() + std::size_t{feature} * kActions;
+  for (std::size_t i = 0; i < features.indices.size(); ++i) {
+    fetch_weights(features, i + kFetchAhead);
+    const float* const weights = weights_.data() + std::size_t{features.indices[i]} * kActions;
     for (std::size_t pair = 0; pair < sums.size(); ++pair) {
       Floats two;
       std::memcpy(&two, weights + 2 * pair, sizeof two);
-      sums[pair] += __builtin_convertvector(two, Doubles);
+      Doubles wide = __builtin_convertvector(two, Doubles);
+      if constexpr (kCounted) wide *= double{features.counts[i]};
+      sums[pair] += wide;
     }
   }
   std::memcpy(values_.data(), sums.data(), sizeof sums);
@@ -98,27 +112,10 @@ int Sarsa::choose() {
 }
 
 double Sarsa::trace(std::size_t feature, int action) const {
-  const std::uint32_t number = where_[owner(feature, action)];
-  if (number == 0 || traces_[number - 1].place != place(feature, action)) return 0;
-  return double{traces_[number - 1].size};
+  const auto found = std::ranges::lower_bound(traces_, place(feature, action), {}, &Trace::place);
+  return found == traces_.end() || found->place != place(feature, action) ? 0 : double{found->size};
 }
 
-void Sarsa::replace_traces() {
-  for (std::size_t i = 0; i < features_.indices.size(); ++i) {
-    const std::size_t feature = features_.indices[i];
-    const auto at = static_cast<std::uint32_t>(place(feature, action_));
-    const auto own = static_cast<std::uint32_t>(owner(feature, action_));
-    const Trace trace{at, own, features_.count(i)};
-    if (where_[own] != 0) {
-      traces_[where_[own] - 1] = trace;
-    } else {
-      traces_.push_back(trace);
-      where_[own] = static_cast<std::uint32_t>(traces_.size());
-    }
-  }
-}
-
-// Moves the weights along their traces, which then decay.
 void Sarsa::update(double error) {
   most_active_ =
       std::max(most_active_, features_.counts.empty()
@@ -129,30 +126,39 @@ void Sarsa::update(double error) {
     diverged_ = true;
     return;
   }
-  const auto moved = static_cast<float>(step);
+  move_weights(static_cast<float>(step));
+}
+
+// Merges the traces of features_, which replace others, into traces_. Moves each weight along its trace,
+// which then decays.
+void Sarsa::move_weights(float step) {
   const auto decay = static_cast<float>(settings_.discount * settings_.trace_decay);
   const auto least = static_cast<float>(settings_.least_trace);
-  for (std::size_t i = 0; i < traces_.size();) {
-    Trace& trace = traces_[i];
-    weights_[trace.place] += moved * trace.size;
+  merged_.resize(traces_.size() + features_.indices.size());
+  Trace* out = merged_.data();
+  const auto move = [&](Trace trace) {
+    weights_[trace.place] += step * trace.size;
     trace.size *= decay;
-    trace.size < least || trace.size == 0 ? drop_trace(i) : void(++i);
+    *out = trace;
+    out += !(trace.size < least || trace.size == 0);
+  };
+  auto old = traces_.cbegin();
+  const auto move_old = [&] {
+    if (traces_.cend() - old > kFetchAhead) __builtin_prefetch(&weights_[old[kFetchAhead].place], 1);
+    move(*old++);
+  };
+  for (std::size_t i = 0; i < features_.indices.size(); ++i) {
+    fetch_weights(features_, i + kFetchAhead);
+    const auto at = static_cast<std::uint32_t>(place(features_.indices[i], action_));
+    const auto before = static_cast<std::uint32_t>(settings_.clear_other_traces ? action_ : 0);
+    const auto behind = static_cast<std::uint32_t>(settings_.clear_other_traces ? actions_ : 1) - before;
+    while (old != traces_.cend() && old->place < at - before) move_old();
+    if (old != traces_.cend() && old->place < at + behind) ++old;  // is replaced
+    move({at, features_.count(i)});
   }
-}
-
-// The last trace takes its place.
-void Sarsa::drop_trace(std::size_t number) {
-  where_[traces_[number].owner] = 0;
-  if (number + 1 < traces_.size()) {
-    traces_[number] = traces_.back();
-    where_[traces_[number].owner] = static_cast<std::uint32_t>(number + 1);
-  }
-  traces_.pop_back();
-}
-
-void Sarsa::clear_traces() {
-  for (const Trace& trace : traces_) where_[trace.owner] = 0;
-  traces_.clear();
+  while (old != traces_.cend()) move_old();
+  merged_.resize(static_cast<std::size_t>(out - merged_.data()));
+  std::swap(traces_, merged_);
 }
 
 // Traces are empty between episodes.

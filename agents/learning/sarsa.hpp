@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "agents/base/huge_pages.hpp"
 #include "agents/base/random.hpp"
 #include "agents/base/reward_scale.hpp"
 #include "agents/base/state_bytes.hpp"
@@ -52,7 +53,6 @@ class Sarsa {
  private:
   struct Trace {
     std::uint32_t place;  // of the weight
-    std::uint32_t owner;  // the feature; or, if its actions have traces of their own, the same as `place`
     float size;
   };
   using Values = std::array<double, kActions>;
@@ -60,24 +60,21 @@ class Sarsa {
   std::size_t place(std::size_t feature, int action) const {
     return feature * actions_ + static_cast<std::size_t>(action);
   }
-  std::size_t owner(std::size_t feature, int action) const {
-    return settings_.clear_other_traces ? feature : place(feature, action);
-  }
   void compute_values(const ActiveFeatures& features);
-  void compute_binary_values(const ActiveFeatures& features);
+  template <bool kCounted>
+  void compute_all_values(const ActiveFeatures& features);
+  void fetch_weights(const ActiveFeatures& features, std::size_t i) const;
   int choose();
-  void replace_traces();
   void update(double error);
-  void drop_trace(std::size_t number);
-  void clear_traces();
+  void move_weights(float step);
 
   SarsaSettings settings_;
   std::size_t actions_;
-  std::vector<float> weights_;        // of all actions of feature 0, then of feature 1, ...
-  std::vector<Trace> traces_;         // in no order: each is of another weight
-  std::vector<std::uint32_t> where_;  // of each owner: the number of its trace, from 1; 0: none
-  Values values_{};                   // of the state that was last seen
-  ActiveFeatures features_;           // of the state in which action_ was taken
+  HugeTable<float> weights_;   // of all actions of feature 0, then of feature 1, ...
+  std::vector<Trace> traces_;  // by ascending place; without other traces, at most one a feature
+  std::vector<Trace> merged_;  // room for the next
+  Values values_{};            // of the state that was last seen
+  ActiveFeatures features_;    // of the state in which action_ was taken
   int action_ = 0;
   double most_active_ = 1;  // the largest sum of counts so far
   RewardScaler scaled_;

@@ -88,6 +88,16 @@ TEST_CASE("Counts weigh features, their traces and the step") {
   CHECK(sarsa.value({{0, 1}, {2, 1}}, 0) == 7);
 }
 
+TEST_CASE("Counts weigh the features of 18 actions, too") {
+  Sarsa sarsa(plain(0), 2, 1);
+  const ActiveFeatures twice{{0}, {2}};
+  const int first = sarsa.begin(twice);
+  const int second = sarsa.next(4, twice);  // error 4, step 1: w0 of the first = 2
+  CHECK(sarsa.weight(0, first) == 2);
+  CHECK(sarsa.next(0, twice) == first);  // error 2 without the second's value, which is 4 if it is the first
+  CHECK(sarsa.weight(0, second) == 1);
+}
+
 TEST_CASE("Rewards are divided by the size of the first one, or are signs") {
   SarsaSettings settings = plain(0);
   settings.reward_scale = RewardScale::kFirst;
