@@ -20,6 +20,7 @@
 #include "cli/commands/serve.hpp"
 #include "cli/commands/trace.hpp"
 #include "cli/commands/verify.hpp"
+#include "cli/connect/connect.hpp"
 #include "system/printable.hpp"
 
 namespace {
@@ -94,6 +95,7 @@ int main(int argc, char** argv) {
   racebeam::add_serve(app);
   racebeam::add_config(app);
   racebeam::add_classic(app);
+  racebeam::add_connect(app);
   racebeam::add_trace(app);
   racebeam::add_bench(app);
   racebeam::add_games(app);
