@@ -11,6 +11,7 @@
 #include "cli/arguments/options.hpp"
 #include "cli/bench/bench.hpp"
 #include "cli/commands/background.hpp"
+#include "cli/commands/classes.hpp"
 #include "cli/commands/classic.hpp"
 #include "cli/commands/config.hpp"
 #include "cli/commands/experiment.hpp"
@@ -20,6 +21,7 @@
 #include "cli/commands/serve.hpp"
 #include "cli/commands/trace.hpp"
 #include "cli/commands/verify.hpp"
+#include "cli/commands/with.hpp"
 #include "cli/connect/connect.hpp"
 #include "system/printable.hpp"
 
@@ -37,7 +39,7 @@ constexpr auto kFooter = R"(Try first:
 Each subcommand has a help text, such as racebeam serve --help.
 
 Exit status: 0 success; 1 failure, with one line on standard error that gives the reason; 2 usage error;
-255 a classic client requested an action that does not exist.)";
+3 to 5 the start of a server failed (see racebeam serve --help); 255 a classic client requested an action that does not exist.)";
 
 std::string subcommand_names(const CLI::App& app) {
   std::string names;
@@ -93,6 +95,7 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   app.require_subcommand(1);
   racebeam::add_serve(app);
+  racebeam::add_with(app);
   racebeam::add_config(app);
   racebeam::add_classic(app);
   racebeam::add_connect(app);
@@ -104,6 +107,7 @@ int main(int argc, char** argv) {
   racebeam::add_experiment(app);
   racebeam::add_verify(app);
   racebeam::add_background(app);
+  racebeam::add_classes(app);
   try {
     const std::vector<const char*> words = words_of(argc, argv);
     app.parse(static_cast<int>(words.size()), words.data());  // executes the subcommand

@@ -94,8 +94,8 @@ void check_base64(Bytes bytes) {
 void check_zlib(Bytes bytes) {
   Encoder encoder(Encoding::kZlib);
   for (int reply = 0; reply < 2; ++reply) {
-    std::string text;
-    encoder.append(text, bytes);
+    std::string text, raw;
+    encoder.append(text, bytes, raw);
     const auto packed = bytes_of_base64(text);
     require(packed.has_value(), "zlib is written as base64");
     Buffer unpacked(bytes.size() + 1);

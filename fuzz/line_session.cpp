@@ -1,6 +1,7 @@
 // A session of the line protocol: the input is the client's.
 #include "protocol/line_session.hpp"
 
+#include <charconv>
 #include <chrono>
 #include <thread>
 #include <vector>
@@ -36,6 +37,30 @@ LineService make_service(const std::string& record_folder) {
   service.limits.recording = 1 << 20;
   service.recorder = std::make_shared<Recorder>(record_folder);
   return service;
+}
+
+// The bytes that follow a reply's line.
+std::size_t raw_size(std::string_view line) {
+  constexpr std::string_view kRaw = " raw=";
+  const std::size_t at = line.rfind(kRaw);
+  if (!line.starts_with("ok ") || at == std::string_view::npos) return 0;
+  const std::string_view digits = line.substr(at + kRaw.size());
+  std::size_t size = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), size);
+  return error == std::errc() && end == digits.data() + digits.size() ? size : 0;
+}
+
+// Lines of replies, without the bytes that follow them.
+Lines replies_of(std::string_view text) {
+  Lines lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    require(raw_size(lines.back()) <= text.size(), "as many bytes follow a line as it says", lines.back());
+    text.remove_prefix(raw_size(lines.back()));
+  }
+  return lines;
 }
 
 Lines lines_of(std::string_view text) {
@@ -144,7 +169,7 @@ void check_refusals(const Lines& requests, const Lines& replies) {
   Client client(LineSession::kSlice);
   for (std::size_t n = 0; n < replies.size(); ++n) {
     if (replies[n].starts_with("error ")) continue;
-    Lines again = lines_of(client.say(requests[n] + "\n", requests[n].size() + 1));
+    Lines again = replies_of(client.say(requests[n] + "\n", requests[n].size() + 1));
     require(again.size() == 1, "one line is answered by one line", requests[n]);
     require(comparable(requests[n], again[0]) == comparable(requests[n], replies[n]),
             "a request that was refused leaves no trace", requests[n] + "\n" + replies[n] + "\n" + again[0]);
@@ -164,7 +189,7 @@ void run(Bytes input) {
   const std::size_t piece = input.empty() ? 1 : 1 + input.size() * 7919 % 997;
   std::string all = client.say(text, piece);
   all += client.close();
-  const Lines replies = lines_of(all);
+  const Lines replies = replies_of(all);
 
   require(replies.size() <= requests.size(), "no line gets two replies");
   for (std::size_t n = 0; n < replies.size(); ++n)

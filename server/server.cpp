@@ -1,6 +1,7 @@
 #include "server/server.hpp"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <list>
@@ -11,8 +12,9 @@
 #include "server/connections/http.hpp"
 #include "server/connections/idle_monitor.hpp"
 #include "server/connections/streams.hpp"
+#include "server/operation/announcement.hpp"
 #include "server/operation/log.hpp"
-#include "server/operation/ready_file.hpp"
+#include "server/operation/published_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -48,9 +50,14 @@ class Server {
   int run();
 
  private:
-  void announce();
-  net::awaitable<void> obey();       // handles signals
-  net::awaitable<void> wind_down();  // waits for the grace period, then ends all
+  void start();
+  void tell_limits() const;  // to the log
+  void publish();            // the ready file and the announce file
+  std::string announcement() const;
+  net::awaitable<void> obey();  // handles signals
+  net::awaitable<void> stop_when_idle();
+  void stop(std::string reason);                       // for the log
+  net::awaitable<void> wind_down(std::string reason);  // waits for the grace period, then ends all
   net::awaitable<void> end_with_recordings();
   bool sessions_ended() const;
   bool all_ended() const;
@@ -59,12 +66,14 @@ class Server {
   int status() const;
 
   const ServerSettings& settings_;
+  const Services& services_;
+  const std::string token_;  // for the announce file; empty: none
   Metrics metrics_;
   Loops loops_;
   net::io_context& first_;
   net::signal_set signals_;
   IdleMonitor idle_monitor_;
-  std::optional<ReadyFile> ready_file_;
+  std::list<PublishedFile> published_;
   ConnectionAcceptor acceptor_;
   std::shared_ptr<Recorder> recorder_;  // null: recording is off
   std::list<StreamSession> streams_;
@@ -75,11 +84,13 @@ class Server {
 
 Server::Server(const ServerSettings& settings, const Services& services)
     : settings_(settings),
+      services_(services),
+      token_(settings.announce.empty() ? std::string() : random_token()),
       loops_(static_cast<unsigned>(settings.threads), settings.busy_poll, metrics_),
       first_(loops_.first().context),
       signals_(first_, SIGTERM, SIGINT, SIGHUP),
       idle_monitor_(settings, loops_, metrics_),
-      acceptor_(settings, services, loops_, metrics_),
+      acceptor_(settings, services, loops_, metrics_, token_),
       recorder_(recorder_of(services)) {
   for (const Endpoint& endpoint : settings.endpoints) {
     if (!is_stream(endpoint.address)) continue;
@@ -92,19 +103,37 @@ Server::Server(const ServerSettings& settings, const Services& services)
   }
 }
 
-void Server::announce() {
-  if (!acceptor_.empty()) {
-    log("threads: " + std::to_string(settings_.threads) + ", limited by " + settings_.threads_limited_by,
-        {{"event", "threads"}});
-  }
-  acceptor_.open();
+void Server::tell_limits() const {
+  log("threads: " + std::to_string(settings_.threads) + ", limited by " + settings_.threads_limited_by,
+      {{"event", "threads"}});
+  if (settings_.max_memory == 0) return;
+  log("memory: " + std::to_string(settings_.max_memory) + " bytes, limited by " + settings_.memory_limited_by,
+      {{"event", "memory"}});
+}
+
+std::string Server::announcement() const {
+  const auto& line = std::get<LineService>(*services_.line);
+  const auto games = line.images->names();
+  const std::string host = host_name();
+  return announce_text({acceptor_.announced(host), host, line.version, token_, ::getpid(),
+                        std::vector<std::string>(games.begin(), games.end())});
+}
+
+void Server::publish() {
   std::vector<std::string> names = acceptor_.names();
   for (const StreamSession& stream : streams_) names.push_back(stream.name());
-  if (http_) {
+  if (http_) names.push_back(http_->name());
+  if (!settings_.ready_file.empty())
+    published_.emplace_back(kReadyFile, settings_.ready_file, ready_text(names));
+  if (!settings_.announce.empty()) published_.emplace_back(kAnnounceFile, settings_.announce, announcement());
+}
+
+void Server::start() {
+  if (!acceptor_.empty()) tell_limits();
+  acceptor_.open();
+  if (http_)
     log("health and metrics on " + http_->name(), {{"event", "listening"}, {"address", http_->name()}});
-    names.push_back(http_->name());
-  }
-  if (!settings_.ready_file.empty()) ready_file_.emplace(settings_.ready_file, names);  // may be refused
+  publish();  // may be refused
   for (StreamSession& stream : streams_) {
     stream.start([this] {
       net::post(first_, [this] {
@@ -117,7 +146,8 @@ void Server::announce() {
 
 int Server::run() {
   net::co_spawn(first_, obey(), net::detached);
-  announce();
+  if (settings_.until_idle_seconds > 0) net::co_spawn(first_, stop_when_idle(), net::detached);
+  start();
   idle_monitor_.start();
   loops_.run();
   return status();
@@ -131,10 +161,29 @@ net::awaitable<void> Server::obey() {
     } else if (told_to_stop_) {
       patient_ = false;
     } else {
-      told_to_stop_ = true;
-      net::co_spawn(first_, wind_down(), net::detached);
+      stop("told to stop");
     }
   }
+}
+
+// Sessions that come and go between two looks are seen in the number of all.
+net::awaitable<void> Server::stop_when_idle() {
+  const auto limit = std::chrono::seconds(settings_.until_idle_seconds);
+  net::steady_timer timer(first_);
+  std::int64_t counted = 0;
+  for (auto used = Clock::now(); Clock::now() - used < limit;) {
+    timer.expires_after(100ms);
+    co_await timer.async_wait(use_awaitable);
+    const std::int64_t began = metrics_.sessions_line + metrics_.sessions_classic;
+    if (metrics_.sessions_open > 0 || !streams_ended() || began != counted) used = Clock::now();
+    counted = began;
+  }
+  if (!told_to_stop_) stop("no session for " + std::to_string(settings_.until_idle_seconds) + " seconds");
+}
+
+void Server::stop(std::string reason) {
+  told_to_stop_ = true;
+  net::co_spawn(first_, wind_down(std::move(reason)), net::detached);
 }
 
 // Unless the server is told to stop, recordings take as long as they need.
@@ -144,12 +193,12 @@ net::awaitable<void> Server::end_with_recordings() {
 }
 
 // Sessions on streams have no grace period: their client is the one that stops the server.
-net::awaitable<void> Server::wind_down() {
+net::awaitable<void> Server::wind_down(std::string reason) {
   ready_ = false;
-  ready_file_.reset();  // its addresses are no longer valid
+  published_.clear();  // the addresses are no longer valid
   notify_manager("STOPPING=1");
   acceptor_.close();
-  log("told to stop: " + std::to_string(metrics_.sessions_open) + " sessions have " +
+  log(reason + ": " + std::to_string(metrics_.sessions_open) + " sessions have " +
           std::to_string(settings_.grace_seconds) + " seconds to end",
       {{"event", "stopping"}});
   const auto grace = Clock::now() + std::chrono::seconds(settings_.grace_seconds);

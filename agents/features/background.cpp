@@ -15,7 +15,7 @@ constexpr double kPerturb = 0.95;
 }  // namespace
 
 void sample_screens(const Cartridge& cartridge, const SampleSettings& settings, int screens,
-                    std::uint64_t seed, const std::function<void(const Environment& environment)>& look) {
+                    std::uint64_t seed, const LookAtScreen& look) {
   Random random(seed);
   Environment machine(cartridge.image, cartridge.game, settings.play.machine);
   const auto any = [&] { return static_cast<int>(random.below(kActions)); };
@@ -29,7 +29,7 @@ void sample_screens(const Cartridge& cartridge, const SampleSettings& settings, 
     machine.set_drawing(Drawing::kLast);
     for (std::size_t left = kDecisionsAfter; left > 0 && seen < screens; --left, ++seen) {
       machine.act(any());
-      look(machine);
+      look(machine, left == kDecisionsAfter);
       if (machine.game_over()) {
         ++seen;
         break;
@@ -58,7 +58,7 @@ Background discover_background(const Cartridge& cartridge, const SampleSettings&
   ColourHistogram histogram;
   FeatureScreen screen;
   sample_screens(cartridge, settings, settings.background_screens, settings.seed,
-                 [&](const Environment& machine) { histogram.add(screen.of(machine)); });
+                 [&](const Environment& machine, bool) { histogram.add(screen.of(machine)); });
   return histogram.most_frequent();
 }
 

@@ -22,10 +22,12 @@ struct SampleSettings {
   PlaySettings play;
 };
 
-// Calls `look` with so many screens of sample trajectories. Each begins with a random number of decisions of
-// a Perturb policy, whose screens are not looked at, and goes on with random actions.
+// Calls `look` with so many screens of sample trajectories; `first` says that a new one begins. Each begins
+// with a random number of decisions of a Perturb policy, whose screens are not looked at, and goes on with
+// random actions.
+using LookAtScreen = std::function<void(const Environment& environment, bool first)>;
 void sample_screens(const Cartridge& cartridge, const SampleSettings& settings, int screens,
-                    std::uint64_t seed, const std::function<void(const Environment& environment)>& look);
+                    std::uint64_t seed, const LookAtScreen& look);
 
 // A colour, from 0 to 127, for each pixel.
 using Background = std::array<std::uint8_t, kFeaturePixels>;

@@ -13,6 +13,8 @@ namespace {
 
 constexpr SealedKind kBackground = {
     .what = "background", .magic = "RBBACKGR", .version = 1, .most = std::size_t{1} << 20, .level = 9};
+constexpr SealedKind kClasses = {
+    .what = "class file", .magic = "RBCLASSE", .version = 1, .most = std::size_t{1} << 28, .level = 9};
 
 // The first line of a file.
 std::string source_of(const Cartridge& cartridge, const SampleSettings& settings, int screens) {
@@ -20,6 +22,15 @@ std::string source_of(const Cartridge& cartridge, const SampleSettings& settings
          " seed=" + std::to_string(settings.seed) + " screens=" + std::to_string(screens) +
          " frame_skip=" + std::to_string(settings.play.machine.frame_skip) +
          " color_averaging=" + std::to_string(settings.play.machine.color_averaging);
+}
+
+// Classes depend on the background, too.
+std::string source_of(const Cartridge& cartridge, const SampleSettings& settings,
+                      const Background& background) {
+  const std::string_view colours(reinterpret_cast<const char*>(background.data()), background.size());
+  return source_of(cartridge, settings, settings.class_screens)
+      .append(" background=")
+      .append(sha256_of(colours), 0, 16);
 }
 
 // The contents behind the first line, which must be `source`.
@@ -50,19 +61,44 @@ Background background_of(const std::string& path, const Cartridge& cartridge,
   return background;
 }
 
-std::string GameFacts::path(const std::string& ending) const {
-  return folder_ + '/' + cartridge_.game->name + ending;
+std::string bytes_of(const ObjectClasses& classes, const Background& background, const Cartridge& cartridge,
+                     const SampleSettings& settings) {
+  return seal(kClasses, source_of(cartridge, settings, background) + '\n' + text_of(classes));
+}
+
+ObjectClasses classes_of(const std::string& path, const Background& background, const Cartridge& cartridge,
+                         const SampleSettings& settings) {
+  const std::string contents = read_sealed(kClasses, path);
+  return classes_of_text(path, behind(contents, source_of(cartridge, settings, background), path));
+}
+
+// Reads the fact's file; discovers the fact and writes the file if there is none.
+template <typename Fact>
+const Fact& GameFacts::kept(std::optional<Fact>& fact, const std::string& ending, const auto& discover,
+                            const auto& read, const auto& bytes) const {
+  if (fact) return *fact;
+  if (folder_.empty()) return fact.emplace(discover());
+  const std::string base = folder_ + '/' + cartridge_.game->name, file = base + ending;
+  const FileLock lock(base + ".lock");
+  if (std::filesystem::exists(file)) return fact.emplace(read(file));
+  fact = discover();
+  replace_file(file, bytes(*fact), Durable::kNow);
+  return *fact;
 }
 
 const Background& GameFacts::background() {
-  if (background_) return *background_;
-  if (folder_.empty()) return background_.emplace(discover_background(cartridge_, settings_));
-  const FileLock lock(path(".lock"));
-  const std::string file = path(".background");
-  if (std::filesystem::exists(file)) return background_.emplace(background_of(file, cartridge_, settings_));
-  background_ = discover_background(cartridge_, settings_);
-  replace_file(file, bytes_of(*background_, cartridge_, settings_), Durable::kNow);
-  return *background_;
+  return kept(
+      background_, ".background", [&] { return discover_background(cartridge_, settings_); },
+      [&](const std::string& file) { return background_of(file, cartridge_, settings_); },
+      [&](const Background& background) { return bytes_of(background, cartridge_, settings_); });
+}
+
+const ObjectClasses& GameFacts::classes() {
+  const Background& still = background();
+  return kept(
+      classes_, ".classes", [&] { return discover_classes(cartridge_, settings_, still); },
+      [&](const std::string& file) { return classes_of(file, still, cartridge_, settings_); },
+      [&](const ObjectClasses& classes) { return bytes_of(classes, still, cartridge_, settings_); });
 }
 
 }  // namespace racebeam

@@ -1,11 +1,11 @@
-// What is discovered about a game before an agent learns: its background. Files keep it, so that each is
-// discovered once.
+// What is discovered about a game before an agent learns: its background, and its classes of objects. Files
+// keep them, so that each is discovered once.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "agents/features/background.hpp"
+#include "agents/features/object_classes.hpp"
 
 namespace racebeam {
 
@@ -17,19 +17,29 @@ class GameFacts {
 
   // Throws InvalidInput for a file of another game, image, seed, size or version.
   const Background& background();
+  const ObjectClasses& classes();
 
  private:
-  std::string path(const std::string& ending) const;
+  template <typename Fact>
+  const Fact& kept(std::optional<Fact>& fact, const std::string& ending, const auto& discover,
+                   const auto& read, const auto& bytes) const;
 
   const Cartridge cartridge_;
   const SampleSettings settings_;
   const std::string folder_;
   std::optional<Background> background_;
+  std::optional<ObjectClasses> classes_;
 };
 
 // A background as a file: with the image and the samples that it is of.
 std::string bytes_of(const Background& background, const Cartridge& cartridge,
                      const SampleSettings& settings);
 Background background_of(const std::string& path, const Cartridge& cartridge, const SampleSettings& settings);
+
+// The same of classes, which are those of one background.
+std::string bytes_of(const ObjectClasses& classes, const Background& background, const Cartridge& cartridge,
+                     const SampleSettings& settings);
+ObjectClasses classes_of(const std::string& path, const Background& background, const Cartridge& cartridge,
+                         const SampleSettings& settings);
 
 }  // namespace racebeam

@@ -7,6 +7,7 @@
 
 #include "agents/features/game_facts.hpp"
 #include "agents/features/locality_hash.hpp"
+#include "agents/features/object_features.hpp"
 #include "agents/features/ram_bits.hpp"
 #include "agents/features/tile_colours.hpp"
 #include "agents/kinds/baselines.hpp"
@@ -51,6 +52,16 @@ constexpr std::array kTileSettings = {
     kRewardScale,
     AgentSetting{"grid_width", 16, 1, 160, true, "appendix C, BASS and Basic", {}, kFeatureWidth},
     AgentSetting{"grid_height", 14, 1, 210, true, "appendix C, BASS and Basic", {}, kFeatureHeight}};
+constexpr std::array kDiscoSettings = {alpha(0.1, "appendix C, DISCO"),
+                                       lambda(0.9, "appendix C, DISCO"),
+                                       kGamma,
+                                       kEpsilon,
+                                       kEvaluationEpsilon,
+                                       kLeastTrace,
+                                       kClearTraces,
+                                       kRewardScale,
+                                       AgentSetting{"tilings", 8, 1, 64, true, "appendix C, DISCO"},
+                                       AgentSetting{"grid", 8, 1, 64, true, "appendix C, DISCO"}};
 constexpr std::array kLshSettings = {alpha(0.5, "appendix C, LSH"),
                                      lambda(0.5, "appendix C, LSH"),
                                      kGamma,
@@ -119,6 +130,13 @@ std::unique_ptr<Agent> make_basic(const AgentContext& context) {
   return tile_learner(context, kColours, false);
 }
 std::unique_ptr<Agent> make_bass(const AgentContext& context) { return tile_learner(context, 8, true); }
+
+std::unique_ptr<Agent> make_disco(const AgentContext& context) {
+  const AgentValues& values = context.values;
+  return learner(context,
+                 std::make_unique<ObjectFeatures>(context.facts->background(), context.facts->classes(),
+                                                  values.whole("tilings"), values.whole("grid")));
+}
 
 std::unique_ptr<Agent> make_lsh(const AgentContext& context) {
   const AgentValues& values = context.values;
@@ -210,6 +228,14 @@ constexpr std::array kKinds = {
               .decisions_per_second = 1000,
               .megabytes = 140,
               .make = make_bass},
+    AgentKind{.name = "disco",
+              .summary = "SARSA on places and velocities of objects of discovered classes",
+              .role = Role::kLearner,
+              .frame_skip = {},
+              .settings = kDiscoSettings,
+              .decisions_per_second = 3000,
+              .megabytes = 40,
+              .make = make_disco},
     AgentKind{.name = "lsh",
               .summary = "SARSA on locality sensitive hashes of the screen",
               .role = Role::kLearner,

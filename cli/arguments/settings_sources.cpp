@@ -25,11 +25,11 @@ struct FromFile {
 bool is_list(const CLI::Option& option) { return option.get_items_expected_max() > 1; }
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
-// The options that are settings, without those that act at once, such as --help.
+// The options that are settings, without those that act at once, such as --help, and without positional ones.
 std::vector<CLI::Option*> settings_of(CLI::App& command) {
   auto options = command.get_options();
   std::erase_if(options, [&](const CLI::Option* option) {
-    return option == command.get_help_ptr() || option->check_name(kConfig);
+    return option == command.get_help_ptr() || option->check_name(kConfig) || option->get_positional();
   });
   return options;
 }

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <memory>
+#include <new>
 #include <stdexcept>
 
 #include "cli/commands/serve_options.hpp"
@@ -14,8 +16,9 @@
 #include "environment/vector/thread_pool.hpp"
 #include "recording/recorder.hpp"
 #include "server/operation/log.hpp"
-#include "server/operation/ready_file.hpp"
+#include "server/operation/published_file.hpp"
 #include "server/server.hpp"
+#include "system/printable.hpp"
 #include "system/resources.hpp"
 
 namespace racebeam {
@@ -57,10 +60,26 @@ Only the protocol is written to standard output. SIGTERM and SIGINT stop the ser
 connections, finishes requests, and gives sessions on sockets --grace seconds to end. A second signal ends it
 at once. SIGHUP makes it read tokens and certificate again. A server without sockets ends with its sessions.
 
-Exit status: 0 the sessions ended, or SIGTERM or SIGINT stopped the server; 1 the start failed, or the client of
---stdio or --pipes stopped reading, caused an error with --strict, or sent an invalid line with --classic;
-2 usage error in the command line or the configuration; 255 a classic client requested an action that does not
-exist.)";
+Exit status: 0 the sessions ended, or SIGTERM, SIGINT or --until-idle stopped the server; 1 the start failed for
+another reason than those below, or the client of --stdio or --pipes stopped reading, caused an error with
+--strict, or sent an invalid line with --classic; 2 usage error in the command line or the configuration; 3 the
+server cannot listen on an address: it is in use, or the host is unknown; 4 the folder of --roms or --record-dir
+is missing; 5 the memory is not enough; 255 a classic client requested an action that does not exist.)";
+
+// Failures of the start that have an exit status of their own, for schedulers.
+constexpr int kExitAddress = 3, kExitFolder = 4, kExitMemory = 5;
+
+struct FolderError : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+struct MemoryError : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+void check_folder(const std::string& option, const std::string& path) {
+  if (!path.empty() && !std::filesystem::is_directory(path))
+    throw FolderError(option + " " + path + " is not a folder");
+}
 
 ClassicService classic_service(const ServeOptions& options) {
   const auto tell = [](const std::string& sentence) { log_warning(sentence); };
@@ -74,12 +93,12 @@ ClassicService classic_service(const ServeOptions& options) {
 }
 
 LineService line_service(const ServeOptions& options, ThreadPool& pool) {
+  check_folder("--roms", options.roms);
+  check_folder("--record-dir", options.record_folder);
   const auto images = std::make_shared<Images>();
   if (!options.machine.rom.empty())
     images->add_file(options.machine.rom, options.machine.game, options.machine.game_file);
   if (!options.roms.empty()) images->add_folder(options.roms);
-  if (!options.record_folder.empty() && !std::filesystem::is_directory(options.record_folder))
-    throw std::invalid_argument("--record-dir " + options.record_folder + " is not a folder");
   LineService service;
   service.version = RACEBEAM_VERSION;
   service.images = images;
@@ -102,11 +121,11 @@ void tell_obstacle(CpuKind cpu) {
     log("instructions are interpreted, not translated: " + obstacle);
 }
 
-// What limits the number of threads, for the log.
-std::string limit_of_threads(const std::vector<Setting>& settings) {
-  const auto is_threads = [](const Setting& setting) { return key_of(*setting.option) == "threads"; };
-  const bool given = std::ranges::find_if(settings, is_threads)->source != Source::kDefault;
-  return given ? "--threads" : usable_processors().limited_by;
+// What decides about a setting, for the log: its option, or what limits its default.
+std::string limit_of(const std::vector<Setting>& settings, const std::string& key, const std::string& limit) {
+  const auto is_it = [&](const Setting& setting) { return key_of(*setting.option) == key; };
+  const Setting& setting = *std::ranges::find_if(settings, is_it);
+  return setting.source == Source::kDefault ? limit : "--" + setting.option->get_lnames().front();
 }
 
 // Returns large blocks to the system at once: those as large as a picture, or as the records of its lines.
@@ -124,9 +143,8 @@ void limit_memory(Services& services, std::uint64_t most) {
   const auto budget = std::make_shared<MemoryBudget>(most);
   budget->take_anyway(resident_memory() + kShared);
   if (budget->taken() >= most) {
-    throw std::invalid_argument("--max-memory " + std::to_string(most) +
-                                " is too little: the server itself uses " + std::to_string(budget->taken()) +
-                                " bytes");
+    throw MemoryError("--max-memory " + std::to_string(most) + " is too little: the server itself uses " +
+                      std::to_string(budget->taken()) + " bytes");
   }
   if (services.classic) std::get<ClassicService>(*services.classic).memory = budget;
   if (services.line) std::get<LineService>(*services.line).memory = budget;
@@ -142,32 +160,53 @@ int serve(const ServeOptions& options) {
   return serve(options.server, services);
 }
 
-int serve(ServeOptions& options, CLI::App& command) {
-  return_large_blocks();
-  const std::vector<Setting> settings = complete(command);
-  // Before anything slow, and before anything that may fail.
-  remove_stale_ready_file(options.server.ready_file);
-  finish(options, settings);
-  set_up_log(options.log_level, options.log_format);
-  options.server.threads_limited_by = limit_of_threads(settings);
-  tell_obstacle(options.machine.settings.cpu);
-  try {
-    return serve(options);
-  } catch (const std::exception& error) {  // main would write it as text
-    if (options.log_format != LogFormat::kJson) throw;
-    log(LogLevel::kError, error.what());
-    return kExitFailure;
+// The last line of a server that fails, in the format of its log. Returns `status`.
+int fail(LogFormat format, const std::string& sentence, int status) {
+  if (format == LogFormat::kJson) {
+    log(LogLevel::kError, sentence);
+  } else {
+    std::cerr << "racebeam: " << printable(sentence) << "\n";
   }
+  return status;
 }
 
 }  // namespace
+
+int run_server(ServeOptions& options, const std::vector<Setting>& settings) {
+  return_large_blocks();
+  // Before anything slow, and before anything that may fail.
+  remove_stale(kReadyFile, options.server.ready_file);
+  remove_stale(kAnnounceFile, options.server.announce);
+  finish(options, settings);
+  set_up_log(options.log_level, options.log_format);
+  options.server.threads_limited_by = limit_of(settings, "threads", usable_processors().limited_by);
+  options.server.memory_limited_by = limit_of(settings, "max_memory", usable_memory().limited_by);
+  tell_obstacle(options.machine.settings.cpu);
+  const auto fails = [&](const std::exception& error, int status) {
+    return fail(options.log_format, error.what(), status);
+  };
+  try {
+    return serve(options);
+  } catch (const AddressError& error) {
+    return fails(error, kExitAddress);
+  } catch (const FolderError& error) {
+    return fails(error, kExitFolder);
+  } catch (const MemoryError& error) {
+    return fails(error, kExitMemory);
+  } catch (const std::bad_alloc&) {
+    return fail(options.log_format, "the system gives no more memory", kExitMemory);
+  } catch (const std::exception& error) {
+    return fails(error, kExitFailure);
+  }
+}
 
 void add_serve(CLI::App& app) {
   CLI::App* command = app.add_subcommand("serve", "Serve games to agents, over a pipe or a socket");
   command->footer(kFooter);
   const auto options = std::make_shared<ServeOptions>();
   add_serve_options(*command, *options);
-  command->callback([options, command] { throw CLI::RuntimeError(serve(*options, *command)); });
+  command->callback(
+      [options, command] { throw CLI::RuntimeError(run_server(*options, complete(*command))); });
 }
 
 }  // namespace racebeam

@@ -1,12 +1,21 @@
 // racebeam serve: a machine for each client.
 #pragma once
 
+#include <vector>
+
 namespace CLI {
 class App;
 }
 
 namespace racebeam {
 
+struct ServeOptions;
+struct Setting;
+
 void add_serve(CLI::App& app);
+
+// Serves until the end. `settings`: from complete(), after which `options` may be changed. Returns the exit
+// status; the reason of a failure has been written. Throws for settings that do not fit together.
+int run_server(ServeOptions& options, const std::vector<Setting>& settings);
 
 }  // namespace racebeam

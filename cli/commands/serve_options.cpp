@@ -73,7 +73,7 @@ void add_transports(CLI::App& command, ServeOptions& options) {
   command
       .add_option(
           "--listen", options.addresses,
-          "Sessions on tcp://127.0.0.1:PORT (0 picks one), tls://HOST:PORT, unix:PATH, systemd[:NAME], "
+          "Sessions on tcp://HOST:PORT (port 0 picks one), tls://HOST:PORT, unix:PATH, systemd[:NAME], "
           "stdio or pipes:PREFIX, with classic+ before it for the classic protocol; repeatable")
       ->type_name("ADDRESS")
       ->check(CLI::Validator(check_endpoint, ""))
@@ -111,6 +111,8 @@ void add_limits(CLI::App& command, ServeOptions& options) {
   add_number(command, "--handshake", server.handshake_seconds, 1, "Seconds for TLS and the client's token");
   add_number(command, "--grace", server.grace_seconds, 0,
              "Seconds that sessions have to end after the server was told to stop");
+  add_number(command, "--until-idle", server.until_idle_seconds, 0,
+             "Seconds without a session after which the server stops, as on SIGTERM; 0: never");
 }
 
 void add_memory(CLI::App& command, ServerSettings& server) {
@@ -148,6 +150,13 @@ void add_operation(CLI::App& command, ServeOptions& options) {
       .add_option(
           "--ready-file", server.ready_file,
           "File for the addresses, one a line after # lines, written when all are served, removed at the end")
+      ->type_name("FILE")
+      ->group(group);
+  command
+      .add_option(
+          "--announce", server.announce,
+          "File of JSON for clients (file:PATH): addresses, host, process, games and a token of its own, "
+          "which clients over TCP must send; readable for its owner alone, removed at the end")
       ->type_name("FILE")
       ->group(group);
   command.add_option("--http", server.http, "Health and metrics: /healthz, /readyz, /metrics")
@@ -218,6 +227,16 @@ void check_strict(const ServeOptions& options) {
   if (!fits) throw CLI::ValidationError("--strict", "requires --stdio or --pipes, and the line protocol");
 }
 
+// Clients of an announce file speak the line protocol on a socket.
+void check_announce(const ServeOptions& options) {
+  if (options.server.announce.empty()) return;
+  const bool fits = std::ranges::any_of(options.server.endpoints, [](const Endpoint& endpoint) {
+    return !is_stream(endpoint.address) && !endpoint.classic;
+  });
+  if (!fits)
+    throw CLI::ValidationError("--announce", "requires the line protocol on a socket: --listen ADDRESS");
+}
+
 }  // namespace
 
 bool serves(const ServeOptions& options, bool classic) {
@@ -242,6 +261,7 @@ void finish(ServeOptions& options, const std::vector<Setting>& settings) {
   }
   if (!serves(options, false)) refuse_any_of(settings, kLineOnly, "excludes --classic");
   check_strict(options);
+  check_announce(options);
   if (options.machine.game && options.machine.game_file)
     throw CLI::ValidationError("--game-file", "excludes --game");
   if (options.server.tls_certificate.empty() != options.server.tls_key.empty())

@@ -68,8 +68,8 @@ void add_verify(CLI::App& app) {
   CLI::App& command =
       *app.add_subcommand("verify", "Play the episodes of an experiment again, and confirm its scores");
   command.add_option("RESULTS", options->results, "The folder of the results")->required();
-  command.add_option("--table", options->tables,
-                     "A table or report that was made from them; may be repeated")
+  command
+      .add_option("--table", options->tables, "A table or report that was made from them; may be repeated")
       ->allow_extra_args(false);
   add_image_options(command, options->images);
   command.footer(kFooter);

@@ -10,7 +10,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = pathlib.Path(__file__).resolve().parent
 BUILT = ROOT / "build/clients"
 
-EVERY_WAY = frozenset({"unix", "pipes", "file", "launch", "tls"})
+EVERY_WAY = frozenset({"unix", "pipes", "file", "announce", "launch", "tls"})
+EVERYTHING = EVERY_WAY | {"raw"}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -19,7 +20,7 @@ class Client:
     language: str                  # as on its page, in fences
     runner: tuple[str, ...]        # a command and the program that takes a file of steps
     sources: str                   # a pattern: the files of the client
-    offers: frozenset = EVERY_WAY  # ways to connect beside TCP, as in `section ... needs WAY`
+    offers: frozenset = EVERY_WAY  # beside TCP, as in `section ... needs WHAT`
     build: tuple[str, ...] = ()    # a command
     compiler: tuple[str, ...] = ()  # a command that takes a program, so that the runner need not compile it
     probe: tuple[str, ...] = ()    # a command that succeeds where the runner has what it needs
@@ -45,7 +46,8 @@ class Client:
 COMMENTS = ("//", "/*", "*", "#", "--")
 
 CLIENTS = (
-    Client("python", "python", ("python3", "-B", str(HERE / "runner.py")), "clients/python/racebeam/wire/client.py"),
+    Client("python", "python", ("python3", "-B", str(HERE / "runner.py")), "clients/python/racebeam/wire/client.py",
+           offers=EVERYTHING),
     Client("java", "java", ("java", "-cp", str(BUILT / "java"), str(HERE / "Runner.java")), "clients/java/src/main/java/racebeam/*.java",
            build=("javac", "-Xlint:all", "-d", str(BUILT / "java"), *map(str, ROOT.glob("clients/java/src/main/java/**/*.java")))),
     *(Client(program, "lua", (program, str(HERE / "runner.lua")), "clients/lua/racebeam/*.lua",
@@ -58,6 +60,6 @@ CLIENTS = (
            probe=("python3", "-B", str(HERE / "run_cpp.py"), "--probe")),
     Client("javascript", "js", ("node", str(HERE / "runner.mjs")), "clients/js/src/*.js"),
     Client("bash", "shell", ("bash", str(HERE / "runner.bash")), "clients/shell/racebeam.bash",
-           offers=frozenset({"pipes", "file", "launch"}),
+           offers=frozenset({"pipes", "file", "announce", "launch"}),
            variables=(("PATH", f"{ROOT}/clients/shell:{os.environ['PATH']}"),)),
 )

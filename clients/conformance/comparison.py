@@ -16,7 +16,7 @@ class Failed(Exception):
 
 
 def steps(names, offers):
-    """The lines of the files `names`, without the sections for which a client does not offer the way to connect."""
+    """The lines of the files `names`, without the sections that need what a client does not offer."""
     kept = []
     for name in names:
         wanted = True
@@ -29,7 +29,7 @@ def steps(names, offers):
 
 
 def section_names(names, offers=()):
-    """The sections for a client that offers these ways to connect, beside TCP."""
+    """The sections for a client that offers this, beside TCP."""
     return {found[1] for line in steps(names, offers) if (found := SECTION.match(line))}
 
 
@@ -68,6 +68,8 @@ def differences(printed, names, reference, offers):
     wanted = section_names(names, offers)
     wrong = [difference(name, own.get(name, []), others[name]) for name in others if name in wanted and own.get(name) != others[name]]
     for name, other in alike(names):
+        if name not in wanted:
+            continue
         pair = [[line for line in own.get(section, []) if not line.startswith("ok fields=")] for section in (name, other)]
         if pair[0] != pair[1]:
             wrong.append(difference(f"{name}, which is like {other}", *pair))

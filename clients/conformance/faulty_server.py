@@ -125,12 +125,15 @@ class Server(socketserver.ThreadingTCPServer):
         return f"tcp://127.0.0.1:{self.server_address[1]}"
 
 
+def closed_address():
+    """Where nothing listens."""
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        return f"tcp://127.0.0.1:{free.getsockname()[1]}"
+
+
 def start():
     """The addresses by name: those of GREETINGS, and CLOSED, where nothing listens."""
-    servers = {name: Server(greet).address() for name, greet in GREETINGS.items()}
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        servers["CLOSED"] = f"tcp://127.0.0.1:{free.getsockname()[1]}"
-    return servers
+    return {name: Server(greet).address() for name, greet in GREETINGS.items()} | {"CLOSED": closed_address()}
 
 
 if __name__ == "__main__":  # for a client that is tried by hand

@@ -4,6 +4,7 @@ import base64
 import contextlib
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import time
@@ -22,6 +23,18 @@ def certificate(folder):
                     "-subj", "/CN=127.0.0.1", "-addext", "subjectAltName=IP:127.0.0.1", "-out", paths[0], "-keyout", paths[1]],
                    check=True, capture_output=True)
     return paths
+
+
+def damaged_announcements(announced, folder):
+    """Announce files with a fault, as variables of the steps."""
+    text = announced.read_text()
+    texts = {"STALE": re.sub(r'"tcp://[^"]*"', f'"{faulty_server.closed_address()}"', text),
+             "HALF_WRITTEN": text[:len(text) // 2],
+             "LATER_VERSION": text.replace('"racebeam_announce": 1,', '"racebeam_announce": 2,'),
+             "NO_ADDRESS": re.sub(r'"tcp://[^"]*"', '"other://x"', text)}
+    for name, damaged in texts.items():
+        (folder / name).write_text(damaged)
+    return {name: f"file:{folder / name}" for name in texts}
 
 
 class Servers:
@@ -64,12 +77,17 @@ def started(racebeam, roms=None):
                 "main", *tcp, "--listen", f"unix:{folder}/socket", "--record-dir", ".", "--max-line", "100000",
                 *(["--roms", roms] if roms else []))
             (tls,), _ = servers.start("tls", "--listen", "tls://127.0.0.1:0", *guarded, "--tls-cert", chain, "--tls-key", key)
+            announced = folder / "announced"
+            servers.start("announced", *tcp, "--announce", announced)
             servers.start("pipes", "--pipes", folder / "pipes")
             yield {
                 **faulty_server.start(),
                 "TCP": main_tcp,
                 "UNIX": main_unix,
                 "READY": f"file:{ready}",
+                **damaged_announcements(announced, folder),
+                "ANNOUNCED": f"file:{announced}",
+                "AWAITED": f"file:{announced}?wait=30",
                 "GUARDED": servers.start("guarded", *tcp, *guarded, "--idle", "2")[0][0],
                 "SMALL": servers.start("small", *tcp, "--max-sessions", "1")[0][0],
                 "TLS": tls,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """SARSA(lambda) with Basic features (Bellemare et al. 2013): an agent that learns a game over the line protocol.
 
-It needs NumPy. With the same seeds, it chooses what the agent `basic` of `racebeam experiment` chooses."""
+It needs NumPy, and Matplotlib for --curve. With the same seeds, it chooses what the agent `basic` of `racebeam experiment` chooses."""
 import argparse
 import pathlib
 import sys
@@ -136,6 +136,21 @@ def play(session, agent, basic, load):
         actions.append(agent.next(shown["reward"], basic.active(shown["screen"])))
 
 
+def draw(path, scores, title):
+    """The scores as a picture, and their mean over the last 5 episodes."""
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    episodes = range(1, len(scores) + 1)
+    pyplot.figure(figsize=(6, 4))
+    pyplot.plot(episodes, scores, ".", episodes, [np.mean(scores[max(0, end - 5):end]) for end in episodes], "-")
+    pyplot.xlabel("episode")
+    pyplot.ylabel("score")
+    pyplot.title(title)
+    pyplot.savefig(path, dpi=120)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("server", help="the program racebeam, or the address of a server, such as tcp://HOST:PORT")
@@ -147,22 +162,26 @@ def main():
     parser.add_argument("--frames", type=int, default=18000, help="of an episode at most (default: %(default)s)")
     parser.add_argument("--background", help="a CSV file of 210 lines of 160 colours (racebeam background); without it: black")
     parser.add_argument("--actions", action="store_true", help="print the actions of each episode")
+    parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores")
     options = parser.parse_args()
     background = np.zeros(WIDTH * HEIGHT, np.uint8)
     if options.background:
         background = np.loadtxt(options.background, np.uint8, delimiter=",").reshape(WIDTH * HEIGHT)
     agent, basic = Sarsa(Basic.SIZE, options.agent_seed), Basic(background)
     opened = connect(options.server) if ":" in options.server else Session.start(options.server)
-    start, decisions = time.monotonic(), 0
+    start, decisions, scores = time.monotonic(), 0, []
     with opened as session:
         for episode in range(options.training + options.evaluation):
             agent.learning = episode < options.training
             score, actions = play(session, agent, basic, {"game": options.game, "preset": "paper2013",
                                                           "seed": options.seed + episode, "max_episode_frames": options.frames})
             decisions += len(actions)
+            scores.append(score)
             kind = "training" if agent.learning else "evaluation"
             print(kind, f"episode {episode + 1}: score {score} in {len(actions)} decisions", *actions if options.actions else [])
     print(f"{decisions / (time.monotonic() - start):.0f} decisions a second", file=sys.stderr)
+    if options.curve:
+        draw(options.curve, scores, f"SARSA on {options.game}")
 
 
 if __name__ == "__main__":

@@ -27,13 +27,43 @@ _racebeam_fail() { racebeam_error=$2; return "$1"; }
 _racebeam_lost() { racebeam_close; _racebeam_fail "$@"; }
 
 # racebeam_connect [ADDRESS [TOKEN]]: opens a session at tcp://HOST:PORT, pipes:PREFIX, stdio or file:PATH; without an address, at
-# that of RACEBEAM_ADDRESS.
+# that of RACEBEAM_ADDRESS. file:PATH is the first address in the server's ready file or announce file. An announce file has a
+# token as well. file:PATH?wait=SECONDS waits for the file, and for the server in it.
 racebeam_connect() {
-  local address=${1:-${RACEBEAM_ADDRESS-}} line
-  racebeam_close
-  if [[ $address == file:* ]]; then
-    address=$(grep -m 1 -E '^(tcp|pipes):' "${address#file:}") || { _racebeam_fail 2 "$1 names no address for bash"; return; }
+  local address=${1:-${RACEBEAM_ADDRESS-}} until=$SECONDS status
+  if [[ $address =~ ^(file:.+)\?wait=([0-9]+)$ ]]; then
+    address=${BASH_REMATCH[1]} until=$((SECONDS + BASH_REMATCH[2]))
   fi
+  until _racebeam_try "$address" "${2-}"; do
+    status=$?
+    ((status == 2 && SECONDS < until)) || return $status
+    sleep 0.1
+  done
+}
+
+# Sets `address` and `token` to those of the file PATH.
+_racebeam_in_file() {
+  local text version
+  text=$(cat "$1" 2>/dev/null) || { _racebeam_fail 2 "$1 cannot be read"; return; }
+  if [[ $text == '{'* ]]; then
+    version=$(sed -n '1s/^{"racebeam_announce": \([0-9]*\).*/\1/p' <<<"$text")
+    token=${token:-$(sed -n 's/^ "token": "\([^"]*\)"}$/\1/p' <<<"$text")}
+    if [[ -n $version && $version != 1 ]]; then
+      _racebeam_fail 4 "$1 is an announce file of version $version; this client reads version 1"
+      return
+    elif [[ -z $version || $text != *'"}' ]]; then
+      _racebeam_fail 4 "$1 is not a whole announce file"
+      return
+    fi
+    text=$(sed -n 's/^  "\(.*\)",\{0,1\}$/\1/p' <<<"$text")
+  fi
+  address=$(grep -m 1 -E '^(tcp|pipes):' <<<"$text") || _racebeam_fail 4 "$1 names no address for bash"
+}
+
+_racebeam_try() {
+  local address=$1 token=$2 line
+  racebeam_close
+  if [[ $address == file:* ]]; then _racebeam_in_file "${address#file:}" || return; fi
   trap '' PIPE  # a server that has gone is no reason to end
   if [[ $address =~ ^tcp://\[?([^]]+)\]?:([0-9]+)$ ]]; then
     { exec {racebeam_input}<>"/dev/tcp/${BASH_REMATCH[1]}/${BASH_REMATCH[2]}"; } 2>/dev/null || {
@@ -50,7 +80,7 @@ racebeam_connect() {
     _racebeam_fail 4 "the address is '$address'; it takes tcp://HOST:PORT, pipes:PREFIX, stdio or file:PATH"
     return
   fi
-  line=hello${2:+ token=$2}
+  line=hello${token:+ token=$token}
   racebeam_ask "$line" || { local status=$? error=$racebeam_error; racebeam_close; _racebeam_fail "$status" "$error"; return; }
   [[ $(racebeam_value protocol) == 1 ]] || _racebeam_lost 2 "$address speaks another version of the protocol"
 }

@@ -37,8 +37,8 @@ void check_act(const Act& act) {
                 [&] { return "player A has no action " + std::to_string(act.a) + "; there are 0 to 17"; });
   refuse_unless(act.b >= kActions && act.b < 2 * kActions,
                 [&] { return "player B has no action " + std::to_string(act.b) + "; there are 18 to 35"; });
-  refuse_unless(!std::isnan(act.strength_a) && !std::isnan(act.strength_b),
-                [&] { return "the strength of a paddle is not a number"; });
+  refuse_unless(std::isfinite(act.strength_a) && std::isfinite(act.strength_b),
+                [&] { return "the strength of a paddle is not a finite number"; });
 }
 
 // Bytes of a machine that has played, without its stack and results; measured (docs/performance.md).

@@ -18,26 +18,16 @@ void put_ram(std::span<const std::uint8_t, kRamSize> ram, std::span<std::uint8_t
 }  // namespace
 
 BatchArrays BatchResults::arrays() {
-  return {observations,
-          final_observations,
-          final_ram,
-          final_lives,
-          final_frames,
-          final_episode_frames,
-          screens,
-          ram,
-          rewards,
-          rewards_b,
-          raw_rewards,
-          raw_rewards_b,
-          terminated,
-          truncated,
-          finished,
-          game_over,
-          lives,
-          frames,
-          episode_frames,
-          numbers};
+  return {observations,   final_observations,
+          final_ram,      final_lives,
+          final_frames,   final_episode_frames,
+          screens,        ram,
+          rewards,        rewards_b,
+          raw_rewards,    raw_rewards_b,
+          terminated,     truncated,
+          finished,       game_over,
+          lives,          frames,
+          episode_frames, numbers};
 }
 
 std::size_t ResultLayout::whole_screen() const { return static_cast<std::size_t>(height_) * kScreenWidth; }

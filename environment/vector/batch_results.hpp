@@ -14,8 +14,8 @@ namespace racebeam {
 // empty array is not written.
 struct BatchArrays {
   std::span<std::uint8_t> observations;  // machines x stack x height x width [x 3], oldest first
-  // With Autoreset::kSameStep, the last observation, RAM and numbers of each episode that ended in this step. The
-  // places of the other machines are not written.
+  // With Autoreset::kSameStep, the last observation, RAM and numbers of each episode that ended in this step.
+  // The places of the other machines are not written.
   std::span<std::uint8_t> final_observations, final_ram;
   std::span<std::int32_t> final_lives, final_frames, final_episode_frames;
   std::span<std::uint8_t> screens;  // machines x tallest height x 160 palette indices

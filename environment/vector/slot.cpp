@@ -47,6 +47,12 @@ int frames_drawn(Drawing drawing, int all) {
   }
 }
 
+// EnvPool and Stable-Baselines3 play the step to its end, and then look at the lives.
+bool stops_at_lost_life(const SlotSettings& settings) {
+  if (settings.life_loss == LifeLoss::kEnds) return settings.reset_order == ResetOrder::kFireNoops;
+  return settings.life_loss == LifeLoss::kResets;
+}
+
 std::int64_t clamped(std::int64_t reward, const Settings& settings) {
   return std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max);
 }
@@ -112,7 +118,7 @@ void Slot::run_frames(const Act& act) {
   }
   const int frames = settings_.machine.frame_skip, limit = settings_.machine.max_episode_frames;
   const int drawn = frames_drawn(drawing_, frames);
-  const bool life_ends = settings_.life_loss >= LifeLoss::kEnds;
+  const bool life_stops = stops_at_lost_life(settings_);
   Environment::RawRewards rewards;
   bool over = false, lost = false, too_long = false;
   int left = frames;
@@ -125,9 +131,10 @@ void Slot::run_frames(const Act& act) {
     over = environment_.game_over();
     lost = 0 < environment_.lives() && environment_.lives() < progress_.lives;
     too_long = limit > 0 && progress_.elapsed >= limit;
-    progress_.finished = over || too_long || (life_ends && lost);
+    progress_.finished = over || too_long || (life_stops && lost);
     if (progress_.finished || left == 1) break;
   }
+  progress_.finished |= lost && settings_.life_loss == LifeLoss::kEnds;
   progress_.lives = environment_.lives();
   progress_.goes_on = settings_.life_loss == LifeLoss::kEnds && lost && !over && !too_long;
   progress_.terminated = over || (settings_.life_loss != LifeLoss::kIgnored && lost);

@@ -61,9 +61,8 @@ class ThreadPool::Round final : public Job {
 };
 
 ThreadPool::ThreadPool(unsigned threads, std::chrono::microseconds busy_poll, int first_processor)
-    : busy_poll_(busy_poll) {
-  const unsigned count = number_of_threads(threads);
-  for (unsigned thread = 1; thread < count; ++thread) {
+    : count_(number_of_threads(threads)), busy_poll_(busy_poll) {
+  for (unsigned thread = 1; thread < count_; ++thread) {
     threads_.emplace_back([this, thread] { help(thread); });
     if (first_processor >= 0) bind_to(threads_.back(), static_cast<unsigned>(first_processor) + thread - 1);
   }

@@ -39,7 +39,7 @@ class ThreadPool {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  unsigned threads() const { return static_cast<unsigned>(threads_.size()) + 1; }
+  unsigned threads() const { return count_; }
 
   // Runs task(0) ... task(count - 1) and returns when all are done. Thread-safe. Every thread begins with a
   // share of its own, the same for the same count, so that a task's data stays in one processor's cache; a
@@ -85,6 +85,7 @@ class ThreadPool {
   void await_job(BusyPoll& busy, std::size_t jobs) const;  // polls until jobs_so_far_ is not `jobs`
   void await_helpers(const Job& job) const;
 
+  const unsigned count_;  // of threads, the caller of run() included; a thread reads it while others begin
   const std::chrono::microseconds busy_poll_;
   std::mutex mutex_;
   std::condition_variable job_is_here_, helper_left_;

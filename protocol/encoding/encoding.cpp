@@ -20,6 +20,7 @@ constexpr std::array kEncodings = {
     EncodingRow{Encoding::kDelta, "delta", "records of what changed since the last reply with this field"},
     EncodingRow{Encoding::kBase64, "base64", "RFC 4648, with padding"},
     EncodingRow{Encoding::kZlib, "zlib", "zlib (RFC 1950), then base64"},
+    EncodingRow{Encoding::kRaw, "raw", "how many bytes; they follow the line of the reply, as they are"},
 };
 
 constexpr std::size_t kMostSkipped = 0xFFFF, kMostRuns = 0xFF, kMostInRun = 0xFF;
@@ -94,6 +95,7 @@ std::optional<Encoding> encoding_of(std::string_view name) {
 }
 
 std::size_t text_size(Encoding encoding, std::size_t bytes) {
+  if (encoding == Encoding::kRaw) return bytes;
   const bool in_base64 = encoding == Encoding::kBase64 || encoding == Encoding::kZlib;
   return in_base64 ? (bytes + 2) / 3 * 4 : 2 * bytes;
 }
@@ -144,7 +146,7 @@ Encoder::~Encoder() = default;
 Encoder::Encoder(Encoder&&) noexcept = default;
 Encoder& Encoder::operator=(Encoder&&) noexcept = default;
 
-void Encoder::append(std::string& out, std::span<const std::uint8_t> bytes) {
+void Encoder::append(std::string& out, std::span<const std::uint8_t> bytes, std::string& raw) {
   switch (encoding_) {
     case Encoding::kHex: return append_hex(out, bytes);
     case Encoding::kRunLength: return append_run_length(out, bytes);
@@ -153,6 +155,10 @@ void Encoder::append(std::string& out, std::span<const std::uint8_t> bytes) {
     case Encoding::kZlib:
       if (!deflater_) deflater_ = std::make_unique<Deflater>();
       return append_base64(out, deflater_->deflated(bytes));
+    case Encoding::kRaw:
+      raw.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+      out += std::to_string(bytes.size());
+      return;
   }
 }
 

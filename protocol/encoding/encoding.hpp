@@ -1,4 +1,4 @@
-// The encodings of bytes as text in the line protocol (protocol/PROTOCOL.md, "Encodings").
+// The encodings of bytes in the line protocol (protocol/PROTOCOL.md, "Encodings").
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace racebeam {
 
-enum class Encoding { kHex, kRunLength, kDelta, kBase64, kZlib };
+enum class Encoding { kHex, kRunLength, kDelta, kBase64, kZlib, kRaw };
 
 struct EncodingRow {
   Encoding encoding;
@@ -21,8 +21,8 @@ struct EncodingRow {
 std::span<const EncodingRow> encodings();  // in the order of Encoding
 std::optional<Encoding> encoding_of(std::string_view name);
 
-// The length of `bytes` bytes as text. Encodings of variable length count as the fixed ones: runs and delta
-// as hex, zlib as base64. Runs and delta exceed hex only where hardly any two neighbours are equal.
+// The length of `bytes` bytes in a reply. Encodings of variable length count as the fixed ones: runs and
+// delta as hex, zlib as base64. Runs and delta exceed hex only where hardly any two neighbours are equal.
 std::size_t text_size(Encoding encoding, std::size_t bytes);
 
 // Writes what has changed since `before`, and makes `before` equal to `bytes`. Both have the same size.
@@ -38,7 +38,8 @@ class Encoder {
   Encoder& operator=(Encoder&&) noexcept;
 
   Encoding encoding() const { return encoding_; }
-  void append(std::string& out, std::span<const std::uint8_t> bytes);
+  // Writes a value into the line `out`. `raw` gets the bytes that follow the line, with kRaw.
+  void append(std::string& out, std::span<const std::uint8_t> bytes, std::string& raw);
 
  private:
   class Deflater;

@@ -200,29 +200,29 @@ std::size_t View::footprint(const std::vector<Field>& fields) {
   return bytes;
 }
 
-void View::append(std::string& out, const Shown& shown) {
+void View::append(std::string& out, std::string& raw, const Shown& shown) {
   if (shown.outcome.over) append_pair(out, "over", 1);
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     ((out += ' ') += fields_[i].name) += '=';
-    append_value(out, i, shown);
+    append_value(out, raw, i, shown);
   }
 }
 
-void View::append_final(std::string& out, const Slot& slot) {
+void View::append_final(std::string& out, std::string& raw, const Slot& slot) {
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (fields_[i].row->of_request) continue;
     ((out += " final_") += fields_[i].name) += '=';
-    append_value(out, i, shown(slot));
+    append_value(out, raw, i, shown(slot));
   }
 }
 
-void View::append_value(std::string& out, std::size_t field, const Shown& shown) {
+void View::append_value(std::string& out, std::string& raw, std::size_t field, const Shown& shown) {
   const FieldRow& row = *fields_[field].row;
   if (row.number) return append_number(out, row.number(shown.machine, shown.outcome));
-  if (!fields_[field].stack) return encoders_[field].append(out, row.bytes(shown.machine, scratch_));
+  if (!fields_[field].stack) return encoders_[field].append(out, row.bytes(shown.machine, scratch_), raw);
   scratch_.resize(shown.stack->size());
   shown.stack->copy_to(scratch_);
-  encoders_[field].append(out, scratch_);
+  encoders_[field].append(out, scratch_, raw);
 }
 
 }  // namespace racebeam

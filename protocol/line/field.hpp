@@ -58,16 +58,17 @@ class View {
     const ScreenStack* stack;
   };
 
-  // Appends " name=value" for each field, after " over=1" if the episode was over and nothing was run.
-  void append(std::string& out, const Shown& shown);
-  void append(std::string& out, const Slot& slot) { append(out, shown(slot)); }
+  // Appends " name=value" for each field, after " over=1" if the episode was over and nothing was run. `raw`
+  // gets the bytes of fields that are encoded as raw.
+  void append(std::string& out, std::string& raw, const Shown& shown);
+  void append(std::string& out, std::string& raw, const Slot& slot) { append(out, raw, shown(slot)); }
 
   // Appends " final_name=value" for each field that the machine shows, at the end of an episode.
-  void append_final(std::string& out, const Slot& slot);
+  void append_final(std::string& out, std::string& raw, const Slot& slot);
 
  private:
   static Shown shown(const Slot& slot) { return {slot.environment(), slot.outcome(), slot.stack()}; }
-  void append_value(std::string& out, std::size_t field, const Shown& shown);
+  void append_value(std::string& out, std::string& raw, std::size_t field, const Shown& shown);
 
   std::vector<Field> fields_;
   std::vector<Encoder> encoders_;  // one for each field

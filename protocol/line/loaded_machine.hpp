@@ -32,7 +32,7 @@ class LoadedMachine {
   static std::size_t footprint(const std::vector<Field>& fields);
 
   void observe(std::vector<Field> fields);
-  void append_view(std::string& out) { view_.append(out, slot_); }
+  void append_view(std::string& out, std::string& raw) { view_.append(out, raw, slot_); }
 
  private:
   Pacer& pacer_;

@@ -18,7 +18,7 @@ struct Seat {
   std::optional<View> view;
   bool done = false;            // has finished the request
   std::exception_ptr no_fiber;  // why its fiber could not start; else null
-  std::string text;             // the machine's part of the reply; a member to reuse its memory
+  std::string text, raw;        // the machine's part of the reply; members to reuse their memory
 };
 
 }  // namespace
@@ -43,10 +43,10 @@ class Machines::Host final : public VectorHost {
     seats_[number]->view.emplace(session_.fields);
   }
   void ended(std::size_t number, const Slot& slot) override {
-    seats_[number]->view->append_final(seats_[number]->text, slot);
+    seats_[number]->view->append_final(seats_[number]->text, seats_[number]->raw, slot);
   }
   void shown(std::size_t number, const Slot& slot) override {
-    seats_[number]->view->append(seats_[number]->text, slot);
+    seats_[number]->view->append(seats_[number]->text, seats_[number]->raw, slot);
   }
 
  private:
@@ -91,6 +91,7 @@ void Machines::rest() {
   for (std::size_t number = 0; number < size(); ++number) {
     machine(number).rest();
     std::string().swap(opened_->host.seat(number).text);
+    std::string().swap(opened_->host.seat(number).raw);
   }
 }
 
@@ -108,7 +109,7 @@ std::size_t Machines::check(const std::vector<Field>& fields, std::size_t count,
 std::size_t Machines::footprint(const std::vector<Field>& fields) const {
   if (empty()) return 0;
   std::size_t bytes = size() * (sizeof(Seat) + LoadedMachine::footprint(fields));
-  for (const auto& seat : opened_->host.seats()) bytes += seat->text.capacity();
+  for (const auto& seat : opened_->host.seats()) bytes += seat->text.capacity() + seat->raw.capacity();
   return bytes;
 }
 
@@ -159,6 +160,7 @@ void Machines::check_frames(std::int64_t acts, std::span<const std::uint8_t> res
 void Machines::append_texts() {
   for (const auto& seat : opened_->host.seats()) {
     (session_.out += " |") += seat->text;
+    session_.raw += seat->raw;
     session_.pacer.breathe();
   }
 }
@@ -184,6 +186,7 @@ void Machines::Host::run_all(std::size_t count, const std::function<void(std::si
     seat->done = false;
     seat->no_fiber = nullptr;
     seat->text.clear();
+    seat->raw.clear();
   }
   std::int64_t counted = frames();
   for (std::size_t first = 0;;) {  // the first machine that is not done

@@ -163,8 +163,13 @@ bool Session::go_on(Clock::time_point end) {
   return true;
 }
 
-void Session::refuse(ErrorCode code, std::string_view sentence) {
+void Session::drop_reply() {
   out.resize(reply_);
+  raw.clear();
+}
+
+void Session::refuse(ErrorCode code, std::string_view sentence) {
+  drop_reply();
   ((out += "error ") += name_of(code)) += ' ';
   append_printable(out, sentence);
   ++statistics.errors;
@@ -242,7 +247,10 @@ void Session::read_words(std::string_view line) {
 }
 
 void Session::finish_reply() {
+  if (!raw.empty()) append_pair(out, "raw", static_cast<std::int64_t>(raw.size()));
   out += '\n';
+  out += raw;
+  raw.clear();
   ++unsent_;
   statistics.bytes_out += static_cast<std::int64_t>(out.size() - reply_);
   done_ = quitting || refused();
@@ -260,7 +268,7 @@ void Session::measure() {
 // Estimates the bytes of memory that the session holds. A request checks large allocations by itself.
 std::size_t Session::footprint() const {
   constexpr std::size_t kSession = std::size_t{48} << 10;  // with connection, fiber and buffers
-  std::size_t bytes = kSession + out.capacity() + input.capacity() + states.footprint() +
+  std::size_t bytes = kSession + out.capacity() + raw.capacity() + input.capacity() + states.footprint() +
                       machines.footprint(fields) + actions.capacity() * sizeof(Action) +
                       step_acts.capacity() * sizeof(Act) + words_.capacity() * sizeof(std::string_view);
   if (loaded) bytes += LoadedMachine::footprint(fields);
@@ -288,7 +296,7 @@ void Session::sent(std::size_t count) {
 void Session::cancel() {
   if (pacer.in_progress()) {
     pacer.cancel();
-    out.resize(reply_);
+    drop_reply();
   }
   done_ = true;
 }
@@ -298,6 +306,7 @@ void Session::rest() {
   if (loaded) loaded->machine().rest();
   machines.rest();
   if (out.empty()) out.shrink_to_fit();
+  raw.shrink_to_fit();
   std::vector<Action>().swap(actions);
   std::vector<Act>().swap(step_acts);
   std::vector<std::string_view>().swap(words_);

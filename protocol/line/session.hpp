@@ -42,6 +42,7 @@ class Session {
   const LineService& service;
   LineReader input;
   std::string out;
+  std::string raw;  // bytes that follow the line of the current reply
   bool quitting = false;
   bool admitted;         // the client gave a valid token, or none is needed
   int wrong_tokens = 0;  // how many the client gave
@@ -98,6 +99,7 @@ class Session {
   void take(const LineReader::Line& line);
   void execute(std::string_view line);
   void read_words(std::string_view line);
+  void drop_reply();
   void refuse(ErrorCode code, std::string_view sentence);
   void refuse_fault(const std::string& what);
   std::size_t footprint() const;

@@ -1,5 +1,6 @@
 #include "server/access/address.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <stdexcept>
@@ -28,6 +29,20 @@ std::optional<std::uint16_t> parse_port(std::string_view text) {
   return whole ? std::optional(port) : std::nullopt;
 }
 
+// RFC 1123, 2.1, and the underscores of some containers. A last label of digits alone belongs to an IP
+// address.
+bool is_host_name(std::string_view text) {
+  constexpr std::size_t kLongest = 253;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto is_sign = [&](char c) {
+    return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '.' ||
+           c == '_';
+  };
+  const std::string_view last = text.substr(text.rfind('.') + 1);
+  return text.size() <= kLongest && std::ranges::all_of(text, is_sign) && !text.starts_with('-') &&
+         !text.starts_with('.') && !last.empty() && !std::ranges::all_of(last, is_digit);
+}
+
 std::optional<TcpAddress> parse_tcp(std::string_view text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos) return std::nullopt;
@@ -35,9 +50,7 @@ std::optional<TcpAddress> parse_tcp(std::string_view text) {
   std::string host(text.substr(0, colon));
   if (host == "localhost") host = "127.0.0.1";
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
-  boost::system::error_code error;
-  boost::asio::ip::make_address(host, error);
-  if (error || !port) return std::nullopt;
+  if (!port || !(is_ip_address(host) || is_host_name(host))) return std::nullopt;
   return TcpAddress{host, *port};
 }
 
@@ -99,14 +112,14 @@ Endpoint parse_endpoint(const std::string& text) {
   throw std::invalid_argument(
       "'" + text +
       "' is not an address to listen on; accepted are tcp://HOST:PORT and tls://HOST:PORT (an IP address or "
-      "localhost; port 0 picks a free one), unix:PATH, systemd or systemd:NAME, stdio and pipes:PREFIX; "
+      "a host name; port 0 picks a free one), unix:PATH, systemd or systemd:NAME, stdio and pipes:PREFIX; "
       "classic+ before an address selects the classic protocol");
 }
 
 TcpAddress parse_host_and_port(const std::string& text) {
   if (const auto address = parse_tcp(text)) return *address;
-  throw std::invalid_argument("'" + text +
-                              "' is not HOST:PORT, with an IP address or localhost; port 0 picks a free one");
+  throw std::invalid_argument(
+      "'" + text + "' is not HOST:PORT, with an IP address or a host name; port 0 picks a free one");
 }
 
 std::string to_string(const Address& address) { return std::visit(Writer{}, address); }
@@ -115,6 +128,12 @@ std::string to_string(const Endpoint& endpoint) {
   std::string text = to_string(endpoint.address);
   if (endpoint.tls) text = text.starts_with(kTcp) ? "tls://" + text.substr(kTcp.size()) : "tls+" + text;
   return (endpoint.classic ? "classic+" : "") + text;
+}
+
+bool is_ip_address(const std::string& host) {
+  boost::system::error_code error;
+  boost::asio::ip::make_address(host, error);
+  return !error;
 }
 
 bool is_stream(const Address& address) {

@@ -2,13 +2,20 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <variant>
 
 namespace racebeam {
 
+// An address that the server cannot listen on: it is in use, or its host is unknown.
+class AddressError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 struct TcpAddress {
-  std::string host;  // an IP address
+  std::string host;  // an IP address, or a name that resolve() finds
   std::uint16_t port = 0;
 };
 
@@ -50,7 +57,8 @@ TcpAddress parse_host_and_port(const std::string& text);  // throws std::invalid
 std::string to_string(const Address& address);
 std::string to_string(const Endpoint& endpoint);
 
-bool is_stream(const Address& address);     // one session, over streams that block
-bool is_loopback(const std::string& host);  // only reachable from this machine
+bool is_ip_address(const std::string& host);  // not a name
+bool is_stream(const Address& address);       // one session, over streams that block
+bool is_loopback(const std::string& host);    // an IP address, only reachable from this machine
 
 }  // namespace racebeam

@@ -2,6 +2,7 @@
 
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
+#include <openssl/rand.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -37,10 +38,19 @@ void warn_if_open(const std::string& path) {
 
 }  // namespace
 
-Tokens::Tokens(std::string path) : path_(std::move(path)), digests_(read(path_)) {}
+Tokens::Tokens(std::string path, const std::string& own) : path_(std::move(path)) {
+  if (!own.empty()) own_.push_back(digest_of(own));
+  digests_ = all();
+}
+
+std::vector<Tokens::Digest> Tokens::all() const {
+  std::vector<Digest> digests = path_.empty() ? std::vector<Digest>() : read(path_);
+  digests.insert(digests.end(), own_.begin(), own_.end());
+  return digests;
+}
 
 void Tokens::read_again() {
-  auto digests = read(path_);
+  auto digests = all();
   const std::lock_guard lock(mutex_);
   digests_.swap(digests);
 }
@@ -82,6 +92,16 @@ std::vector<Tokens::Digest> Tokens::read(const std::string& path) {
   if (digests.empty()) throw std::runtime_error("there is no token in " + path);
   warn_if_open(path);
   return digests;
+}
+
+std::string random_token() {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::array<unsigned char, 32> bytes{};
+  if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1)
+    throw std::runtime_error("libcrypto gives no random bytes for a token");
+  std::string text;
+  for (const unsigned char byte : bytes) (text += kDigits[byte >> 4]) += kDigits[byte & 15];
+  return text;
 }
 
 }  // namespace racebeam

@@ -1,4 +1,5 @@
-// The tokens that clients may use, from a file. They can be read again while the server runs.
+// The tokens that clients may use: those of a file, which can be read again while the server runs, and one
+// that the server has made.
 #pragma once
 
 #include <array>
@@ -13,7 +14,8 @@ class Tokens {
  public:
   // Reads a file with one token a line: 16 to 1024 printable characters without blanks. Empty lines, and
   // lines that begin with #, are ignored. Throws std::runtime_error with a sentence that names the line.
-  explicit Tokens(std::string path);
+  // An empty path: no file. own: admitted as well; empty: none.
+  explicit Tokens(std::string path, const std::string& own = {});
 
   void read_again();  // throws as the constructor, and then changes nothing
   std::size_t count() const;
@@ -25,10 +27,14 @@ class Tokens {
   using Digest = std::array<unsigned char, 32>;
   static Digest digest_of(std::string_view token);
   static std::vector<Digest> read(const std::string& path);
+  std::vector<Digest> all() const;
 
   std::string path_;
+  std::vector<Digest> own_;  // at most one
   mutable std::mutex mutex_;
   std::vector<Digest> digests_;  // SHA-256: all have one length, so that comparisons take constant time
 };
+
+std::string random_token();  // 64 hexadecimal digits
 
 }  // namespace racebeam

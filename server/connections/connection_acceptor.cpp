@@ -62,13 +62,13 @@ void read_again(std::optional<Part>& part, const std::string& what) {
 }  // namespace
 
 ConnectionAcceptor::ConnectionAcceptor(const ServerSettings& settings, const Services& services, Loops& loops,
-                                       Metrics& metrics)
+                                       Metrics& metrics, const std::string& own_token)
     : settings_(settings),
       services_(services),
       loops_(loops),
       metrics_(metrics),
       wrong_tokens_(longest_delay(settings)) {
-  if (!settings.token_file.empty()) tokens_.emplace(settings.token_file);
+  if (!settings.token_file.empty() || !own_token.empty()) tokens_.emplace(settings.token_file, own_token);
   if (!settings.tls_certificate.empty()) tls_.emplace(settings.tls_certificate, settings.tls_key);
   if (tokens_ && services.line) {
     guarded_ = services.line;
@@ -115,8 +115,8 @@ void ConnectionAcceptor::check(const Listener& listener) const {
   }
   if (!tokens_) {
     throw std::runtime_error(name +
-                             " can be reached from other machines: give --token-file, so that not "
-                             "everyone can use this one, or listen on 127.0.0.1");
+                             " can be reached from other machines: give --token-file or --announce, so that "
+                             "not everyone can use this one, or listen on 127.0.0.1");
   }
   if (!listener.endpoint().tls) {
     log_warning(name +
@@ -137,10 +137,18 @@ std::vector<std::string> ConnectionAcceptor::names() const {
   return all;
 }
 
+std::vector<std::string> ConnectionAcceptor::announced(const std::string& host) const {
+  std::vector<std::string> all;
+  for (const Listener& listener : listeners_) {
+    if (!listener.endpoint().classic) all.push_back(listener.announced(host));
+  }
+  return all;
+}
+
 void ConnectionAcceptor::open() {
   for (Listener& listener : listeners_) {
     net::co_spawn(loops_.first().context, welcome(listener), net::detached);
-    log("listening on " + listener.name(), {{"event", "listening"}, {"address", listener.full_name()}});
+    log("listening on " + listener.described(), {{"event", "listening"}, {"address", listener.full_name()}});
   }
 }
 

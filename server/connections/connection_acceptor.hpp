@@ -23,12 +23,15 @@ namespace racebeam {
 
 class ConnectionAcceptor {
  public:
-  // Listens on every socket of the settings. All parameters must outlive it. Throws std::runtime_error for
-  // addresses that cannot be used, or are not safe.
-  ConnectionAcceptor(const ServerSettings& settings, const Services& services, Loops& loops,
-                     Metrics& metrics);
+  // Listens on every socket of the settings. own_token: admitted besides those of the token file; empty:
+  // none. All other parameters must outlive it. Throws std::runtime_error for addresses that cannot be used,
+  // or are not safe.
+  ConnectionAcceptor(const ServerSettings& settings, const Services& services, Loops& loops, Metrics& metrics,
+                     const std::string& own_token);
 
   std::vector<std::string> names() const;  // of the listeners
+  // The addresses for clients of the line protocol; `host` stands for all addresses of this machine.
+  std::vector<std::string> announced(const std::string& host) const;
   bool empty() const { return listeners_.empty(); }
   void open();        // accepts clients from now on
   void close();       // accepts no more

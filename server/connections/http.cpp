@@ -8,6 +8,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 
+#include "server/access/resolve.hpp"
 #include "server/operation/log.hpp"
 
 namespace racebeam {
@@ -57,16 +58,16 @@ Response answer(const Request& request, const HttpPages& pages) {
 
 Http::Http(net::io_context& loop, const TcpAddress& address, HttpPages pages)
     : acceptor_(loop), pages_(std::move(pages)) {
-  const tcp::endpoint endpoint(net::ip::make_address(address.host), address.port);
+  const tcp::endpoint endpoint = resolve(address);
   error_code error;
   acceptor_.open(endpoint.protocol());
   acceptor_.set_option(net::socket_base::reuse_address(true));
   acceptor_.bind(endpoint, error);
   if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
   const auto named = [](const TcpAddress& where) { return "http" + to_string(Address(where)).substr(3); };
-  if (error) throw std::runtime_error("cannot listen on " + named(address) + ": " + error.message());
+  if (error) throw AddressError("cannot listen on " + named(address) + ": " + error.message());
   name_ = named({address.host, acceptor_.local_endpoint().port()});
-  if (!is_loopback(address.host))
+  if (!endpoint.address().is_loopback())
     log_warning(name_ + " can be reached from other machines, which can then read the metrics");
   net::co_spawn(loop, welcome(), net::detached);
 }

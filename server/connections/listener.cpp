@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "server/access/resolve.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -19,7 +21,7 @@ using boost::system::error_code;
 void remove_stale(const std::string& path) {
   std::error_code unknown;
   if (!std::filesystem::exists(path, unknown)) return;
-  if (!std::filesystem::is_socket(path)) throw std::runtime_error(path + " exists, but is not a socket");
+  if (!std::filesystem::is_socket(path)) throw AddressError(path + " exists, but is not a socket");
   net::io_context context;
   error_code error;
   Unix::socket probe(context, Unix());
@@ -54,21 +56,31 @@ Listener::~Listener() { close(); }
 
 bool Listener::is_loopback() const { return local_ || racebeam::is_loopback(host_); }
 
+std::string Listener::described() const {
+  const auto* address = std::get_if<TcpAddress>(&bound_.address);
+  return address == nullptr || address->host == host_ ? name_ : name_ + " (" + host_ + ")";
+}
+
+std::string Listener::announced(const std::string& host) const {
+  Endpoint shown = bound_;
+  auto* address = std::get_if<TcpAddress>(&shown.address);
+  if (address != nullptr && net::ip::make_address(host_).is_unspecified()) address->host = host;
+  return to_string(shown);
+}
+
 void Listener::close() {
   error_code ignored;
   acceptor_.close(ignored);
   file_.remove();
 }
 
-void Listener::listen(const TcpAddress& address) {
-  bind(tcp::endpoint(net::ip::make_address(address.host), address.port));
-}
+void Listener::listen(const TcpAddress& address) { bind(resolve(address)); }
 
 void Listener::listen(const UnixAddress& address) {
   constexpr std::size_t kLongestPath = sizeof(sockaddr_un::sun_path) - 1;
   if (address.path.size() > kLongestPath) {
-    throw std::runtime_error(name_ + " is too long; a socket's path has at most " +
-                             std::to_string(kLongestPath) + " bytes");
+    throw AddressError(name_ + " is too long; a socket's path has at most " + std::to_string(kLongestPath) +
+                       " bytes");
   }
   remove_stale(address.path);
   bind(Unix::endpoint(address.path));
@@ -81,26 +93,28 @@ void Listener::bind(const Protocol::endpoint& endpoint) {
   acceptor_.set_option(net::socket_base::reuse_address(true));
   acceptor_.bind(endpoint, error);
   if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
-  if (error == net::error::address_in_use) throw std::runtime_error(name_ + " is in use by another server");
-  if (error) throw std::runtime_error("cannot listen on " + name_ + ": " + error.message());
+  if (error == net::error::address_in_use) throw AddressError(name_ + " is in use by another server");
+  if (error) throw AddressError("cannot listen on " + name_ + ": " + error.message());
 }
 
-// Finds the actual address, also of an inherited socket.
+// Finds the actual address, also of an inherited socket. A host name stays: a certificate may be for it.
 void Listener::describe() {
   const Protocol::endpoint here = acceptor_.local_endpoint();
   local_ = here.protocol().family() == AF_UNIX;
-  Endpoint found = endpoint_;
+  const auto* given = std::get_if<TcpAddress>(&endpoint_.address);
+  bound_ = endpoint_;
+  bound_.classic = false;
   if (local_) {
     const auto* address = static_cast<const sockaddr_un*>(static_cast<const void*>(here.data()));
-    found.address = UnixAddress{address->sun_path};
+    bound_.address = UnixAddress{address->sun_path};
   } else {
     tcp::endpoint bound;
     std::memcpy(bound.data(), here.data(), std::min(here.size(), bound.capacity()));
     host_ = bound.address().to_string();
-    found.address = TcpAddress{host_, bound.port()};
+    const bool is_named = given != nullptr && !is_ip_address(given->host);
+    bound_.address = TcpAddress{is_named ? given->host : host_, bound.port()};
   }
-  found.classic = false;
-  name_ = to_string(found);
+  name_ = to_string(bound_);
 }
 
 }  // namespace racebeam

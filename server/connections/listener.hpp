@@ -32,6 +32,8 @@ class Listener {
   Acceptor& acceptor() { return acceptor_; }
   const std::string& name() const { return name_; }  // the address, with the port that was picked
   std::string full_name() const { return (endpoint_.classic ? "classic+" : "") + name_; }
+  std::string described() const;  // for the log: the name, with the IP address that a host name stands for
+  std::string announced(const std::string& host) const;  // for clients: `host` instead of all addresses
   const Endpoint& endpoint() const { return endpoint_; }
   bool is_local() const { return local_; }  // a Unix socket, protected by the file system
   bool is_loopback() const;                 // only this machine can reach it
@@ -45,6 +47,7 @@ class Listener {
   void describe();
 
   Endpoint endpoint_;
+  Endpoint bound_;  // the actual address, without classic+
   Acceptor acceptor_;
   std::string name_, host_;
   bool local_ = true;

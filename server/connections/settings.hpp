@@ -13,6 +13,7 @@ namespace racebeam {
 struct ServerSettings {
   std::vector<Endpoint> endpoints;
   std::string ready_file;  // file for the addresses, written when all are served; empty: none
+  std::string announce;    // file of JSON that tells clients of the server; empty: none
   std::string token_file;  // tokens, one of which clients over TCP must give; empty: no tokens
   std::string tls_certificate, tls_key;
   std::string http;                          // HOST:PORT for health and metrics; empty: none
@@ -20,10 +21,12 @@ struct ServerSettings {
   std::string threads_limited_by;            // what limits their number, for the log
   std::chrono::microseconds busy_poll{100};  // how long a thread polls for a quick client; 0: never
   std::uint64_t max_memory = 0;              // bytes for all sessions; 0: no limit
+  std::string memory_limited_by;             // what limits them, for the log
   int max_sessions = 4096;                   // sessions at the same time
   int idle_seconds = 86400;                  // timeout without a byte to or from a client; 0: never
   int handshake_seconds = 10;                // timeout for TLS and the token
   int grace_seconds = 5;                     // until sessions end after the server was told to stop
+  int until_idle_seconds = 0;                // without a session, after which the server stops; 0: never
 };
 
 }  // namespace racebeam

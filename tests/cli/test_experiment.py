@@ -15,11 +15,12 @@ from harness import BINARY, PATIENCE, main
 os.environ.pop("RACEBEAM_ROMS", None)
 
 PLAN = """games = ["beamfall"]
-agents = ["random", "const", "basic", "lsh", "uct"]
+agents = ["random", "const", "basic", "disco", "lsh", "uct"]
 trials = 1
 training_episodes = 8
 evaluation_episodes = 3
 background_screens = 500
+class_screens = 500
 environment = "max_episode_frames=1500"
 [agent.uct]
 trials = 2
@@ -53,11 +54,11 @@ class Experiment(unittest.TestCase):
     def test_a_line_a_unit_and_all_rows_confirmed(self):
         status, printed, errors = self.experiment("results")
         self.assertEqual((status, errors), (0, ""))
-        self.assertEqual(len(printed.splitlines()), 1 + 18 + 1 + 1 + 2)
-        self.assertRegex(printed, r"(?m)^\d+/23 beamfall-basic-1: 3 episodes, mean score [0-9.]+$")
+        self.assertEqual(len(printed.splitlines()), 1 + 18 + 3 + 2)
+        self.assertRegex(printed, r"(?m)^\d+/24 beamfall-basic-1: 3 episodes, mean score [0-9.]+$")
         status, printed, errors = run("verify", str(self.place / "results"))
         self.assertEqual((status, errors), (0, ""))
-        self.assertRegex(printed, r"^65 rows confirmed, 0 wrong, 0 could not be checked; \d+ frames in ")
+        self.assertRegex(printed, r"^68 rows confirmed, 0 wrong, 0 could not be checked; \d+ frames in ")
         self.assertEqual(self.experiment("results"), (0, "", ""))  # nothing is run again
 
     def test_killed_at_any_moment_the_end_is_the_same(self):
@@ -152,6 +153,26 @@ class Experiment(unittest.TestCase):
         status, _, errors = run("background", "asterix", "--into", str(self.place / "bad"))
         self.assertEqual((status, errors), (1, "racebeam: no image is here of 'asterix'; --roms names the folder "
                                                "that holds it\n"))
+
+    def test_classes_are_discovered_and_drawn_and_an_experiment_takes_them(self):
+        games = self.place / "results" / "games"
+        words = ("classes", "beamfall", "--screens", "500", "--background-screens", "500", "--into")
+        status, printed, errors = run(*words, str(games))
+        self.assertEqual((status, errors), (0, ""))
+        self.assertRegex(printed, r"beamfall.classes and its pictures are written: [1-9]\d* classes of \d+ shapes\n$")
+        for name in ("classes", "objects"):
+            self.assertTrue((games / f"beamfall-{name}.png").read_bytes().startswith(b"\x89PNG"))
+        written = files(games)
+        self.plan.write_text(PLAN.replace('"random", "const", "basic", "disco", "lsh", "uct"', '"disco"')
+                             .partition("[agent")[0])
+        self.assertEqual(self.experiment("results")[0], 0)
+        self.assertEqual({name: contents for name, contents in files(games).items() if name in written}, written)
+        self.plan.write_text(self.plan.read_text().replace("class_screens = 500", "class_screens = 501"))
+        (self.place / "other").mkdir()
+        games.rename(self.place / "other" / "games")
+        status, _, errors = self.experiment("other")
+        self.assertEqual(status, 1)
+        self.assertRegex(errors, "beamfall.classes is of '.*screens=500 .*'; wanted is '.*screens=501 ")
 
 
 if __name__ == "__main__":

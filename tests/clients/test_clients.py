@@ -11,7 +11,7 @@ sys.path[:0] = [os.path.join(SOURCE, "tests", "server"), os.path.join(SOURCE, "c
 import client as racebeam  # noqa: E402
 from harness import BINARY, GAME, PATIENCE, Server, main  # noqa: E402
 
-ENCODINGS = ("hex", "rle", "delta", "base64", "zlib")
+ENCODINGS = ("hex", "rle", "delta", "base64", "zlib", "raw")
 CONTENTS = {"ram": 128, "screen": 33600, "rgb": 100800, "grey": 33600, "grey84x3": 3 * 84 * 84, "palette": 768, "audio": 512}
 
 

@@ -23,10 +23,13 @@ def printed_by(names):
 
 class Comparison(unittest.TestCase):
     def setUp(self):
-        self.printed = printed_by(comparison.section_names(FILES, clients.EVERY_WAY))
+        paired = {name for pair in comparison.alike(FILES) for name in pair}
+        names = comparison.section_names(FILES, clients.EVERYTHING)
+        # The tests change the first section, and leave out the last. A section of a pair would count twice.
+        self.printed = printed_by(sorted(names - paired)[:1] + sorted(names & paired) + sorted(names - paired)[1:])
 
     def differences(self, printed, reference):
-        return comparison.differences(printed, FILES, reference, clients.EVERY_WAY)
+        return comparison.differences(printed, FILES, reference, clients.EVERYTHING)
 
     def test_the_same_lines_agree(self):
         self.assertEqual(self.differences(self.printed, self.printed), [])
@@ -48,7 +51,7 @@ class Comparison(unittest.TestCase):
 
 class Coverage(unittest.TestCase):
     def test_what_is_left_out_is_named(self):
-        steps = comparison.steps(FILES, clients.EVERY_WAY)
+        steps = comparison.steps(FILES, clients.EVERYTHING)
         without = [line for line in steps if not line.startswith("> poke")]
         self.assertIn("command poke", coverage.missing(BINARY, without, []))
         self.assertNotIn("command poke", coverage.missing(BINARY, steps, []))
@@ -61,7 +64,7 @@ class Coverage(unittest.TestCase):
         document = (SOURCE / "protocol/PROTOCOL.md").read_text()
         rows = re.findall(r"^\| `(\w+)[^|]*` \|", document.split("## Commands")[1].split("###")[0].replace("\\|", "/"), re.MULTILINE)
         codes = re.findall(r"^\| `([\w-]+)` \|", document.split("## Errors")[1], re.MULTILINE)
-        self.assertEqual((counts["command"], counts["error code"], counts["encoding"]), (len(rows), len(codes), 5))
+        self.assertEqual((counts["command"], counts["error code"], counts["encoding"]), (len(rows), len(codes), 6))
 
 
 class Versions(unittest.TestCase):

@@ -1,9 +1,9 @@
 """Runs the examples of the documents and compares what they print.
 
 An example is a block fenced as ```console. Its lines that begin with "$ " are commands, run by bash with racebeam in the
-PATH, in a new folder that all examples of a document share; a line that ends in a backslash goes on in the next. The
-other lines are what the command before them prints, standard error included; "..." stands for any text within a
-line, and on a line of its own for any lines. Blocks fenced otherwise (```sh) are not run.
+PATH, in a new folder that all examples of a document share; a line that ends in a backslash goes on in the next, and so
+does a command until its here-document ends. The other lines are what the command before them prints, standard error
+included; "..." stands for any text within a line, and on a line of its own for any lines. Blocks fenced otherwise (```sh) are not run.
 """
 
 import os
@@ -18,6 +18,15 @@ SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file_
 BINARY = os.environ.get("RACEBEAM_BINARY", os.path.join(SOURCE, "build", "release", "racebeam"))
 
 
+HERE_DOCUMENT = re.compile(r"<<'(\w+)'")
+
+
+def is_unfinished(command):
+    """Whether the next line is part of the command: after a backslash, or inside a here-document."""
+    here = HERE_DOCUMENT.search(command)
+    return command.endswith("\\") or (here is not None and not command.endswith("\n" + here[1]))
+
+
 def examples(text, fence="console"):
     """(line number, command, expected lines) of every command in the blocks with this fence."""
     found, inside = [], False
@@ -26,7 +35,7 @@ def examples(text, fence="console"):
             inside = line.strip() == f"```{fence}"
         elif inside and line.startswith("$ "):
             found.append((number, line[2:], []))
-        elif inside and found and found[-1][1].endswith("\\") and not found[-1][2]:
+        elif inside and found and is_unfinished(found[-1][1]) and not found[-1][2]:
             found[-1] = (found[-1][0], found[-1][1] + "\n" + line, [])
         elif inside and found:
             found[-1][2].append(line)

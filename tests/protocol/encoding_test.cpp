@@ -107,11 +107,20 @@ TEST_CASE("A client that applies each delta has what the server has") {
       std::fill(now.begin() + static_cast<long>(begin), now.begin() + static_cast<long>(end),
                 static_cast<std::uint8_t>(random() % 3));
     }
-    std::string text;
-    encoder.append(text, now);
+    std::string text, raw;
+    encoder.append(text, now, raw);
     apply_delta(copy, text);
     REQUIRE(copy == now);
   }
+}
+
+TEST_CASE("raw writes a length, and the bytes elsewhere") {
+  Encoder encoder(Encoding::kRaw);
+  std::string text = "a=", raw = "x";
+  encoder.append(text, Bytes{0, 10, 255}, raw);
+  CHECK(text == "a=3");
+  CHECK(raw == std::string("x\0\n\xFF", 4));
+  CHECK(text_size(Encoding::kRaw, 3) == 3);
 }
 
 TEST_CASE("zlib gives back what went in, reply after reply") {
@@ -119,8 +128,8 @@ TEST_CASE("zlib gives back what went in, reply after reply") {
   for (int reply = 0; reply < 3; ++reply) {
     Bytes bytes(10'000, static_cast<std::uint8_t>(reply)), unpacked(bytes.size());
     bytes[77] = 200;
-    std::string text = "x";
-    encoder.append(text, bytes);
+    std::string text = "x", raw;
+    encoder.append(text, bytes, raw);
     const auto packed = bytes_of_base64(text.substr(1));
     REQUIRE(packed);
     uLongf size = unpacked.size();

@@ -16,6 +16,12 @@ using test::line_service;
 using test::LineClient;
 using test::value;
 
+namespace {
+
+constexpr auto kLongSlice = 60s;  // numbers of replies end it, however slow the machine
+
+}  // namespace
+
 TEST_CASE("A request is answered by one line, and requests sent ahead in their order") {
   LineClient client;
   const std::string answers = client.say(kLoad + "\nobserve frame\nact NOOP\nact NOOP\nlook\n");
@@ -139,7 +145,7 @@ TEST_CASE("A client that sends ahead gets the first replies before the last requ
   std::string requests, replies;
   for (int act = 0; act < 200; ++act) requests += "act NOOP\n";
   client.hand_in(requests);
-  CHECK(client.session.run());
+  CHECK(client.session.run(kLongSlice));
   const auto first = std::ranges::count(client.session.output(), '\n');
   CHECK(first >= 1);
   CHECK(first <= 64);
@@ -156,17 +162,17 @@ TEST_CASE("When few of the requests that were sent ahead are left, more are aske
   client.ask("observe frame");
   CHECK_FALSE(client.session.wants_more());
   client.hand_in("act NOOP\n");  // the only one: its reply goes at once
-  CHECK_FALSE(client.session.run());
+  CHECK_FALSE(client.session.run(kLongSlice));
   CHECK_FALSE(client.session.wants_more());
   client.session.sent(client.session.output().size());
   for (int act = 0; act < 16; ++act) client.hand_in("act NOOP\n");
-  CHECK(client.session.run());
+  CHECK(client.session.run(kLongSlice));
   const auto first = std::ranges::count(client.session.output(), '\n');
   CHECK(first >= 8);
   CHECK(first < 16);
   CHECK(client.session.wants_more());
   client.hand_in("act NOOP\n");
-  CHECK(client.session.run());
+  CHECK(client.session.run(kLongSlice));
   CHECK(std::ranges::count(client.session.output(), '\n') == first + 1);
   CHECK(client.session.wants_more());
   CHECK(client.listen().ends_with("ok frame=18\n"));

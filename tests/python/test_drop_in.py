@@ -308,7 +308,7 @@ class Differences(unittest.TestCase):
         self.assertEqual(ale.getGame(), "pong")
         ale.loadROM("builtin:updraft")
         self.assertEqual(ale.getGame(), "updraft")
-        self.assertEqual(str(racebeam.ale_py.roms.get_rom_path("pong")) if hasattr(racebeam.ale_py, "roms") else PONG, PONG)
+        self.assertEqual(str(drop_in.roms.get_rom_path("pong")), PONG)
 
     def test_09_nothing_is_logged(self):
         script = "import {} as m; m.ALEInterface.setLoggerMode(m.LoggerMode.Info); m.ALEInterface().loadROM({!r})"
@@ -372,6 +372,19 @@ class Differences(unittest.TestCase):
         for name in NOT_YET:
             self.assertFalse(hasattr(drop_in, name) or hasattr(drop_in._ale_py, name), name)
         self.assertFalse(drop_in.AtariVectorEnv.is_xla_registered)
+
+    def test_16_a_strength_is_finite(self):
+        for radius in (np.nan, np.inf, -np.inf):
+            action = np.array([radius, 0, 0], np.float32)
+            ours, theirs = (module.AtariEnv("pong", continuous=True) for module in (drop_in, ale_py))
+            many = drop_in.AtariVectorEnv("pong", 2, continuous=True)
+            for env in (ours, theirs, many):
+                env.reset(seed=1)
+            with np.errstate(invalid="ignore"):
+                theirs.step(action)
+                self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", ours.step, action)
+            self.assertRaisesRegex(racebeam.InvalidInput, "not a finite number", many.step, np.array([action] * 2))
+            self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", ours.ale.act, 0, radius)
 
 
 if __name__ == "__main__":

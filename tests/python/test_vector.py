@@ -333,7 +333,7 @@ class BadInput(unittest.TestCase):
                                    ([0], InvalidInput), ([[0, 0]], InvalidInput), ([[0], [0, 1]], InvalidInput), (0, InvalidInput),
                                    ([0.5, 1], TypeError), (None, TypeError), (["a", "b"], TypeError), ([True, False], TypeError))),
                            (sticks, (([[0, 0, 0]], InvalidInput), ([[0, 0]] * 2, InvalidInput), ([0, 0], InvalidInput),
-                                     ([[float("nan"), 0, 0]] * 2, InvalidInput), (None, TypeError), ([["a", "b", "c"]] * 2, TypeError)))):
+                                     ([[float("nan"), 0, 0]] * 2, InvalidInput), ([[float("inf"), 0, 0]] * 2, InvalidInput), (None, TypeError), ([["a", "b", "c"]] * 2, TypeError)))):
             for actions, error in cases:
                 with self.subTest(actions=actions), self.assertRaises(error):
                     one.step(actions)

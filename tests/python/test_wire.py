@@ -159,6 +159,11 @@ class Sessions(unittest.TestCase):
                 self.assertEqual(refused.exception.code, "unauthorized")
                 with racebeam.connect(tcp, token="0123456789abcdef0123456789abcdef") as session:
                     self.assertEqual(session.load("beamfall")["game"], "beamfall")
+                for make in (racebeam.AtariEnv, racebeam.AtariVectorEnv):
+                    make("beamfall", server=tcp, token="0123456789abcdef0123456789abcdef").reset(seed=1)
+                    with self.assertRaises(racebeam.Refused) as refused:
+                        make("beamfall", server=tcp)
+                    self.assertEqual(refused.exception.code, "unauthorized")
 
     def test_a_session_is_opened_again_only_when_asked(self):
         with server() as (addresses, _):

@@ -7,7 +7,7 @@ using namespace racebeam;
 
 TEST_CASE("An endpoint is written as it is read") {
   for (const std::string text :
-       {"tcp://127.0.0.1:0", "tcp://[::1]:65535", "tls://10.0.0.1:443", "unix:s", "unix:/run/s", "systemd",
+       {"tcp://127.0.0.1:0", "tcp://[::1]:65535", "tls://10.0.0.1:443", "tcp://node-1.cluster:0", "tls://4you.org:1", "tcp://node_1:1", "unix:s", "unix:/run/s", "systemd",
         "systemd:name", "stdio", "pipes:/tmp/p", "classic+tcp://127.0.0.1:1", "classic+tls://127.0.0.1:1",
         "classic+tls+unix:s", "tls+systemd:name", "classic+stdio"}) {
     CHECK(to_string(parse_endpoint(text)) == text);
@@ -30,7 +30,11 @@ TEST_CASE("An invalid endpoint is refused with the valid forms") {
                                  "tcp://1.2.3.4:65536",
                                  "tcp://1.2.3.4:-1",
                                  "tcp://1.2.3.4:1x",
-                                 "tcp://nobody:1",
+                                 "tcp://no body:1",
+                                 "tcp://1.2.3:1",
+                                 "tcp://-a:1",
+                                 "tcp://a.:1",
+                                 "tcp://[a]b:1",
                                  "unix:",
                                  "unix://",
                                  "pipes:",

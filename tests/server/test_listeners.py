@@ -45,14 +45,19 @@ class Addresses(unittest.TestCase):
             self.assertGreater(server.port(), 0)
             self.assertEqual(play(connect_tcp(server.port()))[:8], b"160-210\n")
 
+    def test_a_host_name_is_resolved_and_stays_in_the_address(self):
+        with listening("tcp://LocalHost:0") as server:
+            port = int(server.wait_for(r"listening on tcp://LocalHost:(\d+) \(127\.0\.0\.1\)$").group(1))
+            self.assertEqual(play(connect_tcp(port))[:8], b"160-210\n")
+
     def test_two_servers_cannot_have_one_port(self):
         with listening("tcp://127.0.0.1:0") as server:
-            self.refuse(f"tcp://127.0.0.1:{server.port()}", 1, "in use")
+            self.refuse(f"tcp://127.0.0.1:{server.port()}", 3, "in use")
             self.assertTrue(play(connect_tcp(server.port())).endswith(b"DIE\n"))
 
     def test_two_servers_cannot_have_one_path(self):
         with listening("unix:s") as server:
-            self.refuse("unix:" + server.path("s"), 1, "in use")
+            self.refuse("unix:" + server.path("s"), 3, "in use")
             self.assertTrue(play(connect_unix(server.path("s"))).endswith(b"DIE\n"))
 
     def test_a_live_socket_whose_queue_is_full_is_not_waited_for(self):
@@ -66,11 +71,11 @@ class Addresses(unittest.TestCase):
                     client = stack.enter_context(socket.socket(socket.AF_UNIX))
                     client.setblocking(False)
                     client.connect(path)
-            self.refuse("unix:" + path, 1, "in use")
+            self.refuse("unix:" + path, 3, "in use")
 
     def test_one_address_cannot_be_given_twice(self):
         ended, _, errors = run(*SERVE, "--listen", "unix:s", "--listen", "unix:s", cwd=self.folder())
-        self.assertEqual((ended, len(errors)), (1, 1), errors)
+        self.assertEqual((ended, len(errors)), (3, 1), errors)
 
     def test_the_socket_file_of_a_dead_server_is_replaced(self):
         with listening("unix:s") as server:
@@ -84,26 +89,27 @@ class Addresses(unittest.TestCase):
         with listening("unix:s") as server:
             with open(server.path("notes"), "w") as notes:
                 notes.write("dear diary")
-            self.refuse("unix:" + server.path("notes"), 1, "is not a socket")
+            self.refuse("unix:" + server.path("notes"), 3, "is not a socket")
             self.assertEqual(os.path.getsize(server.path("notes")), 10)
 
     def test_what_is_no_address_is_refused(self):
         for address in ("", "tcp", "tcp://", "tcp://127.0.0.1", "tcp://127.0.0.1:", "tcp://127.0.0.1:x", "unix:",
-                        "tcp://127.0.0.1:65536", "tcp://127.0.0.1:-1", "tcp://nobody:1", "udp://127.0.0.1:1"):
+                        "tcp://127.0.0.1:65536", "tcp://127.0.0.1:-1", "tcp://no body:1", "tcp://127.0.1:1", "udp://127.0.0.1:1"):
             with self.subTest(address=address):
                 self.refuse(address, 2, "is not an address")
 
     def test_addresses_that_cannot_be_had_are_refused(self):
-        self.refuse("unix:" + "x" * 200, 1, "too long")
-        self.refuse("unix:nowhere/s", 1, "No such file")
-        self.refuse("tcp://192.0.2.1:1", 1, "cannot listen")
+        self.refuse("unix:" + "x" * 200, 3, "too long")
+        self.refuse("unix:nowhere/s", 3, "No such file")
+        self.refuse("tcp://192.0.2.1:1", 3, "cannot listen")
+        self.refuse("tcp://" + "x" * 64 + ":1", 3, "the host of tcp://" + "x" * 64 + ":1 is unknown: ")
 
     def test_nothing_is_left_behind_when_one_of_several_fails(self):
         with listening("tcp://127.0.0.1:0") as server:
             folder = self.folder()
             taken = f"tcp://127.0.0.1:{server.port()}"
             ended, _, errors = run(*SERVE, "--listen", "unix:s", "--listen", taken, cwd=folder)
-            self.assertEqual((ended, len(errors), os.listdir(folder)), (1, 1, []), errors)
+            self.assertEqual((ended, len(errors), os.listdir(folder)), (3, 1, []), errors)
 
 
 class Clients(unittest.TestCase):

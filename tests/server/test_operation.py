@@ -283,7 +283,7 @@ class ReadyFile(unittest.TestCase):
                             pass
                     status, _, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--http", f"127.0.0.1:{mine}",
                                             "--ready-file", path)
-                    self.assertEqual((status, os.path.exists(path)), (1, True), errors)
+                    self.assertEqual((status, os.path.exists(path)), (3, True), errors)
                     self.assertEqual(server.stop(), 0)
                     self.assertTrue(os.path.exists(path))
                     self.assertEqual(heir.stop(), 0)
@@ -294,6 +294,38 @@ class ReadyFile(unittest.TestCase):
         self.assertEqual((status, "cannot write the ready file nowhere/ready" in errors[-1]), (1, True), errors)
         with Server("serve", "--stdio", "--ready-file", "nowhere/ready", streams=True) as server:
             self.assertEqual(server.wait(), 1)  # though its input is open
+
+
+class UntilIdle(unittest.TestCase):
+    def test_a_server_without_sessions_ends(self):
+        with serve("--until-idle", "1", "--ready-file", "ready") as server:
+            self.assertEqual(server.wait(), 0)
+            server.wait_for("no session for 1 seconds: 0 sessions have 5 seconds to end")
+            self.assertFalse(os.path.exists(server.path("ready")))
+
+    def test_a_session_keeps_it_alive_and_a_short_one_begins_the_time_anew(self):
+        with serve("--until-idle", "2") as server:
+            wire = connect_tcp(server.port())
+            ask(wire, b"hello")
+            time.sleep(3)
+            self.assertTrue(ask(wire, b"hello").startswith(b"ok "))
+            wire.close()
+            for _ in range(3):  # each is over before the server looks
+                time.sleep(1)
+                wire = connect_tcp(server.port())
+                ask(wire, b"quit")
+                wire.close()
+            ended = time.monotonic()
+            self.assertEqual(server.wait(), 0)
+            self.assertGreater(time.monotonic() - ended, 1.5)
+
+
+class Limits(unittest.TestCase):
+    def test_the_log_says_how_much_memory_and_what_limits_it(self):
+        with serve("--max-memory", "512M") as server:
+            server.wait_for(f"memory: {512 << 20} bytes, limited by --max-memory$")
+        with serve() as server:
+            server.wait_for("memory: [0-9]+ bytes, limited by the (machine|control group)$")
 
 
 class Threads(unittest.TestCase):

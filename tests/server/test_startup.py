@@ -2,11 +2,12 @@
 
 import hashlib
 import os
+import resource
 import subprocess
 import tempfile
 import unittest
 
-from harness import BINARY, GAME, PATIENCE, SOURCE, main, run
+from harness import BINARY, GAME, PATIENCE, SOURCE, main, run, sanitized
 
 SERVE = ("serve", "--classic", "--stdio", "--rom", GAME)
 HOMEBREW = os.path.join(SOURCE, "games", "homebrew", GAME.split(":")[1] + ".bin")
@@ -105,16 +106,32 @@ class CommandLine(Refusals):
                 self.check(["serve", "--stdio", "--rom", GAME, *words], 2, f"{words[0]}: requires --classic")
 
     def test_folders_have_to_be_there(self):
-        self.check(["serve", "--stdio", "--roms", "nowhere"], 1, "nowhere")
-        self.check(["serve", "--stdio", "--record-dir", "nowhere"], 1, "nowhere")
+        self.check(["serve", "--stdio", "--roms", "nowhere"], 4, "--roms nowhere is not a folder")
+        self.check(["serve", "--stdio", "--record-dir", "nowhere"], 4, "--record-dir nowhere is not a folder")
         self.check([*SERVE, "--record-dir", "/tmp"], 2, "--record-dir")
+
+    def test_memory_has_to_be_enough(self):
+        self.check(["serve", "--stdio", "--max-memory", "1M"], 5, "--max-memory 1048576 is too little")
+
+    @unittest.skipIf(sanitized(), "a sanitizer needs more address space")
+    def test_memory_that_the_system_does_not_give_has_the_same_status(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "tokens")
+            with open(path, "w") as tokens:
+                tokens.write("0123456789abcdef\n" * 900_000)  # 15 MB, and more for their digests
+            os.chmod(path, 0o600)
+            def limit():
+                resource.setrlimit(resource.RLIMIT_DATA, (30 << 20, 30 << 20))
+            done = subprocess.run([BINARY, "serve", "--listen", "unix:s", "--threads", "1", "--token-file", path],
+                                  capture_output=True, cwd=folder, timeout=PATIENCE, preexec_fn=limit)
+            self.assertEqual((done.returncode, done.stderr), (5, b"racebeam: the system gives no more memory\n"))
 
     def test_an_image_has_to_be_named(self):
         self.check(["serve", "--classic", "--stdio"], 2, "--rom is required")
 
     def test_an_unknown_subcommand_is_answered_by_those_there_are(self):
-        self.check(["play"], 2, "'play' is not a subcommand", "serve, config, classic, trace")
-        self.check([], 2, "serve, config, classic, trace")
+        self.check(["play"], 2, "'play' is not a subcommand", "serve, with, config, classic, trace")
+        self.check([], 2, "serve, with, config, classic, trace")
 
 
 class Folders(unittest.TestCase):
@@ -185,7 +202,7 @@ class Help(unittest.TestCase):
     def test_the_help_names_every_exit_status(self):
         for words in (["--help"], ["serve", "--help"]):
             text = b" ".join(run(*words)[1].split())
-            for status in (b"0 ", b"1 ", b"2 ", b"255 "):
+            for status in (b"0 ", b"1 ", b"2 ", b"3 ", b"5 ", b"255 "):
                 self.assertIn(status, text.split(b"Exit status:")[1])
 
 

@@ -31,8 +31,8 @@ export interface Options {
 
 /**
  * A session of the server at an address: tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX (named pipes), stdio (the
- * streams of this process) or file:PATH (the first address in the server's ready file). Without one, the variable
- * RACEBEAM_ADDRESS has it.
+ * streams of this process) or file:PATH (the first address in the server's ready file or announce file, with the token of the
+ * latter; file:PATH?wait=SECONDS waits for the server). Without one, the variable RACEBEAM_ADDRESS has it.
  */
 export function connect(address?: string, options?: Options): Promise<Session>;
 

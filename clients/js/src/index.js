@@ -12,9 +12,10 @@ export { ScreenStack } from "./stack.js";
 export const PROTOCOL = 1;
 
 export async function connect(address = process.env.RACEBEAM_ADDRESS ?? "", options = {}) {
-  const session = new Session(await openAddress(address, options), options);
+  const connection = await openAddress(address, options);
+  const session = new Session(connection, options);
   try {
-    const { protocol } = await session.hello(options.token);
+    const { protocol } = await session.hello(options.token ?? connection.token);
     if (protocol !== PROTOCOL) {
       throw new LostError(`${address} speaks version ${protocol} of the protocol; this client speaks ${PROTOCOL}`);
     }

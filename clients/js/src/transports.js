@@ -4,11 +4,14 @@ import { spawn } from "node:child_process";
 import { open } from "node:fs";
 import { readFile } from "node:fs/promises";
 import net from "node:net";
+import { setTimeout as sleep } from "node:timers/promises";
 import tls from "node:tls";
 import { promisify } from "node:util";
 import { LostError, TimeoutError } from "./errors.js";
 
 const USABLE = /^(tcp|tls|unix|pipes):/;
+const ANNOUNCEMENT = 1; // the version of announce files that this client reads
+const BETWEEN_TRIES = 50; // milliseconds
 const openFile = promisify(open); // a plain descriptor, which a socket then owns
 
 /** Waits for a socket to connect; `event` says that it has. */
@@ -60,6 +63,21 @@ export function processOf(program, options) {
   };
 }
 
+function announcement(path, text) {
+  let announced;
+  try {
+    announced = JSON.parse(text);
+  } catch {
+    throw new TypeError(`${path} is not a whole announce file`);
+  }
+  const version = announced.racebeam_announce;
+  if (version !== ANNOUNCEMENT) {
+    throw new TypeError(`${path} is an announce file of version ${version}; this client reads version ${ANNOUNCEMENT}`);
+  }
+  return announced;
+}
+
+/** The first address of a ready file or an announce file that this client can use, and the token of the latter. */
 async function inFile(path) {
   let text;
   try {
@@ -67,14 +85,31 @@ async function inFile(path) {
   } catch (error) {
     throw new LostError(error.message, { cause: error });
   }
-  const address = text.split("\n").find((line) => USABLE.test(line));
+  const { addresses, token } = text.startsWith("{") ? announcement(path, text) : { addresses: text.split("\n") };
+  const address = addresses.find((line) => USABLE.test(line));
   if (address === undefined) {
     throw new TypeError(`${path} names no address that this client can use`);
   }
-  return address;
+  return { address, token };
 }
 
-/** A connection to the server at an address. */
+/** A connection to the server that a file names. Waits for both, `seconds` at most. */
+async function openFileAddress(path, seconds, options) {
+  const until = performance.now() + seconds * 1000;
+  for (;;) {
+    try {
+      const { address, token } = await inFile(path);
+      return { ...await openAddress(address, options), token };
+    } catch (error) {
+      if (!(error instanceof LostError) || performance.now() >= until) {
+        throw error;
+      }
+      await sleep(BETWEEN_TRIES);
+    }
+  }
+}
+
+/** A connection to the server at an address, with the token of its announce file, if there is one. */
 export async function openAddress(address, { timeout, tls: trust = {} }) {
   const network = /^(tcp|tls):\/\/\[?(.+?)\]?:(\d{1,5})$/.exec(address);
   if (network && network[3] < 65536) {
@@ -95,8 +130,10 @@ export async function openAddress(address, { timeout, tls: trust = {} }) {
       return connected(net.connect({ path: rest }), "connect", address, timeout);
     case "pipes":
       return pipes(rest);
-    case "file":
-      return openAddress(await inFile(rest), { timeout, tls: trust });
+    case "file": {
+      const [, path, seconds] = /^(.+?)(?:\?wait=(\d+(?:\.\d+)?))?$/.exec(rest);
+      return openFileAddress(path, Number(seconds ?? 0), { timeout, tls: trust });
+    }
     default:
       throw new TypeError(`the address is '${address}'; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio `
         + "or file:PATH, also in RACEBEAM_ADDRESS");

@@ -30,8 +30,9 @@ end
 -- A session of the server at `address`; without one, at that of the variable RACEBEAM_ADDRESS.
 --
 -- address: tcp://HOST:PORT, tls://HOST:PORT and unix:PATH (with LuaSocket and LuaSec), pipes:PREFIX (named pipes), stdio, or
--- file:PATH (the first address in the server's ready file). options:
---   token          for servers that require one
+-- file:PATH (the first address in the server's ready file or announce file; file:PATH?wait=SECONDS waits for the server, and
+-- needs LuaSocket). options:
+--   token          for servers that require one; nil: that of the announce file
 --   timeout        seconds to wait for a connection and for each reply, on sockets
 --   tls            a file of certificates to trust, or parameters of LuaSec
 --   longest_reply  bytes
@@ -39,9 +40,10 @@ end
 function racebeam.connect(address, options)
   options = options or {}
   address = address or os.getenv("RACEBEAM_ADDRESS") or ""
-  local made = session(transport.open(address, options), options)
+  local connection, token = transport.open(address, options)
+  local made = session(connection, options)
   local done, problem = pcall(function()
-    local hello = made:hello(options.token)
+    local hello = made:hello(options.token or token)
     if hello.protocol ~= racebeam.PROTOCOL then
       fault("lost", ("%s speaks version %s of the protocol; this client speaks %d"):format(address, tostring(hello.protocol),
         racebeam.PROTOCOL))

@@ -200,19 +200,62 @@ function transport.launch(program, options)
   return setmetatable({ input = input, output = opened(fifo, "r+b"), fifo = fifo }, Streams)
 end
 
+local ANNOUNCEMENT = "1" -- the version of announce files that this client reads
+local BETWEEN_TRIES = 0.05 -- seconds
+
+-- The lines of an announce file as those of a ready file, and its token. It has each address on a line of its own, and the
+-- token last (server/README.md).
+local function announced(path, text)
+  local version = text:match('^{"racebeam_announce": ([^,\n]*)')
+  local token = text:match('\n "token": "([^"\n]*)"}%s*$')
+  if version and version ~= ANNOUNCEMENT then
+    fault("invalid", ("%s is an announce file of version %s; this client reads version %s"):format(path, version, ANNOUNCEMENT))
+  elseif not version or not token then
+    fault("invalid", path .. " is not a whole announce file")
+  end
+  return text:gsub('\n  "([^\n]*)"', function(address)
+    return "\n" .. address:gsub("\\(.)", "%1") .. "\n"
+  end), token
+end
+
+-- The first address of a ready file or an announce file that this client can use, and the token of the latter.
 local function in_file(path)
-  for line in opened(path, "r"):lines() do
+  local file = opened(path, "r")
+  local text, token = file:read("*a"), nil
+  file:close()
+  if text:sub(1, 1) == "{" then
+    text, token = announced(path, text)
+  end
+  for line in text:gmatch("[^\n]+") do
     if line:match("^tcp:") or line:match("^tls:") or line:match("^unix:") or line:match("^pipes:") then
-      return line
+      return line, token
     end
   end
   fault("invalid", path .. " names no address that this client can use")
 end
 
--- A connection to the server at an address.
+-- A connection to the server that a file names, and the file's token. Waits for both, `seconds` at most; needs LuaSocket then.
+local function open_file(path, seconds, options)
+  local core = seconds > 0 and needed("socket", "file:PATH?wait=SECONDS")
+  local until_ = core and core.gettime() + seconds
+  while true do
+    local done, connection, token = pcall(function()
+      local address, found = in_file(path)
+      return transport.open(address, options), found
+    end)
+    if done then
+      return connection, token
+    elseif not core or type(connection) ~= "table" or connection.kind == "invalid" or core.gettime() >= until_ then
+      error(connection, 0)
+    end
+    core.sleep(BETWEEN_TRIES)
+  end
+end
+
+-- A connection to the server at an address, and the token of its announce file, if there is one.
 function transport.open(address, options)
   local kind, rest = address:match("^(%w+):(.+)$")
-  local found
+  local found, token
   if address == "stdio" then
     found = setmetatable({ input = io.stdin, output = io.stdout }, Streams)
   elseif kind == "tcp" or kind == "tls" then
@@ -222,9 +265,13 @@ function transport.open(address, options)
   elseif kind == "pipes" then
     found = pipes(rest)
   elseif kind == "file" then
-    found = transport.open(in_file(rest), options)
+    local path, seconds = rest:match("^(.+)%?wait=([%d.]+)$")
+    found, token = open_file(path or rest, tonumber(seconds) or 0, options)
   end
-  return found or fault("invalid", ("the address is '%s'; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, "
+  if found then
+    return found, token
+  end
+  fault("invalid", ("the address is '%s'; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, "
     .. "stdio or file:PATH, also in RACEBEAM_ADDRESS"):format(address))
 end
 

@@ -72,14 +72,14 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     noop_max: an episode begins with 0 to noop_max - 1 frames of NOOP, drawn from np_random.
     life_loss_ends: a lost life truncates the episode.
     reward_range: (low, high): the reward of a step, of either player, is clipped; (-inf, inf) undoes a preset's.
-    sound: the window plays the sound. server: the game runs there; see racebeam.connect().
+    sound: the window plays the sound. server: the game runs there; token: for a server that asks for one. See racebeam.connect().
 
     A new environment has random seeds. reset(seed=S) powers the console on anew, with seeds that S gives; a reset
     without seed continues the generators. A copy, by copy.deepcopy or pickle, continues where the original is.
 
     Raises gymnasium.error.Error for a wrong argument or seed; UnknownGame, MissingImage, or InvalidInput for what the
     game does not accept; TypeError or IndexError for a wrong action, and AssertionError for a continuous one that is no
-    float32 array of 3; ClosedEnvironmentError after close(). With a server: also ConnectionError and TimeoutError.
+    float32 array of 3; ClosedEnvironmentError after close(). With a server: also Refused, ConnectionError and TimeoutError.
     """
 
     metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 30}
@@ -108,6 +108,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         reward_range: tuple[float, float] | None = None,
         sound: bool = False,
         server: str | None = None,
+        token: str | None = None,
     ) -> None:
         usual = preset_of(preset)
         images.check_name(game)
@@ -132,7 +133,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         _check_frameskip(self._frameskip)
         _check_noop_max(self._noop_max)
         _check_reward_range(self._reward_range)
-        self.ale: Any = ALEInterface() if server is None else RemoteInterface(server)
+        self.ale: Any = ALEInterface() if server is None else RemoteInterface(server, token)
         self._set_keys(
             rules,
             either(repeat_action_probability, usual.repeat_action_probability),

@@ -72,8 +72,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     rules: "ale-0.12", or "fixed". rom: the image, a path or its bytes; None: the one that racebeam.find_image() finds.
     seed: of the first environment, until a reset has another one; the next has one more; None: at random.
     render_mode: "rgb_array" lets render() return the pictures.
-    server: the environments run there; see racebeam.connect(). They are of one game, and all step together. save(),
-        restore() and show() are not there.
+    server: the environments run there; token: for a server that asks for one. See racebeam.connect(). They are of one game,
+        and all step together. save() and restore() are not there.
 
     Rewards are int32. info has env_id, lives, frame_number, episode_frame_number, raw_reward, the reward before it was
     clipped, and game_over, whatever lives and limits say: an array each. With SAME_STEP, where episodes end, also final_obs,
@@ -81,7 +81,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
     Two threads take turns. Raises InvalidInput for what cannot be; TypeError for a wrong type; IndexError for an action or an
     environment that is not there; ClosedEnvironmentError after close(); RuntimeError in a child process after a fork;
-    with a server, also ConnectionError and TimeoutError, after which the environments are of no use.
+    with a server, also Refused, ConnectionError and TimeoutError, after which the environments are of no use.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 15}
@@ -123,6 +123,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         seed: int | None = None,
         render_mode: Literal["rgb_array"] | None = None,
         server: str | None = None,
+        token: str | None = None,
     ) -> None:
         arguments = locals()
         names, game_of_env = _games(game, num_envs)
@@ -135,7 +136,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self.grayscale: bool = not settings["rgb"]
         self.continuous, self.continuous_action_threshold = continuous, float(continuous_action_threshold)
         self._shows_ram = obs_type == "ram"
-        self._machines = _machines(names, game_of_env, rom, settings, server)
+        self._machines = _machines(names, game_of_env, rom, settings, server, token)
         self._make_spaces(settings)
         self._received = np.arange(self.num_envs, dtype=np.int32)
         self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
@@ -356,11 +357,12 @@ def _games(game: str | Sequence[str], num_envs: int | None) -> tuple[list[str], 
     return names, np.array([names.index(name) for name in game], np.int32)
 
 
-def _machines(names: list[str], game_of_env: Numbers, rom: Rom | None, settings: dict[str, Any], server: str | None) -> Machines:
+def _machines(names: list[str], game_of_env: Numbers, rom: Rom | None, settings: dict[str, Any], server: str | None,
+              token: str | None) -> Machines:
     if len(names) > 1 and (rom is not None or server is not None):
         raise error.Error(f"there are {len(names)} games; rom and server take one")
     if server is not None:
-        return RemoteMachines(server, names[0], rom, len(game_of_env), settings)
+        return RemoteMachines(server, token, names[0], rom, len(game_of_env), settings)
     found = [(images.find(name) if rom is None else rom, name) for name in names]
     chosen = _core.VectorSettings()
     for name, value in settings.items():

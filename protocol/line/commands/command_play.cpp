@@ -30,7 +30,8 @@ void append_bytes_of(Session& session, int index, std::size_t count) {
   append_pair(session.out, "index", index);
   append_pair(session.out, "bytes", "");
   Encoder(Encoding::kHex)
-      .append(session.out, session.loaded->machine().ram().subspan(static_cast<std::size_t>(index), count));
+      .append(session.out, session.loaded->machine().ram().subspan(static_cast<std::size_t>(index), count),
+              session.raw);
 }
 
 void play(Slot& slot, const std::vector<Action>& actions) {
@@ -81,7 +82,7 @@ void run_look(Session& session, Words arguments) {
   LoadedMachine& loaded = *session.loaded;
   if (arguments.empty()) {
     session.out += "ok";
-    return loaded.append_view(session.out);
+    return loaded.append_view(session.out, session.raw);
   }
   std::vector<Field> fields = parse_fields(arguments);
   check_sound(session, fields);
@@ -91,7 +92,8 @@ void run_look(Session& session, Words arguments) {
   const auto stack = stack_of(fields, loaded.slot());
   session.out += "ok";
   View(std::move(fields))
-      .append(session.out, {loaded.machine(), loaded.slot().outcome(), stack ? &*stack : nullptr});
+      .append(session.out, session.raw,
+              {loaded.machine(), loaded.slot().outcome(), stack ? &*stack : nullptr});
 }
 
 void run_reset(Session& session, Words arguments) {
@@ -102,7 +104,7 @@ void run_reset(Session& session, Words arguments) {
   loaded.slot().reset(seed);
   loaded.slot().begin_request();
   session.out += "ok";
-  loaded.append_view(session.out);
+  loaded.append_view(session.out, session.raw);
 }
 
 // Ends early with the episode.
@@ -123,7 +125,7 @@ void run_act(Session& session, Words arguments) {
   session.count(loaded.slot().outcome());
   session.out += "ok";
   session.append_cut();
-  loaded.append_view(session.out);
+  loaded.append_view(session.out, session.raw);
 }
 
 void run_peek(Session& session, Words arguments) {

@@ -99,7 +99,7 @@ void run_restore(Session& session, Words arguments) {
   session.loaded->slot().restore(place);
   session.loaded->slot().begin_request();
   session.out += "ok";
-  session.loaded->append_view(session.out);
+  session.loaded->append_view(session.out, session.raw);
 }
 
 void run_drop(Session& session, Words arguments) {

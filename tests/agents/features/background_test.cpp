@@ -76,7 +76,7 @@ TEST_CASE("A background of another size is refused") {
 
 TEST_CASE("Screens are those of random play, as many as were asked for") {
   int seen = 0;
-  sample_screens(beamfall(), {1, 1, 1, short_episodes(2000)}, 1500, 4, [&](const Environment& machine) {
+  sample_screens(beamfall(), {1, 1, 1, short_episodes(2000)}, 1500, 4, [&](const Environment& machine, bool) {
     ++seen;
     REQUIRE(machine.screen().size() == kFeaturePixels);
   });

@@ -306,8 +306,9 @@ TEST_CASE("A batch says what it can't do, and goes on") {
                     "player A has no action 40; there are 0 to 17");
   CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.b = 3}}, results.arrays()),
                     "player B has no action 3; there are 18 to 35");
-  CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.strength_a = NAN}}, results.arrays()),
-                    "the strength of a paddle is not a number");
+  for (const float strength : {NAN, INFINITY})
+    CHECK_THROWS_WITH(batch.step(std::vector<Act>{{}, {.strength_a = strength}}, results.arrays()),
+                      "the strength of a paddle is not a finite number");
   CHECK_THROWS_WITH(batch.reset(results.arrays(), Bytes(3)), "there are 3 choices for 2 machines");
   CHECK_THROWS_WITH(batch.reset(results.arrays(), {}, std::vector<std::int64_t>(1)),
                     "there are 1 seeds for 2 machines");

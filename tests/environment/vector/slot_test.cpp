@@ -107,6 +107,20 @@ TEST_CASE(
   CHECK(slot.environment().frame_number() == 1);
 }
 
+TEST_CASE("A step that loses a life is played to its end where the model has it so") {
+  for (const ResetOrder order : {ResetOrder::kFireNoops, ResetOrder::kNoopsFire, ResetOrder::kBaselines}) {
+    SlotSettings settings = no_noops();
+    settings.reset_order = order;
+    settings.life_loss = LifeLoss::kEnds;
+    Slot slot(cartridge(), settings);
+    lose_life(slot, 2);
+    INFO(static_cast<int>(order));
+    CHECK(slot.outcome().frames == (order == ResetOrder::kFireNoops ? 1 : 3));
+    CHECK(slot.outcome().terminated);
+    CHECK(slot.finished());
+  }
+}
+
 TEST_CASE("The last life is the game's own matter") {
   SlotSettings settings = no_noops();
   settings.life_loss = LifeLoss::kEnds;

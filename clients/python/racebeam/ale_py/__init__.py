@@ -27,6 +27,7 @@ infos are the same to the byte, for the same seeds and actions. What differs:
     RuntimeError; ale_py hangs. A wrong argument is an Error, an InvalidInput or an UnknownGame; ale_py takes some, and ends the
     process for others. After close(), ClosedEnvironmentError is raised; ale_py goes on.
 15. ALEVectorInterface and XLA are not there yet: AtariVectorEnv has no `ale`, and is_xla_registered is False.
+16. A paddle's strength, or a radius, that is infinite or NaN is an InvalidInput; ale_py plays it.
 """
 
 from __future__ import annotations
@@ -59,7 +60,12 @@ _NEED_GYMNASIUM = {
 }
 
 
+_SUBMODULES = ("env", "registration", "roms", "vector_env")
+
+
 def __getattr__(name: str) -> Any:
+    if name in _SUBMODULES:
+        return importlib.import_module(f"{__name__}.{name}")
     if name not in _NEED_GYMNASIUM:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(importlib.import_module(_NEED_GYMNASIUM[name]), name)

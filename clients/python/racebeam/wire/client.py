@@ -19,6 +19,7 @@ from __future__ import annotations
 import base64
 import binascii
 import collections
+import json
 import os
 import re
 import shutil
@@ -29,19 +30,24 @@ import sys
 import time
 import zlib
 from collections.abc import Callable, Iterable
-from typing import IO, Any
+from typing import IO, Any, TypeVar
 
 PROTOCOL = 1  # the version that this client speaks
+ANNOUNCEMENT = 1  # the version of announce files that this client reads
 LONGEST_REPLY = 1 << 28  # bytes; a server that sends a longer line is taken for broken
 
 # What bytes are written in when `observe` does not say.
 USUAL_ENCODING = {"ram": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
 
+WAIT = re.compile(r"(file:.+)\?wait=(\d+(?:\.\d+)?)")
+BETWEEN_TRIES = 0.05  # seconds
+
 STACK = re.compile(r"(?:grey|rgb)(\d+)x(\d+)x(\d+)")  # fields such as grey100x50x4
 NUMBER = re.compile(r"-?(0|[1-9]\d{0,14})(\.\d+)?")
 
-Texts = dict[str, str]
+Texts = dict[str, Any]  # texts by key, and bytes where the encoding is raw
 Values = dict[str, Any]
+Opened = TypeVar("Opened")
 
 
 class Refused(Exception):
@@ -83,11 +89,12 @@ def decode_rewards(text: str) -> list[int]:
     return rewards
 
 
-DECODERS: dict[str, Callable[[str], bytes]] = {
+DECODERS: dict[str, Callable[[Any], bytes]] = {
     "hex": bytes.fromhex,
     "rle": lambda text: decode_runs(bytes.fromhex(text)),
     "base64": base64.b64decode,
     "zlib": lambda text: zlib.decompress(base64.b64decode(text)),
+    "raw": bytes,
 }
 
 
@@ -104,8 +111,14 @@ def launch(*options: str, program: str | None = None, arrays: bool = False) -> S
     options: those of `racebeam serve`, such as "--roms", DIR. program: the program racebeam; None: the one that was installed
     with this package, or the one on the PATH. Raises FileNotFoundError where there is none.
     """
+    racebeam, _, _, *rest = command_of(program, options)
+    return Session.start(racebeam, *rest, arrays=arrays)
+
+
+def command_of(program: str | None, options: Iterable[str]) -> list[str]:
+    """Starts a server on standard streams."""
     quiet = () if "--log-level" in options else ("--log-level", "warning")
-    return Session.start(program or _program(), *quiet, *options, arrays=arrays)
+    return [program or _program(), "serve", "--stdio", *quiet, *options]
 
 
 def connect(address: str | None = None, *, token: str | None = None, tls: ssl.SSLContext | None = None,
@@ -116,21 +129,22 @@ def connect(address: str | None = None, *, token: str | None = None, tls: ssl.SS
       tcp://HOST:PORT, tls://HOST:PORT, unix:PATH
       pipes:PREFIX   the named pipes PREFIX_out and PREFIX_in
       stdio          standard input and output of this process
-      file:PATH      the first address in the server's --ready-file that is one of these
-    token: for servers that ask for one. tls: trusts the server's certificate; None: the system's authorities do. timeout:
-    seconds to wait for a connection, and for each reply, on sockets; None: for ever. longest_reply: bytes.
+      file:PATH      the first address in the server's --ready-file or --announce file that is one of these
+      file:PATH?wait=SECONDS   the same; waits for the file, and for the server in it
+    token: for servers that ask for one; None: that of the announce file, if there is one. tls: trusts the server's certificate;
+    None: the system's authorities do. timeout: seconds to wait for a connection, and for each reply, on sockets; None: for ever.
+    longest_reply: bytes.
 
-    Raises ValueError for another address, OSError when nothing answers there, and Refused for a wrong token.
+    Raises ValueError for another address, and for a file that names none; OSError when nothing answers there; and Refused for
+    a wrong token.
     """
-    address = _in_file(address or os.environ.get("RACEBEAM_ADDRESS", ""))
-    session = _open(address, tls, timeout, arrays)
+    session, address, announced = reached(address, lambda found: _open(found, tls, timeout, arrays))
+    token = token or announced
     try:
         session.address, session.longest_reply = address, longest_reply
         session._again = lambda: connect(address, token=token, tls=tls, timeout=timeout, longest_reply=longest_reply,
                                          arrays=arrays)
-        said = session.hello(token)
-        if said.get("protocol") != PROTOCOL:
-            raise ConnectionError(f"{address} speaks version {said.get('protocol')} of the protocol; this client speaks {PROTOCOL}")
+        session.check_greeting(session.hello(token))
         return session
     except BaseException:
         session.close_connection()
@@ -148,15 +162,47 @@ def _program() -> str:
     return program.path()
 
 
-def _in_file(address: str) -> str:
-    """The address that a ready file names first; another address as it is."""
+def reached(address: str | None, opened: Callable[[str], Opened]) -> tuple[Opened, str, str | None]:
+    """What `opened` returns for `address`, and for RACEBEAM_ADDRESS without one; the address itself, or the one in the file that it
+    names; and the token of an announce file. Tries again as long as the address says."""
+    address = address or os.environ.get("RACEBEAM_ADDRESS", "")
+    waits = WAIT.fullmatch(address)
+    file, seconds = waits.groups() if waits else (address, 0)
+    until = time.monotonic() + float(seconds)
+    while True:
+        try:
+            found, token = _in_file(file)
+            return opened(found), found, token
+        except OSError:
+            if time.monotonic() >= until:
+                raise
+            time.sleep(BETWEEN_TRIES)
+
+
+def _in_file(address: str) -> tuple[str, str | None]:
+    """The first address of a ready file or an announce file that this client can use, and the token of the latter. Another
+    address as it is."""
     if not address.startswith("file:"):
-        return address
-    with open(address.removeprefix("file:")) as file:
-        for line in file:
-            if line.startswith(("tcp://", "tls://", "unix:", "pipes:")):
-                return line.strip()
-    raise ValueError(f"{address} names no address that this client can use")
+        return address, None
+    path = address.removeprefix("file:")
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    announced = _announcement(path, text) if text.startswith("{") else {"addresses": text.splitlines(), "token": None}
+    for line in announced["addresses"]:
+        if line.startswith(("tcp://", "tls://", "unix:", "pipes:")):
+            return line, announced["token"]
+    raise ValueError(f"{path} names no address that this client can use")
+
+
+def _announcement(path: str, text: str) -> dict[str, Any]:
+    try:
+        announced = json.loads(text)
+    except ValueError:
+        raise ValueError(f"{path} is not a whole announce file") from None
+    version = announced.get("racebeam_announce")
+    if version != ANNOUNCEMENT:
+        raise ValueError(f"{path} is an announce file of version {version}; this client reads version {ANNOUNCEMENT}")
+    return announced
 
 
 def _open(address: str, tls: ssl.SSLContext | None, timeout: float | None, arrays: bool) -> Session:
@@ -172,6 +218,18 @@ def _open(address: str, tls: ssl.SSLContext | None, timeout: float | None, array
 
 
 def _socket(address: str, tls: ssl.SSLContext | None, timeout: float | None) -> socket.socket:
+    connection, host = connected(address, timeout)
+    if not host:
+        return connection
+    try:
+        return (tls or ssl.create_default_context()).wrap_socket(connection, server_hostname=host)
+    except BaseException:
+        connection.close()
+        raise
+
+
+def connected(address: str, timeout: float | None) -> tuple[socket.socket, str]:
+    """A connection without TLS, and the name that the server has to prove by TLS; "" without it."""
     kind, _, rest = address.partition(":")
     host, _, port = rest.removeprefix("//").rpartition(":")
     if kind == "unix" and rest:
@@ -182,20 +240,14 @@ def _socket(address: str, tls: ssl.SSLContext | None, timeout: float | None) -> 
         except BaseException:
             connection.close()
             raise
-        return connection
+        return connection, ""
     if kind not in ("tcp", "tls") or not rest.startswith("//") or not host or not port.isdecimal():
         raise ValueError(f"the address is {address!r}; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio "
                          "or file:PATH, also in RACEBEAM_ADDRESS")
     host = host.removeprefix("[").removesuffix("]")
     connection = socket.create_connection((host, int(port)), timeout)
     connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    if kind == "tcp":
-        return connection
-    try:
-        return (tls or ssl.create_default_context()).wrap_socket(connection, server_hostname=host)
-    except BaseException:
-        connection.close()
-        raise
+    return connection, host if kind == "tls" else ""
 
 
 def _close(*ends: IO[bytes] | socket.socket) -> None:
@@ -207,7 +259,7 @@ def _close(*ends: IO[bytes] | socket.socket) -> None:
 
 
 class _Lines:
-    """Reads lines from a socket, each within the time limit of the socket."""
+    """Reads lines and bytes from a socket, each within the time limit of the socket."""
 
     def __init__(self, connection: socket.socket) -> None:
         self.connection, self.limit, self.data = connection, connection.gettimeout(), b""
@@ -227,6 +279,25 @@ class _Lines:
             self.connection.settimeout(self.limit)
         last, self.data = pieces[-1][:end + 1], pieces[-1][end + 1:]
         return b"".join([*pieces[:-1], last])
+
+    def read(self, count: int) -> bytearray:
+        """As many bytes, or fewer at the end. Raises TimeoutError as readline() does."""
+        until = None if self.limit is None else time.monotonic() + self.limit
+        data = bytearray(count)
+        have = min(count, len(self.data))
+        data[:have], self.data = self.data[:have], self.data[have:]
+        with memoryview(data) as room:
+            while have < count:
+                if until is not None:
+                    self.connection.settimeout(max(until - time.monotonic(), 1e-6))
+                got = self.connection.recv_into(room[have:])
+                if got == 0:
+                    break
+                have += got
+        if until is not None:
+            self.connection.settimeout(self.limit)
+        del data[have:]
+        return data
 
     def close(self) -> None:
         self.connection.close()
@@ -258,6 +329,7 @@ class Session:
         self.longest_reply = LONGEST_REPLY
         self.unanswered: collections.deque[list[str]] = collections.deque()  # the words of requests
         self.encodings: dict[str, str] = {}  # of the fields that observe chose
+        self.offered: list[str] = []  # the server's encodings, after a greeting
         self.height = 0
         self.arrays: dict[tuple[int, str], bytearray] = {}  # (machine, field): what deltas have made so far
         self.address = ""
@@ -329,7 +401,7 @@ class Session:
         try:
             self.writer.write(f"{line}\n".encode())
         except OSError as error:
-            raise self._lost(error) from error
+            raise self.lost(error) from error
 
     def receive(self) -> list[Texts]:
         """The groups of the next reply, each a dictionary of texts."""
@@ -337,23 +409,49 @@ class Session:
 
     def received(self) -> list[Values]:
         """The groups of the next reply, with numbers and bytes."""
-        words, groups = self._receive()
-        encodings = self._encodings(words[1:]) if words[:1] == ["look"] and len(words) > 1 else None
+        return self.all_decoded(*self._receive())
+
+    def all_decoded(self, words: list[str], groups: list[Texts]) -> list[Values]:
+        """The groups of the reply to a request of these words, with numbers and bytes."""
+        encodings = self._encodings_of(words)
         return [self.decoded(texts, machine, encodings) for machine, texts in enumerate(groups)]
 
     def _receive(self) -> tuple[list[str], list[Texts]]:
         """The words of the oldest request without a reply, and the groups of its reply."""
-        line = self._line()
+        words, groups, count = self.read_line(self._line())
+        if count:
+            self.take_bytes(words, groups, self._bytes(count))
+        return words, groups
+
+    def read_line(self, line: str) -> tuple[list[str], list[Texts], int]:
+        """The same, of a reply's line, and how many bytes follow it, which go to take_bytes()."""
         words = self.unanswered.popleft() if self.unanswered else [""]  # without one, the server says why it ends
         status, _, rest = line.partition(" ")
         if status == "error" and rest:
             code, _, sentence = rest.partition(" ")
             raise Refused(code, sentence)
         if status != "ok":
-            raise self._lost(ConnectionError(f"it sent {line[:60]!r}, which is no reply"))
+            raise self.lost(ConnectionError(f"it sent {line[:60]!r}, which is no reply"))
         groups = [dict(word.split("=", 1) for word in group.split(" ") if "=" in word) for group in f" {rest}".split(" |")]
         self._follow(words, groups[0])
-        return words, groups
+        return words, groups, self._count_of(groups[-1].pop("raw", "0"))
+
+    def _count_of(self, text: str) -> int:
+        count = int(text) if text.isdecimal() else -1
+        if not 0 <= count <= self.longest_reply:
+            raise self.lost(ConnectionError(f"{text!r} bytes follow its reply; it may have {self.longest_reply}"))
+        return count
+
+    def take_bytes(self, words: list[str], groups: list[Texts], data: bytes | bytearray) -> None:
+        """Gives each value that is encoded as raw its part of the bytes that followed the line."""
+        encodings, all_bytes, end = self._encodings_of(words), memoryview(data), 0
+        for texts in groups:
+            for key, text in texts.items():
+                if encodings.get(key.removeprefix("final_")) == "raw":
+                    begin, end = end, end + self._count_of(text)
+                    texts[key] = all_bytes[begin:end]
+        if end != len(data):
+            raise self.lost(ConnectionError(f"its fields have {end} bytes, but {len(data)} followed its reply"))
 
     def _follow(self, words: list[str], told: Texts) -> None:
         """Remembers what a request that was granted changes about later replies."""
@@ -367,6 +465,19 @@ class Session:
         elif command == "open":
             self.arrays = {key: array for key, array in self.arrays.items() if key[0] == 0}
 
+    def _bytes(self, count: int) -> bytes | bytearray:
+        """Those that follow a line."""
+        try:
+            data = self.reader.read(count)
+        except OSError as error:
+            raise self.lost(error) from error
+        except BaseException:
+            self.close_connection()  # as in _line()
+            raise
+        if len(data) < count:
+            raise self.lost(None)
+        return data
+
     def _line(self) -> str:
         if self._is_closed:
             raise ConnectionError("the session was closed")
@@ -377,16 +488,17 @@ class Session:
                 pass  # the server may have said why it ends, before it did
             line = self.reader.readline(self.longest_reply)
         except OSError as error:  # a TimeoutError is one, too: half a reply may have been read
-            raise self._lost(error) from error
+            raise self.lost(error) from error
         except BaseException:
             self.close_connection()  # a reply that is read later would be taken for another's
             raise
         if not line.endswith(b"\n"):
             long = ConnectionError(f"its reply is longer than {self.longest_reply} bytes")
-            raise self._lost(long if len(line) >= self.longest_reply else None)
+            raise self.lost(long if len(line) >= self.longest_reply else None)
         return line.decode("latin-1").rstrip("\n")
 
-    def _lost(self, error: OSError | None) -> OSError:
+    def lost(self, error: Exception | None) -> OSError:
+        """Ends the session. Returns what says so."""
         self.close_connection()
         at = f" at {self.address}" if self.address else ""
         if isinstance(error, TimeoutError):
@@ -417,6 +529,13 @@ class Session:
         text = self.ask(*words)[0][key]
         return text.split(",") if text else []
 
+    def check_greeting(self, said: Values) -> None:
+        """Of the reply to hello. Raises ConnectionError for another version of the protocol."""
+        if said.get("protocol") != PROTOCOL:
+            raise self.lost(ConnectionError(f"it speaks version {said.get('protocol')} of the protocol; "
+                                             f"this client speaks {PROTOCOL}"))
+        self.offered = str(said.get("encodings", "")).split(",")
+
     # Observations
 
     def decoded(self, texts: Texts, machine: int = 0, encodings: dict[str, str] | None = None) -> Values:
@@ -425,7 +544,7 @@ class Session:
         try:
             return {key: self._value(machine, key.removeprefix("final_"), text, encodings) for key, text in texts.items()}
         except (ValueError, IndexError, zlib.error, binascii.Error) as error:
-            raise self._lost(ConnectionError(f"a field of its reply is damaged: {error}")) from error
+            raise self.lost(ConnectionError(f"a field of its reply is damaged: {error}")) from error
 
     def _value(self, machine: int, field: str, text: str, encodings: dict[str, str]) -> Any:
         encoding = encodings.get(field)
@@ -436,6 +555,10 @@ class Session:
         array = self.arrays.setdefault((machine, field), bytearray(self._size(field)))
         apply_delta(array, text)
         return self._shaped(field, bytes(array))
+
+    def _encodings_of(self, words: list[str]) -> dict[str, str]:
+        """Of the fields in the reply to a request of these words."""
+        return self._encodings(words[1:]) if words[:1] == ["look"] and len(words) > 1 else self.encodings
 
     def _shape(self, field: str) -> tuple[int, ...]:
         if field.startswith("grey84") and field.count("x") < 2:

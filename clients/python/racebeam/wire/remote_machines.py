@@ -37,18 +37,18 @@ class RemoteMachines:
     settings: those of _core.VectorSettings, by name. All machines step together.
     """
 
-    def __init__(self, server: str, game: str, rom: Any, count: int, settings: dict[str, Any]) -> None:
+    def __init__(self, server: str, token: str | None, game: str, rom: Any, count: int, settings: dict[str, Any]) -> None:
         if settings["batch_size"] not in (0, count):
             raise InvalidInput(f"batch_size is {settings['batch_size']}; a server plays all {count} environments together")
         self._count, self._process = count, os.getpid()
         self._turn = threading.Lock()
-        self._machine = RemoteInterface(server)
+        self._machine = RemoteInterface(server, token)
         self._session = self._machine.session
         self._load(game, rom, settings)
         self._actions = self._actions_of(settings)
         self._field = _field(settings, self.height())
         self._screens: list[Pixels] = []
-        self._machine.ask(self._session.observe, *NUMBERS, *FLAGS, self._field + ":base64",
+        self._machine.ask(self._session.observe, *NUMBERS, *FLAGS, self._field + (":raw" if "raw" in self._session.offered else ":base64"),
                           *(["rgb:zlib"] if settings["screens"] else []))
         self._open(settings)
 

@@ -22,6 +22,7 @@ final class Connection implements Closeable {
   private final Closeable end;
   private final Duration timeout;
   private final int longest;
+  private final String token;
   private byte[] data = new byte[1 << 16];
   private int begin;
   private int filled;
@@ -32,6 +33,12 @@ final class Connection implements Closeable {
     this.end = end;
     this.timeout = options.timeout();
     this.longest = options.longestReply();
+    this.token = options.token();
+  }
+
+  /** For the greeting: that of the caller, or of an announce file; or null. */
+  String token() {
+    return token;
   }
 
   void write(String line) throws IOException {

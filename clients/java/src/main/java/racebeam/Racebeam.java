@@ -26,7 +26,8 @@ public final class Racebeam {
    * A session of the server at an address.
    *
    * @param address {@code tcp://HOST:PORT}, {@code tls://HOST:PORT}, {@code unix:PATH}, {@code pipes:PREFIX} (named pipes),
-   *     {@code stdio} (the streams of this process), or {@code file:PATH} (the first address in the server's ready file)
+   *     {@code stdio} (the streams of this process), or {@code file:PATH} (the first address in the server's ready file or
+   *     announce file, with the token of the latter; {@code file:PATH?wait=SECONDS} waits for the server)
    * @return the session
    * @throws IOException if no server answers there
    * @throws IllegalArgumentException if the address has another form
@@ -45,9 +46,10 @@ public final class Racebeam {
    * @throws RefusedException if the server refuses the token, or is full
    */
   public static Session connect(String address, Options options) throws IOException {
-    Session session = new Session(Transports.open(address, options));
+    Connection connection = Transports.open(address, options);
+    Session session = new Session(connection);
     try {
-      Group hello = options.token() == null ? session.hello() : session.hello(options.token());
+      Group hello = connection.token() == null ? session.hello() : session.hello(connection.token());
       if (!hello.has("protocol") || hello.number("protocol") != PROTOCOL) {
         throw new IOException(address + " speaks another version of the protocol; this client speaks " + PROTOCOL);
       }

@@ -28,6 +28,8 @@ import javax.net.ssl.SSLSocket;
 /** Opens connections. */
 final class Transports {
   private static final Pattern NETWORK = Pattern.compile("(tcp|tls)://\\[?(.+?)]?:([0-9]{1,5})");
+  private static final Pattern FILE = Pattern.compile("file:(.+?)(?:\\?wait=([0-9]+(?:\\.[0-9]+)?))?");
+  private static final long BETWEEN_TRIES = 50; // milliseconds
   private static final Pattern USABLE = Pattern.compile("(tcp:|tls:|unix:|pipes:).*");
   private static final int SECONDS_TO_END = 10; // for a server of its own
 
@@ -38,6 +40,11 @@ final class Transports {
     if (network.matches() && Integer.parseInt(network.group(3)) < 65536) {
       return network(network.group(1).equals("tls"), network.group(2), Integer.parseInt(network.group(3)), options);
     }
+    Matcher file = FILE.matcher(address);
+    if (file.matches()) {
+      double seconds = file.group(2) == null ? 0 : Double.parseDouble(file.group(2));
+      return openFile(Path.of(file.group(1)), seconds, options);
+    }
     if (address.equals("stdio")) {
       return new Connection(untimed(System.in), System.out, () -> {}, options);
     }
@@ -47,15 +54,38 @@ final class Transports {
     return switch (kind) {
       case "unix:" -> unix(rest, options);
       case "pipes:" -> pipes(rest, options);
-      case "file:" -> open(inFile(rest), options);
       default -> throw new IllegalArgumentException("the address is '" + address + "'; it takes tcp://HOST:PORT, tls://HOST:PORT, "
           + "unix:PATH, pipes:PREFIX, stdio or file:PATH, also in RACEBEAM_ADDRESS");
     };
   }
 
-  private static String inFile(String path) throws IOException {
-    return Files.readAllLines(Path.of(path)).stream().filter(line -> USABLE.matcher(line).matches()).findFirst().orElseThrow(
-        () -> new IllegalArgumentException(path + " names no address that this client can use"));
+  /** A connection to the server that a file names. Waits for both, for a limited time. */
+  private static Connection openFile(Path path, double seconds, Options options) throws IOException {
+    long until = System.nanoTime() + (long) (seconds * 1e9);
+    while (true) {
+      try {
+        List<String> lines = Files.readAllLines(path);
+        boolean isAnnounced = !lines.isEmpty() && lines.get(0).startsWith("{");
+        Announcement announced = isAnnounced ? Announcement.of(path, lines) : new Announcement(lines, null);
+        String address = announced.addresses().stream().filter(line -> USABLE.matcher(line).matches()).findFirst().orElseThrow(
+            () -> new IllegalArgumentException(path + " names no address that this client can use"));
+        return open(address, options.token() == null ? options.withToken(announced.token()) : options);
+      } catch (IOException failure) {
+        if (System.nanoTime() >= until) {
+          throw failure;
+        }
+      }
+      pause();
+    }
+  }
+
+  private static void pause() throws IOException {
+    try {
+      Thread.sleep(BETWEEN_TRIES);
+    } catch (InterruptedException interrupted) {
+      Thread.currentThread().interrupt();
+      throw new java.io.InterruptedIOException("interrupted while waiting for a server");
+    }
   }
 
   private static int milliseconds(Duration timeout) {

@@ -11,7 +11,7 @@ import unittest
 
 import callgrind
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
 TOOL = SOURCE / "scripts/instructions"
 BINARY = os.environ.get("RACEBEAM_BINARY", str(SOURCE / "build/release/racebeam"))
 SKIPPED = 77

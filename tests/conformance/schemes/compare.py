@@ -17,7 +17,7 @@ import zlib
 import images
 
 GAME = "pitfall2"  # the reference takes an unknown image by its name; this game's rule ends at one exact score only
-SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+SOURCE = os.path.abspath(os.path.join(os.path.dirname(__file__), *[os.pardir] * 3))
 SKIPPED = 77
 
 STA, LDA, INC, CMP_X, BIT, JSR, NOP, STX = 0x8D, 0xAD, 0xEE, 0xDD, 0x2C, 0x20, 0x0C, 0x8E

@@ -1,0 +1,76 @@
+// The objects of a screen, and how they have moved since the screen before: regions, of which neighbours with
+// the same velocity are joined (docs/paper-notes.md, "Objects").
+#pragma once
+
+#include <optional>
+
+#include "agents/features/regions.hpp"
+
+namespace racebeam {
+
+constexpr int kMostVelocity = 8;  // appendix C, "Maximum object velocity (pixels)"
+
+struct Velocity {
+  int x, y;  // pixels a decision
+  bool operator==(const Velocity&) const = default;
+};
+
+struct Object {
+  Box box;
+  int area;
+  ShapeKey key;
+  std::optional<Velocity> velocity;  // none: it was not on the screen before
+  std::uint32_t first_run, run_count;
+  std::uint32_t first_part, part_count;  // the regions that it is joined of; none: it is one itself
+};
+
+// Objects with the runs of their shapes.
+class ObjectList {
+ public:
+  void clear();
+  // Appends an object of this shape.
+  Object& add(const Box& box, int area, ShapeView shape);
+
+  const std::vector<Object>& all() const { return objects_; }
+  Object& operator[](std::size_t place) { return objects_[place]; }
+  ShapeView shape(const Object& object) const {
+    return ShapeView(runs_).subspan(object.first_run, object.run_count);
+  }
+
+  // The nearest object that `object`, of this shape, can have been: at most 8 pixels away in x and in y, of
+  // the same shape, or else of an area within a factor of 1.2 with at most 10 % of pixels different. Null:
+  // there is none.
+  const Object* nearest(const Object& object, ShapeView shape) const;
+
+ private:
+  std::vector<Object> objects_;
+  std::vector<PixelRun> runs_;
+};
+
+class MovingObjects {
+ public:
+  explicit MovingObjects(const Background& background) : regions_(background) {}
+
+  void forget();  // the screen before
+  void see(Screen screen);
+
+  const ObjectList& objects() const { return now_.objects; }  // regions that are not joined, and joined ones
+  const ObjectList& before() const { return before_.objects; }  // those of the screen before
+  const Object& part(std::uint32_t place) const { return now_.regions.all()[parts_[place]]; }
+
+ private:
+  struct Seen {
+    ObjectList regions, objects;
+  };
+  void join_neighbours();
+  void add_object(std::size_t first, std::size_t count);
+  std::uint32_t root(std::uint32_t region);
+
+  Regions regions_;
+  Seen now_, before_;
+  std::vector<std::uint32_t> parent_;  // of each region: an earlier one of its object, or itself
+  std::vector<std::uint32_t> parts_;   // regions in the order of objects
+  Shape joined_;
+};
+
+}  // namespace racebeam

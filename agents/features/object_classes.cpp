@@ -1,0 +1,197 @@
+#include "agents/features/object_classes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "protocol/line/words.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr int kLeastScreensPercent = 20;     // appendix C, "Minimum frequency of class appearance"
+constexpr int kLeastMovedPercent = 5;        // of a class's objects; paper-notes
+constexpr int kLeastRange = 16;              // of their centres, in pixels, in x or in y; paper-notes
+constexpr std::size_t kMostShapes = 200000;  // later ones are noise
+constexpr PixelRun kNoRun{255, 255, 255};
+constexpr std::uint32_t kNoShape = std::numeric_limits<std::uint32_t>::max();
+
+// "ROW,FIRST,LAST"
+std::optional<PixelRun> run_of(std::string_view text) {
+  std::array<std::uint8_t, 3> numbers{};
+  for (std::uint8_t& number : numbers) {
+    const std::string_view word = text.substr(0, text.find(','));
+    const auto value = parse_number<std::uint8_t>(word);
+    if (!value) return std::nullopt;
+    number = *value;
+    const bool last = &number == &numbers.back();
+    if (last != (word.size() == text.size())) return std::nullopt;
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+  }
+  return PixelRun{numbers[0], numbers[1], numbers[2]};
+}
+
+bool is_shape(ShapeView runs) {
+  if (runs.empty()) return false;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].row >= kFeatureHeight || runs[i].last >= kFeatureWidth || runs[i].first > runs[i].last)
+      return false;
+    if (i > 0 && (runs[i].row < runs[i - 1].row ||
+                  (runs[i].row == runs[i - 1].row && runs[i].first <= runs[i - 1].last + 1)))
+      return false;
+  }
+  const Box box = box_of(runs);
+  return box.left == 0 && box.top == 0;
+}
+
+// From 0, the same pixels, to 1: of the larger shape, the best of the mirror images.
+double distance(ShapeView a, ShapeView b) {
+  int least = std::numeric_limits<int>::max();
+  for (int mirror = 0; mirror < kMirrors; ++mirror)
+    least = std::min(least, difference(a, mirrored(b, mirror)));
+  return static_cast<double>(least) / std::max(area_of(a), area_of(b));
+}
+
+}  // namespace
+
+void ClassDiscovery::add(Screen screen, bool first) {
+  if (first) objects_.forget();
+  objects_.see(screen);
+  for (const Object& object : objects_.objects().all()) {
+    const std::uint32_t number = shape_number(object);
+    if (number == kNoShape) continue;
+    ++shapes_[number].count;
+    count(object, classes_[shapes_[number].class_number]);
+  }
+  ++screens_;
+}
+
+// The number of the object's shape, which is made if it is new.
+std::uint32_t ClassDiscovery::shape_number(const Object& object) {
+  if (const auto found = number_of_.find(object.key); found != number_of_.end()) return found->second;
+  if (shapes_.size() == kMostShapes) return kNoShape;
+  const ShapeView shape = objects_.objects().shape(object);
+  const std::uint32_t class_number = class_of_new(object, shape);
+  const auto number = static_cast<std::uint32_t>(shapes_.size());
+  for (int mirror = 0; mirror < kMirrors; ++mirror)
+    number_of_.emplace(key_of(mirrored(shape, mirror)), number);
+  shapes_.push_back({Shape(shape.begin(), shape.end()), class_number, 0});
+  return number;
+}
+
+// The class of an object whose shape is new: that of the object that it was, or a class of its own.
+std::uint32_t ClassDiscovery::class_of_new(const Object& object, ShapeView shape) {
+  if (const Object* const earlier = objects_.before().nearest(object, shape))
+    if (const auto found = number_of_.find(earlier->key); found != number_of_.end())
+      return shapes_[found->second].class_number;
+  classes_.emplace_back();
+  return static_cast<std::uint32_t>(classes_.size() - 1);
+}
+
+void ClassDiscovery::count(const Object& object, SeenClass& seen) const {
+  seen.screens += seen.last_screen != screens_;
+  seen.last_screen = screens_;
+  seen.left = std::min(seen.left, object.box.x());
+  seen.right = std::max(seen.right, object.box.x());
+  seen.top = std::min(seen.top, object.box.y());
+  seen.bottom = std::max(seen.bottom, object.box.y());
+  if (!object.velocity) return;
+  ++seen.tracked;
+  seen.moved += object.velocity != Velocity{0, 0};
+}
+
+bool ClassDiscovery::is_kept(const SeenClass& seen) const {
+  return std::int64_t{seen.screens} * 100 >= std::int64_t{screens_} * kLeastScreensPercent &&
+         std::int64_t{seen.moved} * 100 >= std::int64_t{seen.tracked} * kLeastMovedPercent &&
+         std::max(seen.right - seen.left, seen.bottom - seen.top) >= kLeastRange;
+}
+
+ObjectClasses ClassDiscovery::classes() const {
+  std::vector<ShapeNumbers> shapes_of(classes_.size());
+  for (std::uint32_t number = 0; number < shapes_.size(); ++number)
+    if (is_kept(classes_[shapes_[number].class_number]))
+      shapes_of[shapes_[number].class_number].push_back(number);
+  std::erase_if(shapes_of, [](const ShapeNumbers& shapes) { return shapes.empty(); });
+  for (ShapeNumbers& shapes : shapes_of) most_frequent_first(shapes);
+  while (shapes_of.size() > kMostClasses) merge_nearest(shapes_of);
+  ObjectClasses classes;
+  for (const ShapeNumbers& shapes : shapes_of) {
+    classes.emplace_back();
+    for (const std::uint32_t number : shapes) classes.back().push_back(shapes_[number].shape);
+  }
+  return classes;
+}
+
+void ClassDiscovery::most_frequent_first(ShapeNumbers& shapes) const {
+  std::ranges::stable_sort(shapes, std::ranges::greater{},
+                           [this](std::uint32_t number) { return shapes_[number].count; });
+}
+
+// Merges the two classes whose most frequent shapes differ least.
+void ClassDiscovery::merge_nearest(std::vector<ShapeNumbers>& classes) const {
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t into = 0, from = 0;
+  for (std::size_t a = 0; a < classes.size(); ++a) {
+    for (std::size_t b = a + 1; b < classes.size(); ++b) {
+      const double found = distance(shapes_[classes[a].front()].shape, shapes_[classes[b].front()].shape);
+      if (found >= least) continue;
+      least = found;
+      into = a;
+      from = b;
+    }
+  }
+  classes[into].insert(classes[into].end(), classes[from].begin(), classes[from].end());
+  most_frequent_first(classes[into]);
+  classes.erase(classes.begin() + static_cast<std::ptrdiff_t>(from));
+}
+
+ObjectClasses discover_classes(const Cartridge& cartridge, const SampleSettings& settings,
+                               const Background& background) {
+  ClassDiscovery discovery(background);
+  FeatureScreen screen;
+  sample_screens(cartridge, settings, settings.class_screens, settings.seed,
+                 [&](const Environment& machine, bool first) { discovery.add(screen.of(machine), first); });
+  return discovery.classes();
+}
+
+std::string text_of(const ObjectClasses& classes) {
+  std::string text;
+  for (std::size_t number = 0; number < classes.size(); ++number) {
+    for (const Shape& shape : classes[number]) {
+      text += std::to_string(number);
+      for (const PixelRun& run : shape) {
+        (text += ' ') += std::to_string(run.row);
+        (text += ',') += std::to_string(run.first);
+        (text += ',') += std::to_string(run.last);
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+ObjectClasses classes_of_text(const std::string& name, std::string_view text) {
+  ObjectClasses classes;
+  std::vector<std::string_view> words;
+  for (int line = 1; !text.empty(); ++line) {
+    const std::string_view row = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(row.size() + 1, text.size()));
+    words.clear();
+    split(row, words);
+    const auto number = words.empty() ? std::nullopt : parse_number<std::size_t>(words[0]);
+    if (number && *number == classes.size() && *number < kMostClasses) classes.emplace_back();
+    Shape shape;
+    for (std::size_t i = 1; i < words.size(); ++i) shape.push_back(run_of(words[i]).value_or(kNoRun));
+    if (!number || *number + 1 != classes.size() || !is_shape(shape))
+      throw InvalidInput(name + ":" + std::to_string(line) +
+                         ": it is no shape of a class; accepted are the number of the class, from 0 to 9 in "
+                         "their order, and runs of pixels, ROW,FIRST,LAST");
+    classes.back().push_back(std::move(shape));
+  }
+  return classes;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,66 @@
+// The classes of objects in a game, as DISCO discovers them from sample screens (appendix A.3 of the paper;
+// docs/paper-notes.md, "Objects").
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "agents/features/moving_objects.hpp"
+
+namespace racebeam {
+
+constexpr int kMostClasses = 10;  // appendix C, "Maximum number of classes"
+
+// Its shapes, the most frequent first. Their mirror images are of the class, too.
+using ObjectClass = std::vector<Shape>;
+using ObjectClasses = std::vector<ObjectClass>;
+
+class ClassDiscovery {
+ public:
+  explicit ClassDiscovery(const Background& background) : objects_(background) {}
+
+  // `first`: of a trajectory, so that nothing has moved on the way to it.
+  void add(Screen screen, bool first);
+
+  // The classes that are frequent and move, merged until there are few enough; in the order in which they
+  // were first seen.
+  ObjectClasses classes() const;
+
+ private:
+  using ShapeNumbers = std::vector<std::uint32_t>;  // the shapes of a class, in shapes_
+  struct SeenShape {
+    Shape shape;
+    std::uint32_t class_number, count;
+  };
+  struct SeenClass {
+    int last_screen = -1;
+    int screens = 0;                                                        // on which it was
+    int left = kFeatureWidth, right = 0, top = kFeatureHeight, bottom = 0;  // of the centres of its objects
+    int tracked = 0, moved = 0;  // objects that were on the screen before, and those with a velocity
+  };
+
+  std::uint32_t shape_number(const Object& object);
+  std::uint32_t class_of_new(const Object& object, ShapeView shape);
+  void count(const Object& object, SeenClass& seen) const;
+  bool is_kept(const SeenClass& seen) const;
+  void most_frequent_first(ShapeNumbers& shapes) const;
+  void merge_nearest(std::vector<ShapeNumbers>& classes) const;
+
+  MovingObjects objects_;
+  int screens_ = 0;
+  std::vector<SeenShape> shapes_;
+  std::vector<SeenClass> classes_;
+  std::unordered_map<ShapeKey, std::uint32_t> number_of_;  // of shapes and their mirror images, in shapes_
+};
+
+ObjectClasses discover_classes(const Cartridge& cartridge, const SampleSettings& settings,
+                               const Background& background);
+
+// A line for each shape: its class, and its runs as ROW,FIRST,LAST. Throws InvalidInput, naming `name`, for
+// other text, and for more than 10 classes.
+std::string text_of(const ObjectClasses& classes);
+ObjectClasses classes_of_text(const std::string& name, std::string_view text);
+
+}  // namespace racebeam

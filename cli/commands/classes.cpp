@@ -1,0 +1,55 @@
+#include "cli/commands/classes.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "cli/commands/discovery.hpp"
+#include "cli/commands/feature_pictures.hpp"
+#include "recording/atomic_file.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr auto kFooter =
+    R"(Plays random actions, and finds objects: what is not the background, and moves. Objects of similar shapes are
+a class. DISCO learns from where the objects of at most ten classes are.
+Writes to FOLDER:
+  GAME.background   the background, as racebeam background finds it
+  GAME.classes      for experiments: they take both from RESULTS/games if seed and numbers of screens are theirs
+  GAME-classes.png  the most frequent shapes of each class: a line, and a colour, for each
+  GAME-objects.png  a screen with its objects in the colours of their classes
+
+Example:
+  racebeam classes freeway --roms ~/atari --into pictures)";
+
+void run(const DiscoveryOptions& options) {
+  const Images images = images_of(options.images);
+  const Cartridge& cartridge = cartridge_of(images, options);
+  const Background background = background_of(cartridge, options);
+  const ObjectClasses classes = discover_classes(cartridge, options.samples, background);
+  const std::string base = write_background(background, cartridge, options);
+  replace_file(base + ".classes", bytes_of(classes, background, cartridge, options.samples), Durable::kLater);
+  draw_classes(base + "-classes.png", classes);
+  draw_objects(base + "-objects.png", background, classes, sample_screen(cartridge, options.samples));
+  std::size_t shapes = 0;
+  for (const ObjectClass& one : classes) shapes += one.size();
+  std::printf("%s.classes and its pictures are written: %zu classes of %zu shapes\n", base.c_str(),
+              classes.size(), shapes);
+}
+
+}  // namespace
+
+void add_classes(CLI::App& app) {
+  const auto options = std::make_shared<DiscoveryOptions>();
+  SampleSettings& samples = options->samples;
+  CLI::App& command = *app.add_subcommand("classes", "Discover the classes of objects in a game");
+  add_discovery_options(command, *options);
+  add_screens_option(command, "--screens", samples.class_screens, "Screens that are looked at for classes");
+  add_screens_option(command, "--background-screens", samples.background_screens,
+                     "Screens that are looked at for the background");
+  command.footer(kFooter);
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace racebeam

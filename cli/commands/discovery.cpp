@@ -1,0 +1,59 @@
+#include "cli/commands/discovery.hpp"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <limits>
+
+#include "cli/arguments/options.hpp"
+#include "recording/atomic_file.hpp"
+#include "system/input_file.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr int kMostScreens = 10000000;
+constexpr std::size_t kMostCsvBytes = std::size_t{1} << 20;
+
+}  // namespace
+
+DiscoveryOptions::DiscoveryOptions() {
+  Settings& machine = samples.play.machine;
+  machine.frame_skip = 5;
+  machine.sticky = 0;
+  machine.max_episode_frames = 18000;
+}
+
+void add_discovery_options(CLI::App& command, DiscoveryOptions& options) {
+  command.add_option("GAME", options.game, "The game, by its name")->required();
+  command.add_option("--into", options.into, "The folder of the files that are written")->required();
+  command.add_option("--csv", options.csv, "Take the background from this file: 210 lines of 160 colours");
+  command.add_option("--seed", options.samples.seed, "Seed of the random play")
+      ->check(whole_number(0, std::numeric_limits<std::uint32_t>::max()))
+      ->capture_default_str();
+  add_image_options(command, options.images);
+}
+
+void add_screens_option(CLI::App& command, const std::string& name, int& screens, const std::string& help) {
+  command.add_option(name, screens, help)->check(whole_number(1, kMostScreens))->capture_default_str();
+}
+
+const Cartridge& cartridge_of(const Images& images, const DiscoveryOptions& options) {
+  if (const Cartridge* const cartridge = images.find(options.game)) return *cartridge;
+  throw InvalidInput("no image is here of '" + options.game + "'; --roms names the folder that holds it");
+}
+
+Background background_of(const Cartridge& cartridge, const DiscoveryOptions& options) {
+  if (options.csv.empty()) return discover_background(cartridge, options.samples);
+  return background_of_csv(options.csv, read_input_file("background", options.csv, kMostCsvBytes));
+}
+
+std::string write_background(const Background& background, const Cartridge& cartridge,
+                             const DiscoveryOptions& options) {
+  std::filesystem::create_directories(options.into);
+  const std::string base = options.into + '/' + cartridge.game->name;
+  replace_file(base + ".background", bytes_of(background, cartridge, options.samples), Durable::kLater);
+  return base;
+}
+
+}  // namespace racebeam

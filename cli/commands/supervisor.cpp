@@ -1,0 +1,146 @@
+#include "cli/commands/supervisor.hpp"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#if defined(__linux__)
+#include <sys/prctl.h>
+#endif
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <system_error>
+
+#include "cli/arguments/options.hpp"
+#include "system/printable.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr int kHandled[] = {SIGCHLD, SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2};
+constexpr int kNotFound = 127, kNotExecutable = 126, kSignalled = 128;
+
+[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+int status_of(int ended) { return WIFEXITED(ended) ? WEXITSTATUS(ended) : kSignalled + WTERMSIG(ended); }
+
+// The terminal sends Ctrl-C to the command itself.
+bool is_from_terminal(const siginfo_t& signal) { return signal.si_code == SI_KERNEL; }
+
+[[noreturn]] void execute(const std::vector<std::string>& command) {
+  std::vector<char*> words;
+  for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  ::execvp(words[0], words.data());
+  const int reason = errno;
+  std::cerr << "racebeam: cannot execute " << printable(command[0]) << ": " << std::strerror(reason) << "\n";
+  ::_exit(reason == ENOENT ? kNotFound : kNotExecutable);
+}
+
+}  // namespace
+
+PrivateFolder::PrivateFolder() : owner_(::getpid()) {
+  const char* const parent = std::getenv("TMPDIR");
+  std::string name =
+      (parent == nullptr || *parent == '\0' ? "/tmp" : std::string(parent)) + "/racebeam-XXXXXX";
+  if (::mkdtemp(name.data()) == nullptr) fail(("cannot make a folder " + name).c_str());
+  path_ = name;
+}
+
+PrivateFolder::~PrivateFolder() {
+  if (::getpid() != owner_ && ::getppid() == owner_) return;
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+Supervisor::Supervisor() {
+  ::sigemptyset(&handled_);
+  for (const int number : kHandled) ::sigaddset(&handled_, number);
+  ::sigprocmask(SIG_BLOCK, &handled_, &before_);
+}
+
+// The child is told if its parent is killed.
+pid_t Supervisor::fork_child() const {
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0) fail("cannot start a process");
+  if (child > 0) return child;
+#if defined(__linux__)
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+#endif
+  if (::getppid() != parent) ::_exit(kExitFailure);
+  ::sigprocmask(SIG_SETMASK, &before_, nullptr);
+  return 0;
+}
+
+// In a process group of its own, the server does not get the signals of the terminal.
+bool Supervisor::fork_server() {
+  server_.process = fork_child();
+  if (server_.process != 0) return false;
+  ::setpgid(0, 0);
+  if (const int nothing = ::open("/dev/null", O_RDONLY); nothing > STDIN_FILENO) {
+    ::dup2(nothing, STDIN_FILENO);
+    ::close(nothing);
+  }
+  return true;
+}
+
+int Supervisor::wait_until_ready(const std::filesystem::path& announce) {
+  constexpr int kBetweenLooks = 5;
+  std::error_code ignored;
+  while (!std::filesystem::exists(announce, ignored)) {
+    const siginfo_t signal = next_signal(kBetweenLooks);
+    if (server_.process == 0) return server_.status == 0 ? kExitFailure : server_.status;
+    if (signal.si_signo == 0 || signal.si_signo == SIGCHLD) continue;
+    stop_server();
+    return kSignalled + signal.si_signo;
+  }
+  return 0;
+}
+
+int Supervisor::run(const std::vector<std::string>& command) {
+  command_.process = fork_child();
+  if (command_.process == 0) execute(command);
+  bool serves = server_.process != 0;
+  while (command_.process != 0) {
+    const siginfo_t signal = next_signal();
+    if (signal.si_signo != SIGCHLD && command_.process != 0 && !is_from_terminal(signal))
+      ::kill(command_.process, signal.si_signo);
+    if (serves && server_.process == 0 && server_.status != 0)
+      std::cerr << "racebeam: the server has ended with status " << server_.status << "\n";
+    serves = server_.process != 0;
+  }
+  return command_.status;
+}
+
+void Supervisor::stop_server() {
+  if (server_.process != 0) ::kill(server_.process, SIGTERM);
+  while (server_.process != 0) {
+    const siginfo_t signal = next_signal();
+    if (signal.si_signo != SIGCHLD && server_.process != 0) ::kill(server_.process, SIGTERM);
+  }
+}
+
+// Waits for a signal: for ever, or for a time. Returns a signal with the number 0 if none has come.
+siginfo_t Supervisor::next_signal(int milliseconds) {
+  siginfo_t signal{};
+  const timespec limit{0, milliseconds * 1'000'000L};
+  const int number =
+      milliseconds < 0 ? ::sigwaitinfo(&handled_, &signal) : ::sigtimedwait(&handled_, &signal, &limit);
+  if (number <= 0) signal.si_signo = 0;
+  reap();
+  return signal;
+}
+
+void Supervisor::reap() {
+  int ended = 0;
+  for (Child* child : {&server_, &command_}) {
+    if (child->process == 0 || ::waitpid(child->process, &ended, WNOHANG) != child->process) continue;
+    *child = {0, status_of(ended)};
+  }
+}
+
+}  // namespace racebeam

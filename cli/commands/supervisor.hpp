@@ -1,0 +1,65 @@
+// Runs a command beside a server: two child processes, of which neither outlives this one.
+#pragma once
+
+#include <signal.h>
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace racebeam {
+
+// A new folder that only this user can read. The process that has made it removes it, with what is in it. If
+// that process is killed, its child does.
+class PrivateFolder {
+ public:
+  PrivateFolder();  // in TMPDIR, else /tmp; throws std::runtime_error
+  ~PrivateFolder();
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  pid_t owner_;
+};
+
+// For a process with one thread. From the construction on, signals are blocked; they are handled while a
+// member function waits. All exit statuses are those of shells: 128 and the number of the signal that ended a
+// process.
+class Supervisor {
+ public:
+  Supervisor();
+
+  // Makes the server's process, with /dev/null as standard input. Returns true there. Throws
+  // std::system_error.
+  bool fork_server();
+
+  // Waits until the server has made the file `announce`. Returns 0; or an exit status, if the server has
+  // ended, or a signal has come.
+  int wait_until_ready(const std::filesystem::path& announce);
+
+  // Runs a command until it ends, and passes signals on to it. Returns its exit status: 127 if it is not
+  // found, 126 if it cannot be executed. Throws std::system_error.
+  int run(const std::vector<std::string>& command);
+
+  // Tells the server to stop, and waits for its end. A signal ends its grace period.
+  void stop_server();
+
+ private:
+  struct Child {
+    pid_t process = 0;  // 0: not running
+    int status = 0;
+  };
+
+  pid_t fork_child() const;  // returns 0 in the child
+  siginfo_t next_signal(int milliseconds = -1);
+  void reap();
+
+  sigset_t handled_{}, before_{};
+  Child server_, command_;
+};
+
+}  // namespace racebeam

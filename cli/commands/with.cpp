@@ -1,0 +1,86 @@
+#include "cli/commands/with.hpp"
+
+#include <sys/un.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include "cli/commands/serve.hpp"
+#include "cli/commands/serve_options.hpp"
+#include "cli/commands/supervisor.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr auto kFooter =
+    R"(Starts a server, waits until it accepts connections, and runs COMMAND with the variable RACEBEAM_ADDRESS, which
+all clients of clients/ and of the Python package read. When COMMAND ends, the server stops. Nothing is left
+behind: the server's socket and its announce file lie in a folder of their own, below TMPDIR or /tmp.
+
+  racebeam with -- python3 agent.py
+  racebeam with --roms ~/atari --threads 2 -- ./play pong
+
+The options before -- are those of racebeam serve, except for --stdio, --pipes, --ready-file and --announce.
+Without an address, the server listens on a Unix socket and on a port of 127.0.0.1. Over TCP, clients need the
+token of the announce file. The log has warnings and errors, unless --log-level says otherwise.
+
+Signals: SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2 and SIGINT are passed on to COMMAND. If racebeam with is killed,
+COMMAND and the server get SIGTERM.
+
+Exit status: that of COMMAND; 128 and the number of the signal that has ended it; 127 if COMMAND is not found, 126 if
+it cannot be executed. If the server does not start: its own, see racebeam serve --help.)";
+
+void refuse(const std::string& option, const std::string& why) { throw CLI::ValidationError(option, why); }
+
+void check(const ServeOptions& options) {
+  if (options.standard_streams || !options.pipes.empty())
+    refuse(options.standard_streams ? "--stdio" : "--pipes",
+           "requires racebeam serve; COMMAND needs a socket");
+  if (!options.server.announce.empty() || !options.server.ready_file.empty())
+    refuse(options.server.announce.empty() ? "--ready-file" : "--announce",
+           "requires racebeam serve; COMMAND has the address in RACEBEAM_ADDRESS");
+}
+
+std::vector<std::string> usual_addresses(const PrivateFolder& folder) {
+  std::vector<std::string> addresses{"tcp://127.0.0.1:0"};
+  const std::string socket = folder.path() / "socket";
+  if (socket.size() < sizeof(sockaddr_un::sun_path)) addresses.insert(addresses.begin(), "unix:" + socket);
+  return addresses;
+}
+
+bool is_default(const std::vector<Setting>& settings, const std::string& key) {
+  return std::ranges::any_of(settings, [&](const Setting& setting) {
+    return key_of(*setting.option) == key && setting.source == Source::kDefault;
+  });
+}
+
+int run(ServeOptions& options, const std::vector<Setting>& settings, const std::vector<std::string>& words) {
+  check(options);
+  Supervisor supervisor;
+  const PrivateFolder folder;
+  options.server.announce = folder.path() / "announce";
+  if (options.addresses.empty()) options.addresses = usual_addresses(folder);
+  if (is_default(settings, "log_level")) options.log_level = LogLevel::kWarning;
+  if (supervisor.fork_server()) return run_server(options, settings);
+  if (const int status = supervisor.wait_until_ready(options.server.announce); status != 0) return status;
+  ::setenv("RACEBEAM_ADDRESS", ("file:" + options.server.announce).c_str(), 1);
+  const int status = supervisor.run(words);
+  supervisor.stop_server();
+  return status;
+}
+
+}  // namespace
+
+void add_with(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("with", "Run a command with a server of its own");
+  command->footer(kFooter);
+  const auto options = std::make_shared<ServeOptions>();
+  const auto words = std::make_shared<std::vector<std::string>>();
+  add_serve_options(*command, *options);
+  command->add_option("COMMAND", *words, "The command and its arguments, after --")->required();
+  command->callback(
+      [options, words, command] { throw CLI::RuntimeError(run(*options, complete(*command), *words)); });
+}
+
+}  // namespace racebeam

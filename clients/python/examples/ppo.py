@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+"""PPO (Schulman et al. 2017) in JAX, on RAM or on pixels, over racebeam's vector environment.
+
+    pip install "racebeam[gymnasium]" jax optax matplotlib
+    python ppo.py beamfall --observe ram --curve ppo.png
+
+A lost life ends an episode for the agent, and the game goes on; rewards are clipped to -1..1, and scores are those of the game.
+With the same seed and processor, it learns the same."""
+import argparse
+import functools
+import time
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import optax
+
+import racebeam
+
+DISCOUNT, GAE_DECAY = 0.99, 0.95     # gamma, lambda
+CLIP, ENTROPY, VALUE = 0.1, 0.01, 0.5
+LONGEST_GRADIENT = 0.5
+CONVOLUTIONS = ((32, 8, 4), (64, 4, 2), (64, 3, 1))  # channels, size and stride, as in DQN
+
+
+class Batch(NamedTuple):
+    """Of each step of each environment."""
+
+    observations: np.ndarray
+    actions: np.ndarray
+    log_chances: np.ndarray
+    advantages: np.ndarray
+    returns: np.ndarray
+
+
+def layer(key, shape, scale):
+    return {"weights": jax.nn.initializers.orthogonal(scale)(key, shape), "bias": jnp.zeros(shape[-1])}
+
+
+def network(key, shape, actions):
+    """The parameters for observations of this shape: 128 bytes of RAM, or screens x height x width."""
+    keys = iter(jax.random.split(key, 8))
+    if len(shape) == 1:
+        body, size = [layer(next(keys), (8 * shape[0], 256), 2**0.5), layer(next(keys), (256, 256), 2**0.5)], 256
+    else:
+        body, (depth, height, width) = [], shape
+        for channels, side, stride in CONVOLUTIONS:
+            body.append(layer(next(keys), (side, side, depth, channels), 2**0.5))
+            height, width, depth = (height - side) // stride + 1, (width - side) // stride + 1, channels
+        body.append(layer(next(keys), (height * width * depth, 512), 2**0.5))
+        size = 512
+    return {"body": body, "policy": layer(next(keys), (size, actions), 0.01), "value": layer(next(keys), (size, 1), 1.0)}
+
+
+def forward(parameters, observations):
+    """Logits of the actions, and values."""
+    *convolutions, last = parameters["body"]
+    if observations.ndim == 2:  # RAM, bit by bit
+        bits = observations[:, :, None] >> jnp.arange(8, dtype=jnp.uint8) & 1
+        seen = jax.nn.relu(dense(convolutions[0], bits.reshape(len(bits), -1).astype(jnp.float32)))
+    else:
+        seen = observations.transpose(0, 2, 3, 1).astype(jnp.float32) / 255
+        for (_, _, stride), one in zip(CONVOLUTIONS, convolutions):
+            seen = jax.lax.conv_general_dilated(seen, one["weights"], (stride, stride), "VALID", dimension_numbers=("NHWC", "HWIO", "NHWC"))
+            seen = jax.nn.relu(seen + one["bias"])
+        seen = seen.reshape(len(seen), -1)
+    seen = jax.nn.relu(dense(last, seen))
+    return dense(parameters["policy"], seen), dense(parameters["value"], seen)[:, 0]
+
+
+def dense(one, seen):
+    return seen @ one["weights"] + one["bias"]
+
+
+@jax.jit
+def choose(parameters, observations, key):
+    """Actions, the logarithms of their chances, and the values of the observations."""
+    logits, values = forward(parameters, observations)
+    actions = jax.random.categorical(key, logits)
+    return actions, log_chances_of(logits, actions), values
+
+
+def log_chances_of(logits, actions):
+    return jnp.take_along_axis(jax.nn.log_softmax(logits), actions[:, None], axis=1)[:, 0]
+
+
+def loss(parameters, batch):
+    logits, values = forward(parameters, batch.observations)
+    ratios = jnp.exp(log_chances_of(logits, batch.actions) - batch.log_chances)
+    advantages = (batch.advantages - batch.advantages.mean()) / (batch.advantages.std() + 1e-8)
+    gain = jnp.minimum(ratios * advantages, jnp.clip(ratios, 1 - CLIP, 1 + CLIP) * advantages).mean()
+    entropy = -(jax.nn.softmax(logits) * jax.nn.log_softmax(logits)).sum(axis=1).mean()
+    return -gain - ENTROPY * entropy + VALUE * 0.5 * ((values - batch.returns) ** 2).mean()
+
+
+@functools.partial(jax.jit, static_argnames=("optimizer", "epochs", "parts"))
+def update(parameters, state, batch, key, optimizer, epochs, parts):
+    """Goes over the batch several times, in a random order, in parts."""
+    count = len(batch.actions)
+    order = jnp.concatenate([jax.random.permutation(one, count) for one in jax.random.split(key, epochs)])
+
+    def learn(carried, chosen):
+        parameters, state = carried
+        gradient = jax.grad(loss)(parameters, jax.tree.map(lambda values: values[chosen], batch))
+        change, state = optimizer.update(gradient, state)
+        return (optax.apply_updates(parameters, change), state), None
+
+    (parameters, state), _ = jax.lax.scan(learn, (parameters, state), order.reshape(epochs * parts, -1))
+    return parameters, state
+
+
+def advantages_of(rewards, values, ends, last_values):
+    """Generalised advantage estimation. Row t of `ends` says which episodes ended by step t."""
+    advantages, following, next_values = np.zeros_like(rewards), np.zeros_like(last_values), last_values
+    for step in reversed(range(len(rewards))):
+        goes_on = 1 - ends[step]
+        error = rewards[step] + DISCOUNT * goes_on * next_values - values[step]
+        advantages[step] = following = error + DISCOUNT * GAE_DECAY * goes_on * following
+        next_values = values[step]
+    return advantages
+
+
+class Player:
+    """Plays the environments, and keeps the scores of whole games."""
+
+    def __init__(self, options):
+        shown = {"obs_type": "ram"} if options.observe == "ram" else {}
+        self.envs = racebeam.AtariVectorEnv(options.game, options.envs, seed=options.seed, lives="end", autoreset_mode="SameStep",
+                                            server=options.server, **shown)
+        self.observations, _ = self.envs.reset()
+        self.sums, self.scores, self.seconds = np.zeros(options.envs, np.int64), [], 0.0
+
+    def play(self, parameters, key, steps):
+        """A batch of so many steps of each environment."""
+        rows = []
+        for one in jax.random.split(key, steps):
+            seen = self.observations
+            actions, log_chances, values = map(np.asarray, choose(parameters, seen, one))
+            rows.append((seen, actions, log_chances, values, *self.step(actions)))
+        seen, actions, log_chances, values, rewards, ends = map(np.stack, zip(*rows))
+        _, _, last_values = choose(parameters, self.observations, key)
+        advantages = advantages_of(rewards, values, ends, np.asarray(last_values))
+        flat = (seen, actions, log_chances, advantages, advantages + values)
+        return Batch(*(part.reshape(-1, *part.shape[2:]) for part in flat))
+
+    def step(self, actions):
+        began = time.perf_counter()
+        self.observations, rewards, terminated, truncated, info = self.envs.step(actions)
+        self.seconds += time.perf_counter() - began
+        self.sums += info["raw_reward"]
+        over = info["game_over"] | truncated
+        self.scores += self.sums[over].tolist()
+        self.sums[over] = 0
+        return rewards.astype(np.float32), (terminated | truncated).astype(np.float32)
+
+
+def draw(path, points, title):
+    """The curve as a picture."""
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    pyplot.figure(figsize=(6, 4))
+    pyplot.plot(*zip(*points))
+    pyplot.xlabel("steps")
+    pyplot.ylabel("mean score of the last 20 games")
+    pyplot.title(title)
+    pyplot.savefig(path, dpi=120)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("game", nargs="?", default="beamfall", help="(default: %(default)s)")
+    parser.add_argument("--observe", choices=("ram", "pixels"), default="ram", help="(default: %(default)s)")
+    parser.add_argument("--envs", type=int, default=32, help="(default: %(default)s)")
+    parser.add_argument("--steps", type=int, default=64, help="of each environment before each update (default: %(default)s)")
+    parser.add_argument("--updates", type=int, default=200, help="(default: %(default)s)")
+    parser.add_argument("--epochs", type=int, default=4, help="of an update (default: %(default)s)")
+    parser.add_argument("--parts", type=int, default=4, help="of an epoch (default: %(default)s)")
+    parser.add_argument("--rate", type=float, default=5e-4, help="of learning, at first; it falls to 0 (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=1, help="(default: %(default)s)")
+    parser.add_argument("--server", help="the environments run there, such as unix:PATH")
+    parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores")
+    options = parser.parse_args()
+    if options.envs * options.steps % options.parts:
+        parser.error(f"--parts is {options.parts}, which does not divide the {options.envs * options.steps} steps of an update")
+
+    player = Player(options)
+    key, first = jax.random.split(jax.random.key(options.seed))
+    parameters = network(first, player.envs.single_observation_space.shape, int(player.envs.single_action_space.n))
+    rate = optax.linear_schedule(options.rate, 0, options.updates * options.epochs * options.parts)
+    optimizer = optax.chain(optax.clip_by_global_norm(LONGEST_GRADIENT), optax.adam(rate, eps=1e-5))
+    state, points, began = optimizer.init(parameters), [], time.perf_counter()
+    for number in range(1, options.updates + 1):
+        key, to_play, to_learn = jax.random.split(key, 3)
+        batch = player.play(parameters, to_play, options.steps)
+        parameters, state = update(parameters, state, batch, to_learn, optimizer, options.epochs, options.parts)
+        if player.scores:
+            points.append((number * options.envs * options.steps, float(np.mean(player.scores[-20:]))))
+        if points and (number % 10 == 0 or number == options.updates):
+            print(f"update {number}: {len(player.scores)} games, mean score of the last 20: {points[-1][1]:.1f}", flush=True)
+    seconds = time.perf_counter() - began
+    print(f"{options.updates * options.envs * options.steps / seconds:.0f} steps a second; the environments took "
+          f"{100 * player.seconds / seconds:.0f} % of the time")
+    if options.curve and points:
+        draw(options.curve, points, f"PPO on {options.observe} of {options.game}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""PPO of Stable-Baselines3, in its settings for Atari, over racebeam's environments.
+
+    pip install "racebeam[sb3]"
+    python stable_baselines.py breakout
+
+The line that racebeam changes is the one that makes the environments."""
+import argparse
+
+from stable_baselines3 import PPO
+
+import racebeam.sb3
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("game", nargs="?", default="beamfall", help="(default: %(default)s)")
+    parser.add_argument("--steps", type=int, default=1_000_000, help="of all environments (default: %(default)s)")
+    parser.add_argument("--steps-of-update", type=int, default=128, help="of each environment (default: %(default)s)")
+    parser.add_argument("--envs", type=int, default=8, help="(default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=1, help="(default: %(default)s)")
+    parser.add_argument("--model", metavar="FILE", help="keeps the model")
+    options = parser.parse_args()
+
+    # With Stable-Baselines3: VecFrameStack(make_atari_env("BeamfallNoFrameskip-v4", options.envs, options.seed), 4)
+    envs = racebeam.sb3.VecEnv(options.game, options.envs, seed=options.seed)
+    model = PPO("CnnPolicy", envs, n_steps=options.steps_of_update, batch_size=256, n_epochs=4, learning_rate=2.5e-4, clip_range=0.1,
+                ent_coef=0.01, seed=options.seed, verbose=1)
+    model.learn(options.steps)
+    if options.model:
+        model.save(options.model)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,25 @@
+// The texts of the files that tell clients of a server.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace racebeam {
+
+struct Announcement {
+  std::vector<std::string> addresses;  // for clients of the line protocol, in the order of --listen
+  std::string host, version, token;
+  int process = 0;
+  std::vector<std::string> games;  // that clients may load
+};
+
+std::string host_name();  // of this machine
+
+// A ready file: the addresses, one a line.
+std::string ready_text(const std::vector<std::string>& addresses);
+
+// An announce file: one object of JSON. Each member begins a line, and each address has a line of its own, so
+// that programs without a parser of JSON can read it.
+std::string announce_text(const Announcement& announcement);
+
+}  // namespace racebeam

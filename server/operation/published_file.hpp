@@ -1,0 +1,45 @@
+// Publishes what clients must know of a server, in a file that appears as a whole. Its first bytes identify
+// it; a file without them is never changed. The server holds a lock (flock) on its file during its lifetime.
+// So the file of a server that died can be told from that of a live one.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <string_view>
+
+#include "server/operation/unlink_on_exit.hpp"
+
+namespace racebeam {
+
+struct FileKind {
+  std::string_view name, option;
+  std::string_view mark;  // the first bytes of such a file
+  mode_t mode;
+};
+
+inline constexpr FileKind kReadyFile{"ready file", "--ready-file", "# racebeam ready file", 0644};
+inline constexpr FileKind kAnnounceFile{"announce file", "--announce", "{\"racebeam_announce\":", 0600};
+
+// Removes the file of a server that died, so that clients do not find its addresses. The file of a live
+// server is not changed. Throws std::runtime_error if the file is not of this kind. Does nothing for an empty
+// path.
+void remove_stale(const FileKind& kind, const std::string& path);
+
+class PublishedFile {
+ public:
+  // Writes the file, and replaces that of a live server. `text` begins with the mark. Throws
+  // std::runtime_error if the file is of another kind, or cannot be written; nothing is left half-written.
+  PublishedFile(const FileKind& kind, const std::string& path, const std::string& text);
+  ~PublishedFile();  // removes it, unless it is another server's
+  PublishedFile(const PublishedFile&) = delete;
+  PublishedFile& operator=(const PublishedFile&) = delete;
+
+ private:
+  void write(const FileKind& kind, const std::string& path, const std::string& text);
+
+  int lock_;  // the file's descriptor, which has the lock
+  UnlinkOnExit file_;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,118 @@
+#include "agents/features/object_classes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "agents/features/game_facts.hpp"
+#include "system/invalid_input.hpp"
+#include "tests/agents/experiment/samples.hpp"
+#include "tests/agents/features/drawn_screen.hpp"
+
+using namespace racebeam;
+using namespace racebeam::test;
+
+namespace {
+
+const Pattern kFish = {" ###  #", "#######", " ###  #"};
+const Pattern kFishTurned = {"#  ### ", "#######", "#  ### "};
+const Pattern kDiver = {" # ", "###", " # ", "# #", "# #"};
+const Pattern kRare = {"#####", "#   #", "#####"};
+const Pattern kStill = {"####", "####"};
+
+// A place on a way of so many pixels, to and fro.
+int to_and_fro(int step, int range) {
+  const int at = step % (2 * range);
+  return at < range ? at : 2 * range - at;
+}
+
+bool goes_right(int step, int range) { return step % (2 * range) < range; }
+
+}  // namespace
+
+TEST_CASE("A drawn world has the right classes: mirrored, not rare, not still") {
+  ClassDiscovery discovery({});
+  for (int step = 0; step < 1000; ++step) {
+    DrawnScreen screen;
+    screen.draw(20 + to_and_fro(step, 100), 50, goes_right(step, 100) ? kFishTurned : kFish);
+    screen.draw(70, 100 + to_and_fro(2 * step, 80), kDiver);
+    screen.draw(140, 20, kStill);
+    if (step % 6 == 0) screen.draw(20 + step % 100, 190, kRare);  // on 17 % of the screens
+    discovery.add(screen.pixels, step == 0);
+  }
+  CHECK(discovery.classes() == ObjectClasses{{shape_of(kFishTurned)}, {shape_of(kDiver)}});
+}
+
+TEST_CASE("What moves within a small region is no class") {
+  ClassDiscovery near({}), far({});
+  for (int step = 0; step < 100; ++step) {
+    near.add(DrawnScreen().draw(20 + to_and_fro(step, 15), 50, kFish).pixels, step == 0);
+    far.add(DrawnScreen().draw(20 + to_and_fro(step, 16), 50, kFish).pixels, step == 0);
+  }
+  CHECK(near.classes().empty());
+  CHECK(far.classes().size() == 1);
+}
+
+TEST_CASE("A shape that another one turned into is of its class") {
+  const Pattern open = {"######", "####  ", "######"}, shut = {"######", "##### ", "######"};
+  ClassDiscovery discovery({}), leaps({});
+  for (int step = 0; step < 100; ++step) {
+    const DrawnScreen screen = DrawnScreen().draw(20 + step, 50, step % 3 == 0 ? open : shut);
+    discovery.add(screen.pixels, step == 0);
+    leaps.add(screen.pixels, true);  // nothing is before
+  }
+  CHECK(discovery.classes() == ObjectClasses{{shape_of(shut), shape_of(open)}});
+  CHECK(leaps.classes() == ObjectClasses{{shape_of(open)}, {shape_of(shut)}});
+}
+
+TEST_CASE("Of more than ten classes, those of the most similar shapes are merged") {
+  ClassDiscovery discovery({});
+  for (int step = 0; step < 60; ++step) {
+    DrawnScreen screen;
+    for (int number = 0; number < 11; ++number) {  // bars of 3, 6, ... pixels, and one of 31
+      const int length = number == 10 ? 31 : 3 * (number + 1);
+      const std::string bar(static_cast<std::size_t>(length), '#');
+      screen.draw(step, 10 + 12 * number, {bar, bar});
+    }
+    discovery.add(screen.pixels, step == 0);
+  }
+  const ObjectClasses classes = discovery.classes();
+  REQUIRE(classes.size() == kMostClasses);
+  for (std::size_t number = 0; number < 9; ++number) CHECK(classes[number].size() == 1);
+  REQUIRE(classes[9].size() == 2);
+  CHECK(area_of(classes[9][0]) == 60);
+  CHECK(area_of(classes[9][1]) == 62);
+}
+
+TEST_CASE("Classes are the same again, as text and as a file") {
+  const SampleSettings settings{1, 500, 1500, short_episodes()};
+  const Background background = discover_background(beamfall(), settings);
+  const ObjectClasses classes = discover_classes(beamfall(), settings, background);
+  CHECK(!classes.empty());
+  CHECK(classes_of_text("a", text_of(classes)) == classes);
+  CHECK(classes_of_text("a", "").empty());
+  const Scratch folder;
+  GameFacts facts(beamfall(), settings, folder.path("."));
+  CHECK(facts.classes() == classes);
+  const std::string path = folder.path("beamfall.classes");
+  CHECK(classes_of(path, background, beamfall(), settings) == classes);
+  CHECK(GameFacts(beamfall(), settings, "").classes() == classes);
+  CHECK_THROWS_WITH(classes_of(path, Background{}, beamfall(), settings), Catch::Contains("; wanted is"));
+  SampleSettings interpreted = settings;
+  interpreted.play.machine.cpu = CpuKind::kInterpreter;
+  CHECK(discover_classes(beamfall(), interpreted, background) == classes);
+  SampleSettings other = settings;
+  other.class_screens = 2;
+  CHECK_THROWS_WITH(classes_of(path, background, beamfall(), other), Catch::Contains("screens=1500 "));
+}
+
+TEST_CASE("A text that is no list of classes is refused with its line") {
+  const std::string sentence =
+      "a:2: it is no shape of a class; accepted are the number of the class, from 0 to 9 in their order, and "
+      "runs of pixels, ROW,FIRST,LAST";
+  for (const std::string line :
+       {"2 0,0,1", "x 0,0,1", "0", "0 0,0", "0 0,0,1,2", "0 0,1,0", "0 0,0,160", "0 210,0,1", "0 0,0,1 0,1,2",
+        "0 0,0,1 0,2,3", "0 1,0,1", "0 0,1,1", "0 1,0,1 0,0,1", "", "-1 0,0,1", "0 0,0,256"})
+    CHECK_THROWS_WITH(classes_of_text("a", "0 0,0,1\n" + line + "\n"), sentence);
+  std::string eleven;
+  for (int number = 0; number < 11; ++number) eleven += std::to_string(number) + " 0,0,1\n";
+  CHECK_THROWS_WITH(classes_of_text("a", eleven), Catch::StartsWith("a:11: "));
+}

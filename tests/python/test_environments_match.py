@@ -1,0 +1,54 @@
+"""Gymnasium's check_environments_match finds no difference between ALE/Pong-v5 and racebeam/Pong-v5, nor for any other game.
+
+All games, kinds of observation and seeds take long: the test takes some each day. scripts/check/python-exactness takes all.
+"""
+
+import argparse
+import datetime
+import itertools
+import sys
+
+import package
+
+package.require("ale_py", "gymnasium", "numpy")
+
+import ale_py
+import gymnasium
+from gymnasium.utils.env_match import check_environments_match
+
+import racebeam
+
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("--steps", type=int, default=100, help="of each run (default 100)")
+parser.add_argument("--seeds", type=int, default=3, help="of each game (default 3)")
+parser.add_argument("--parts", type=int, default=52, help="of all runs, of which one is played (default 52)")
+parser.add_argument("--part", type=int, default=datetime.date.today().toordinal(), help="which one (default: by the day)")
+options = parser.parse_args()
+
+ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
+
+
+def check(name, obs_type, seed):
+    envs = [gymnasium.make(f"{namespace}/{name}-v5", obs_type=obs_type, disable_env_checker=True) for namespace in ("racebeam", "ALE")]
+    assert all(env.unwrapped.ale.getFloat("repeat_action_probability") == 0.25 for env in envs)
+    check_environments_match(*envs, options.steps, seed=seed, info_comparison="equivalence")
+    for env in envs:
+        env.close()
+
+
+names = sorted(spec.name for spec in gymnasium.registry.values() if spec.namespace == "ALE")
+if set(names) - {spec.name for spec in gymnasium.registry.values() if spec.namespace == "racebeam"}:
+    sys.exit("FAILED: racebeam has fewer ids than ALE")
+if not package.roms():
+    print("SKIPPED: there are no cartridge images")
+    sys.exit(package.SKIPPED)
+runs = list(itertools.product(names, ("rgb", "grayscale", "ram"), range(options.seeds)))[options.part % options.parts::options.parts]
+failures = 0
+for run in runs:
+    try:
+        check(*run)
+    except AssertionError as difference:
+        failures += 1
+        print(f"FAILED: {run}: {str(difference)[:200]}")
+print(f"{len(runs)} runs of {options.steps} steps: {failures} differ")
+sys.exit(failures > 0)

@@ -1,0 +1,104 @@
+"""racebeam.sb3.VecEnv is an environment of Stable-Baselines3. Skipped where that is not installed."""
+
+import importlib.util
+import unittest
+
+import package
+
+package.require("numpy", "gymnasium", "stable_baselines3")
+
+import gymnasium
+import numpy as np
+from stable_baselines3 import PPO
+from stable_baselines3.common.env_util import make_atari_env
+from stable_baselines3.common.evaluation import evaluate_policy
+from stable_baselines3.common.monitor import Monitor
+from stable_baselines3.common.vec_env import VecEnv as Base
+from stable_baselines3.common.vec_env import VecMonitor
+
+from racebeam import AtariVectorEnv
+from racebeam.sb3 import VecEnv
+
+
+class Interface(unittest.TestCase):
+    def setUp(self):
+        self.envs = VecEnv("beamfall", 2, seed=1, frameskip=60, render_mode="rgb_array")
+
+    def test_it_shows_what_AtariVectorEnv_shows(self):
+        self.assertIsInstance(self.envs, Base)
+        other = AtariVectorEnv("beamfall", 2, seed=1, frameskip=60, autoreset_mode="SameStep", start="baselines", lives="end")
+        self.assertTrue(np.array_equal(self.envs.reset(), other.reset()[0]))
+        returns, episodes, ends = np.zeros(2), 0, 0
+        frames_before = np.zeros(2)
+        for step in range(120):
+            seen, rewards, done, infos = self.envs.step(np.full(2, step % 6))
+            expected, theirs, terminated, truncated, told = other.step(np.full(2, step % 6))
+            self.assertTrue(np.array_equal(seen, expected) and np.array_equal(rewards, theirs))
+            self.assertEqual((rewards.dtype, done.tolist()), (np.float32, (terminated | truncated).tolist()))
+            returns += told["raw_reward"]
+            for env, info in enumerate(infos):
+                self.assertEqual("terminal_observation" in info, done[env])
+                frames = told["episode_frame_number"][env]
+                self.assertEqual("episode" in info, frames < frames_before[env])
+                if told["game_over"][env]:
+                    self.assertIn("episode", info)
+                frames_before[env] = frames
+                ends += done[env]
+                if done[env]:
+                    self.assertTrue(np.array_equal(info["terminal_observation"], told["final_obs"][env]))
+                    self.assertIs(info["TimeLimit.truncated"], False)
+                if "episode" in info:
+                    frames = told["final_info"]["episode_frame_number"][env]
+                    self.assertEqual((info["episode"]["r"], info["episode"]["l"]), (returns[env], frames))
+                    returns[env] = 0
+                    episodes += 1
+        self.assertGreater(ends, episodes)
+        self.assertGreater(episodes, 0)
+
+    def test_policies_are_evaluated_by_whole_games(self):
+        class Fire:
+            def predict(self, observations, state, **_):
+                return np.ones(len(observations), int), state
+        mean, deviation = evaluate_policy(Fire(), self.envs, n_eval_episodes=4)
+        self.assertGreater(mean, 0)
+
+    @unittest.skipIf(importlib.util.find_spec("cv2") is None, "make_atari_env needs OpenCV")
+    def test_it_plays_what_make_atari_env_plays(self):
+        ours = VecEnv("beamfall", 1, noop_max=0, reward_clipping=False)
+        theirs = make_atari_env(lambda **more: gymnasium.make("racebeam/Beamfall-v5", frameskip=1, repeat_action_probability=0.0, **more), 1,
+                                seed=3, wrapper_kwargs={"noop_max": 0, "clip_reward": False})
+        ours.seed(3)
+        seen, expected, ended = ours.reset()[:, -1:], theirs.reset(), 0
+        for step in range(800):
+            self.assertLess((seen != expected.transpose(0, 3, 1, 2)).mean(), 0.05)
+            action = np.array([ours.action_space.n * (step // 3 * 7 % 11) // 11])
+            seen, rewards, done, infos = ours.step(action)
+            expected, *told = theirs.step(action)
+            seen = seen[:, -1:]
+            self.assertEqual((rewards.tolist(), done.tolist(), infos[0]["lives"]), (*(part.tolist() for part in told[:2]), told[2][0]["lives"]))
+            parts = [[info["episode"][key] for key in "rl"] if "episode" in info else None for info in (infos[0], told[2][0])]
+            self.assertEqual(parts[0], parts[1])
+            ended += parts[0] is not None
+        self.assertGreater(ended, 0)
+
+    def test_seeds(self):
+        self.envs.seed(5)
+        first = self.envs.reset()
+        self.envs.step(np.zeros(2, int))
+        self.envs.seed(5)
+        self.assertTrue(np.array_equal(self.envs.reset(), first))
+
+    def test_what_wrappers_ask(self):
+        self.assertEqual(self.envs.env_is_wrapped(Monitor), [True, True])
+        self.assertEqual(self.envs.env_is_wrapped(VecMonitor), [False, False])
+        self.assertEqual(self.envs.get_attr("num_envs", 0), [2])
+        self.assertEqual(len(self.envs.env_method("save")), 2)
+        self.assertEqual(self.envs.get_images()[1].shape, (210, 160, 3))
+        self.envs.close()
+
+    def test_it_learns(self):
+        PPO("CnnPolicy", VecEnv("beamfall", 2, seed=1), n_steps=16, batch_size=16, n_epochs=1).learn(64)
+
+
+if __name__ == "__main__":
+    package.main()

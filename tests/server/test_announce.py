@@ -1,0 +1,160 @@
+"""The announce file: what it says, who may read it, when it is gone, and what is not replaced."""
+
+import json
+import os
+import re
+import resource
+import signal
+import socket
+import stat
+import subprocess
+import tempfile
+import time
+import unittest
+
+from harness import BINARY, PATIENCE, Server, ask, connect_tcp, connect_unix, main, run, serve
+
+FIRST_BYTES = '{"racebeam_announce": 1,'
+
+
+def wait_for(path):
+    deadline = time.monotonic() + PATIENCE
+    while not os.path.exists(path):
+        if time.monotonic() > deadline:
+            raise AssertionError(f"there is no {path}")
+        time.sleep(0.005)
+    with open(path) as file:
+        return file.read()
+
+
+def port_of(announced):
+    return int(announced["addresses"][0].rsplit(":", 1)[1])
+
+
+class Announced(unittest.TestCase):
+    def test_it_says_what_a_client_needs(self):
+        with Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:a \"quoted\" name",
+                    "--listen", "classic+unix:classic", "--rom", "builtin:beamfall", "--announce", "announce") as server:
+            text = wait_for(server.path("announce"))
+            announced = json.loads(text)
+            tcp, local = announced["addresses"]
+            self.assertRegex(tcp, r"^tcp://127\.0\.0\.1:\d+$")
+            self.assertEqual(local, 'unix:a "quoted" name')
+            version = run("--version")[1].decode().split()[1]
+            self.assertEqual({**announced, "addresses": [], "token": ""},
+                             {"racebeam_announce": 1, "addresses": [], "host": socket.gethostname(),
+                              "process": server.process.pid, "version": version, "games": ["beamfall", "updraft"], "token": ""})
+            self.assertRegex(announced["token"], "^[0-9a-f]{64}$")
+            # The layout that programs without a parser of JSON rely on
+            lines = text.splitlines()
+            self.assertEqual(lines[0], FIRST_BYTES)
+            self.assertIn(f'  "{tcp}",', lines)
+            self.assertEqual(lines[-1], f' "token": "{announced["token"]}"}}')
+
+    def test_its_owner_alone_can_read_it(self):
+        before = os.umask(0)
+        try:
+            with serve("--announce", "announce") as server:
+                wait_for(server.path("announce"))
+                self.assertEqual(stat.S_IMODE(os.stat(server.path("announce")).st_mode), 0o600)
+        finally:
+            os.umask(before)
+
+    def test_its_token_is_needed_over_TCP_and_not_on_a_Unix_socket(self):
+        with serve("--listen", "unix:s", "--announce", "announce") as server:
+            announced = json.loads(wait_for(server.path("announce")))
+            wire, local = connect_tcp(port_of(announced)), connect_unix(server.path("s"))
+            self.assertTrue(ask(wire, b"games").startswith(b"error unauthorized "))
+            self.assertTrue(ask(wire, b"hello token=" + b"0" * 64).startswith(b"error unauthorized "))
+            hello = b"hello token=" + announced["token"].encode()
+            self.assertIn(b" admitted=1 ", ask(wire, hello))
+            self.assertTrue(ask(wire, b"games").startswith(b"ok "))
+            self.assertTrue(ask(local, b"games").startswith(b"ok "))
+            self.assertTrue(ask(local, hello).startswith(b"ok "))
+            wire.close()
+            local.close()
+
+    def test_tokens_of_a_file_are_admitted_as_well_and_survive_a_reload(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "tokens")
+            with open(path, "w") as tokens:
+                tokens.write("0123456789abcdef\n")
+            os.chmod(path, 0o600)
+            with serve("--token-file", path, "--announce", "announce") as server:
+                announced = json.loads(wait_for(server.path("announce")))
+                server.process.send_signal(signal.SIGHUP)
+                server.wait_for("read the token file again")
+                for token in ("0123456789abcdef", announced["token"]):
+                    wire = connect_tcp(port_of(announced))
+                    self.assertIn(b" admitted=1 ", ask(wire, b"hello token=" + token.encode()))
+                    wire.close()
+
+    def test_every_server_has_another_token(self):
+        tokens = set()
+        for _ in range(2):
+            with serve("--announce", "announce") as server:
+                tokens.add(json.loads(wait_for(server.path("announce")))["token"])
+        self.assertEqual(len(tokens), 2)
+
+    def test_all_addresses_of_a_machine_are_its_host_name(self):
+        with Server("serve", "--listen", "tcp://0.0.0.0:0", "--announce", "announce") as server:
+            announced = json.loads(wait_for(server.path("announce")))
+            self.assertEqual(announced["addresses"], [f"tcp://{socket.gethostname()}:{port_of(announced)}"])
+
+
+class Life(unittest.TestCase):
+    def test_it_is_gone_as_soon_as_the_server_is_told_to_stop(self):
+        with serve("--announce", "announce", "--grace", "60") as server:
+            announced = json.loads(wait_for(server.path("announce")))
+            wire = connect_tcp(port_of(announced))
+            ask(wire, b"hello token=" + announced["token"].encode())
+            server.process.send_signal(signal.SIGTERM)
+            server.wait_for("told to stop")
+            self.assertFalse(os.path.exists(server.path("announce")))
+            wire.close()
+            self.assertEqual(server.wait(), 0)
+
+    def test_a_stale_one_is_gone_when_the_next_start_fails(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "announce")
+            with serve("--announce", path) as server:
+                wait_for(path)
+                server.process.kill()
+                server.wait()
+            self.assertTrue(os.path.exists(path))
+            status, _, errors = run("serve", "--listen", "unix:s", "--roms", "/nowhere", "--announce", path)
+            self.assertEqual((status, os.listdir(folder)), (4, []), errors)
+
+    def test_what_is_no_announce_file_is_refused_and_stays(self):
+        texts = {"notes": "dear diary", "empty": "", "json": '{"a": 1}', "ready": "# racebeam ready file: x\n"}
+        for name, text in texts.items():
+            with self.subTest(name=name), tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, name)
+                with open(path, "w") as file:
+                    file.write(text)
+                status, output, errors = run("serve", "--listen", "tcp://127.0.0.1:0", "--announce", path)
+                self.assertEqual((status, output, len(errors)), (1, b"", 1), errors)
+                self.assertIn(f"--announce {path} exists, and is not an announce file", errors[0])
+                with open(path) as file:
+                    self.assertEqual(file.read(), text)
+
+    def test_a_full_disk_leaves_nothing_half_written(self):
+        def limit():  # a write beyond it fails, as on a full disk
+            resource.setrlimit(resource.RLIMIT_FSIZE, (64, 64))
+        for option, name in (("--announce", "announce file"), ("--ready-file", "ready file")):
+            with self.subTest(option=option), tempfile.TemporaryDirectory() as folder:
+                done = subprocess.run([BINARY, "serve", "--listen", "tcp://127.0.0.1:0", "--log-level", "error", option, "file"],
+                                      capture_output=True, cwd=folder, timeout=PATIENCE, preexec_fn=limit)
+                self.assertEqual((done.returncode, os.listdir(folder)), (1, []), done.stderr)
+                self.assertEqual(done.stderr.decode(), f"racebeam: cannot write the {name} file: File too large\n")
+
+    def test_it_needs_a_socket_with_the_line_protocol(self):
+        for words in (["--stdio"], ["--listen", "classic+unix:s", "--rom", "builtin:beamfall"]):
+            with tempfile.TemporaryDirectory() as folder:
+                status, _, errors = run("serve", *words, "--announce", "announce", cwd=folder)
+                self.assertEqual((status, os.listdir(folder)), (2, []), errors)
+                self.assertTrue(re.search("--announce: requires the line protocol on a socket", errors[0]), errors)
+
+
+if __name__ == "__main__":
+    main()
