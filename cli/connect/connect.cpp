@@ -29,8 +29,8 @@ that begin with a colon are for this program:
   :help       list these lines; help is the server's
   :quit       end, as the end of the input does
 
-Address: tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, or file:PATH, a server's --ready-file. Without one,
-the variable RACEBEAM_ADDRESS is used.
+Address: tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, or file:PATH, a server's --ready-file or
+--announce file. Without one, the variable RACEBEAM_ADDRESS is used.
 
 Exit status: 0; 1 if the server is not there or goes; with --strict also at the first error.
 
