@@ -41,9 +41,10 @@ TEST_CASE("A million states that differ in a counter have different hashes") {
   CHECK(all_different(hashes));
   // With 32 bits, 116 collisions are expected; a good hash has few more.
   std::ranges::sort(low_halves);
-  const auto tail = std::ranges::unique(low_halves);
-  CHECK(tail.size() < 200);
-  CHECK(tail.size() > 50);
+  // clang 14 does not compile the subrange that std::ranges::unique returns.
+  const auto collisions = low_halves.end() - std::unique(low_halves.begin(), low_halves.end());
+  CHECK(collisions < 200);
+  CHECK(collisions > 50);
 }
 
 TEST_CASE("Each bit of a state changes each bit of its hash about half the time") {
