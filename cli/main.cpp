@@ -22,6 +22,7 @@
 #include "cli/commands/trace.hpp"
 #include "cli/commands/verify.hpp"
 #include "cli/commands/with.hpp"
+#include "cli/connect/connect.hpp"
 #include "system/printable.hpp"
 
 namespace {
@@ -97,6 +98,7 @@ int main(int argc, char** argv) {
   racebeam::add_with(app);
   racebeam::add_config(app);
   racebeam::add_classic(app);
+  racebeam::add_connect(app);
   racebeam::add_trace(app);
   racebeam::add_bench(app);
   racebeam::add_games(app);

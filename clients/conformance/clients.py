@@ -56,6 +56,7 @@ CLIENTS = (
       for program in ("lua5.1", "lua5.4", "luajit")),
     Client("c++", "cpp", ("python3", "-B", str(HERE / "run_cpp.py"), str(HERE / "runner.cpp")), "clients/cpp/racebeam/**/*.hpp",
            build=("python3", "-B", str(HERE / "run_cpp.py"), "--build", str(HERE / "runner.cpp")),
+           offers=EVERYTHING,
            compiler=("python3", "-B", str(HERE / "run_cpp.py"), "--build"),
            probe=("python3", "-B", str(HERE / "run_cpp.py"), "--probe")),
     Client("javascript", "js", ("node", str(HERE / "runner.mjs")), "clients/js/src/*.js"),

@@ -142,6 +142,21 @@ TEST_CASE("An image of the client's is loaded, and what is none is refused") {
   CHECK(game.load_image(client::Bytes(4096, 0xEA), "as=beamfall").number("rule") == 1);
 }
 
+TEST_CASE("Bytes that follow a line belong to its reply") {
+  const Server server([](const std::string& line) {
+    if (line.starts_with("observe")) return std::string("ok fields=ram\n");
+    if (line == "less") return std::string("ok ram=3 raw=2\n\n\n");
+    return std::string("ok ram=3 raw=3\n\n|\n");
+  });
+  auto game = client::connect(server.address());
+  game.observe("ram:raw");
+  for (int n = 0; n < 2; ++n) game.send("act FIRE");
+  CHECK(game.act("FIRE").bytes("ram") == client::Bytes{'\n', '|', '\n'});
+  CHECK(game.receive().first().bytes("ram") == client::Bytes{'\n', '|', '\n'});
+  CHECK_FALSE(game.receive().first().has("raw"));
+  CHECK_THROWS_AS(game.request("less"), client::Lost);
+}
+
 TEST_CASE("base64 ends in any number of bytes") {
   for (std::size_t size = 0; size < 7; ++size) {
     const client::Bytes bytes(size, 0xA7);

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -60,6 +61,16 @@ class Installed(unittest.TestCase):
                 self.assertEqual(run(program), SCORE)
                 version = run("pkg-config", "--modversion", package, PKG_CONFIG_PATH=str(self.pkgconfig))
                 self.assertEqual(version.strip(), VERSION)
+
+    def test_the_programs_of_its_page_are_built(self):
+        blocks = dict(re.findall(r"^```(cpp|cmake)\n(.*?)^```$", (SOURCE / "docs/api/README.md").read_text(), re.MULTILINE | re.DOTALL))
+        agent = self.prefix / "agent"
+        agent.mkdir()
+        (agent / "agent.cpp").write_text(blocks["cpp"])
+        (agent / "CMakeLists.txt").write_text(blocks["cmake"])
+        run("cmake", "-S", agent, "-B", agent / "built", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run("cmake", "--build", agent / "built")
+        self.assertRegex(run(agent / "built/agent"), r"^\d+\n$")
 
     def test_the_program_runs_where_it_is_installed(self):
         self.assertEqual(run(self.prefix / "bin/racebeam", "--version"), f"racebeam {VERSION}\n")

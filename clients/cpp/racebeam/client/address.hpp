@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "racebeam/client/errors.hpp"
 
@@ -17,6 +19,7 @@ struct Address {
   Kind kind = Kind::kStdio;
   std::string place;       ///< host, path or prefix
   std::uint16_t port = 0;  ///< of kTcp and kTls
+  std::string token = {};  ///< of an announce file
 };
 
 [[noreturn]] inline void refuse_address(std::string_view text) {
@@ -29,14 +32,79 @@ struct Address {
 
 inline Address parse_address(std::string_view text);
 
-/// The first address in a file that `racebeam serve --ready-file` wrote.
+/// The texts in quotes of a line of JSON, without their escapes: of an address, or of a key and its value.
+inline std::vector<std::string> quoted_texts(std::string_view line) {
+  std::vector<std::string> texts;
+  bool inside = false;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    if (line[at] == '"') {
+      inside = !inside;
+      if (inside) texts.emplace_back();
+    } else if (inside) {
+      if (line[at] == '\\' && at + 1 < line.size()) ++at;
+      texts.back() += line[at];
+    }
+  }
+  return texts;
+}
+
+/// The addresses of a ready file, or those of an announce file and its token (server/README.md, "The announce
+/// file").
+class ServerFile {
+ public:
+  explicit ServerFile(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) throw Lost(std::string("cannot read ").append(path));
+    for (std::string line; std::getline(file, line);) addresses.push_back(line);
+    if (!addresses.empty() && addresses[0].starts_with('{')) read_announcement(path);
+  }
+
+  std::vector<std::string> addresses;
+  std::string token;
+
+ private:
+  void read_announcement(const std::string& path) {
+    constexpr std::string_view kVersion = "{\"racebeam_announce\": ", kAddress = "  \"",
+                               kToken = " \"token\": \"";
+    const std::vector<std::string> lines = std::move(addresses);
+    addresses.clear();
+    if (!lines[0].starts_with(kVersion) || !lines.back().starts_with(kToken) ||
+        !lines.back().ends_with("\"}"))
+      throw std::invalid_argument(path + " is not a whole announce file");
+    if (lines[0].substr(kVersion.size()) != "1,")
+      throw std::invalid_argument(path +
+                                  " is an announce file of another version than 1, which this client reads");
+    for (const std::string& line : lines)
+      if (line.starts_with(kAddress)) addresses.push_back(quoted_texts(line).at(0));
+    token = quoted_texts(lines.back()).at(1);
+  }
+};
+
+/// The first address in a file that `racebeam serve --ready-file` or `--announce` wrote.
 inline Address address_in_file(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw Lost(std::string("cannot read ").append(path));
-  for (std::string line; std::getline(file, line);)
-    for (const std::string_view usable : {"tcp:", "tls:", "unix:", "pipes:"})
-      if (line.starts_with(usable)) return parse_address(line);
+  const ServerFile file(path);
+  for (const std::string& text : file.addresses) {
+    for (const std::string_view usable : {"tcp:", "tls:", "unix:", "pipes:"}) {
+      if (!text.starts_with(usable)) continue;
+      Address address = parse_address(text);
+      address.token = file.token;
+      return address;
+    }
+  }
   throw std::invalid_argument(path + " names no address that this client can use");
+}
+
+/// `file:PATH?wait=SECONDS` without what begins at the question mark, and the seconds; else the text, and 0.
+inline std::pair<std::string_view, double> without_wait(std::string_view text) {
+  constexpr std::string_view kWait = "?wait=";
+  const std::size_t at = text.rfind(kWait);
+  if (!text.starts_with("file:") || at == std::string_view::npos) return {text, 0};
+  double seconds = 0;
+  const std::string_view number = text.substr(at + kWait.size());
+  const auto [end, failure] = std::from_chars(number.data(), number.data() + number.size(), seconds);
+  const bool whole =
+      failure == std::errc{} && end == number.data() + number.size() && seconds >= 0 && seconds < 1e9;
+  return whole ? std::pair{text.substr(0, at), seconds} : std::pair{text, 0.0};
 }
 
 /// Throws std::invalid_argument if the text is no address.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdlib>
 #include <deque>
 #include <memory>
@@ -119,7 +120,9 @@ class AsyncSession : public Commands<AsyncSession> {
         unanswered_.pop_front();
         ahead_ -= request.size();
       }
-      co_return understood(request, std::move(line));
+      std::string bytes;  // read before anything is thrown: the next reply begins behind them
+      if (const std::size_t count = take_raw(line)) bytes = co_await lines_->read_bytes(count);
+      co_return understood(request, std::move(line), bytes);
     } catch (const Lost&) {
       close();
       throw;
@@ -129,7 +132,17 @@ class AsyncSession : public Commands<AsyncSession> {
     }
   }
 
-  Outcome understood(std::string_view request, std::string line) {
+  /// How many bytes follow the line, which loses the pair that says so (the encoding raw).
+  static std::size_t take_raw(std::string& line) {
+    constexpr std::string_view kRaw = " raw=";
+    const std::size_t last = line.rfind(' ');
+    if (!line.starts_with("ok ") || line.compare(last, kRaw.size(), kRaw) != 0) return 0;
+    const auto count = detail::to_number<std::size_t>(std::string_view(line).substr(last + kRaw.size()));
+    line.resize(last);
+    return count;
+  }
+
+  Outcome understood(std::string_view request, std::string line, std::string_view bytes) {
     constexpr std::string_view kError = "error ";
     if (line.starts_with(kError)) {
       const std::size_t end = line.find(' ', kError.size());
@@ -138,7 +151,7 @@ class AsyncSession : public Commands<AsyncSession> {
     }
     if (line != "ok" && !line.starts_with("ok "))
       throw std::invalid_argument(std::string("'").append(line, 0, 60).append("' is no reply"));
-    return fields_.follow(request, std::move(line));
+    return fields_.follow(request, std::move(line), bytes);
   }
 
   static Reply take(Outcome outcome) {
@@ -167,10 +180,11 @@ inline asio::awaitable<AsyncSession> opened(std::shared_ptr<Lines> lines) {
   co_return AsyncSession(std::move(lines));
 }
 
-inline asio::awaitable<AsyncSession> connected(std::string address, Options options) {
+inline asio::awaitable<AsyncSession> connected_once(std::string text, Options options) {
   const asio::any_io_executor executor = co_await asio::this_coro::executor;
-  auto connection = make_connection(executor, parse_address(address), options);
-  const auto lines = std::make_shared<Lines>(std::move(connection), executor, options);
+  const Address address = parse_address(text);
+  if (options.token.empty()) options.token = address.token;
+  const auto lines = std::make_shared<Lines>(make_connection(executor, address, options), executor, options);
   AsyncSession session = co_await opened(lines);
   std::string greeting = "hello";
   if (!options.token.empty()) greeting += " token=" + options.token;
@@ -178,6 +192,24 @@ inline asio::awaitable<AsyncSession> connected(std::string address, Options opti
   if (!hello.first().has("protocol") || hello.first().text("protocol") != std::to_string(kProtocol))
     throw Lost("'" + hello.line().substr(0, 60) + "' does not say protocol=" + std::to_string(kProtocol));
   co_return session;
+}
+
+/// Tries again while the time of `?wait=SECONDS` lasts.
+inline asio::awaitable<AsyncSession> connected(std::string text, Options options) {
+  const auto [address, seconds] = without_wait(text);
+  const std::string known(address);
+  asio::steady_timer pause(co_await asio::this_coro::executor);
+  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (true) {
+    try {
+      auto session = connected_once(known, options);
+      co_return co_await std::move(session);
+    } catch (const Lost&) {
+      if (std::chrono::steady_clock::now() >= until) throw;
+    }
+    pause.expires_after(std::chrono::milliseconds(50));
+    co_await pause.async_wait(asio::use_awaitable);
+  }
 }
 
 inline asio::awaitable<AsyncSession> launched(std::vector<std::string> command, Options options) {

@@ -21,15 +21,16 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// The encodings of fields that are bytes (protocol/PROTOCOL.md, "Encodings"). Each decoder throws
 /// std::invalid_argument if the text has another form.
-enum class Encoding { kHex, kRle, kDelta, kBase64, kZlib };
+enum class Encoding { kHex, kRle, kDelta, kBase64, kZlib, kRaw };
 
 /// The encoding of this name, if there is one.
 inline std::optional<Encoding> encoding_of(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Encoding>, 5> kNames{{{"hex", Encoding::kHex},
+  constexpr std::array<std::pair<std::string_view, Encoding>, 6> kNames{{{"hex", Encoding::kHex},
                                                                          {"rle", Encoding::kRle},
                                                                          {"delta", Encoding::kDelta},
                                                                          {"base64", Encoding::kBase64},
-                                                                         {"zlib", Encoding::kZlib}}};
+                                                                         {"zlib", Encoding::kZlib},
+                                                                         {"raw", Encoding::kRaw}}};
   for (const auto& [known, encoding] : kNames)
     if (known == name) return encoding;
   return std::nullopt;
@@ -182,16 +183,17 @@ inline Bytes from_zlib(std::string_view text) {
   }
 }
 
-/// Decodes a text whose encoding is not delta, which needs an array: apply_delta().
+/// Decodes a text. A delta needs an array, apply_delta(), and raw bytes are no text.
 inline Bytes decode(Encoding encoding, std::string_view text) {
   switch (encoding) {
     case Encoding::kHex: return from_hex(text);
     case Encoding::kRle: return from_rle(text);
     case Encoding::kBase64: return from_base64(text);
     case Encoding::kZlib: return from_zlib(text);
-    case Encoding::kDelta: break;
+    case Encoding::kDelta:
+    case Encoding::kRaw: break;
   }
-  throw std::invalid_argument("a delta needs the array that it changes");
+  throw std::invalid_argument("this encoding is not a text alone");
 }
 
 }  // namespace racebeam::client

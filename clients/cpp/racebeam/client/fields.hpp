@@ -15,8 +15,9 @@ namespace racebeam::client::detail {
 /// Decodes the fields of replies. It follows what requests that were granted change about later replies.
 class Fields {
  public:
-  /// The reply to `request`. Throws std::invalid_argument if a value cannot be decoded.
-  Reply follow(std::string_view request, std::string line) {
+  /// The reply to `request`; `raw` has the bytes that followed its line. Throws std::invalid_argument if a
+  /// value cannot be decoded.
+  Reply follow(std::string_view request, std::string line, std::string_view raw) {
     std::vector<std::string_view> words;
     for (const std::string_view word : split(request, ' '))
       if (!word.empty()) words.push_back(word);
@@ -26,6 +27,7 @@ class Fields {
     const bool looks = command == "look" && !words.empty();
     const Encodings once = looks ? encodings(words) : Encodings{};
     const Encodings& chosen = looks ? once : chosen_;
+    raw_ = raw;
     return Reply(std::move(line),
                  [&](Group::Value& value, std::size_t machine) { decode_value(value, machine, chosen); });
   }
@@ -56,13 +58,26 @@ class Fields {
     const auto found = chosen.find(field);
     if (found == chosen.end()) return;
     value.is_bytes = true;
-    if (found->second != Encoding::kDelta) {
+    if (found->second == Encoding::kRaw) {
+      value.bytes = take_raw(to_number<std::size_t>(value.text));
+    } else if (found->second == Encoding::kDelta) {
+      value.bytes = changed(machine, field, value.text);
+    } else {
       value.bytes = decode(found->second, value.text);
-      return;
     }
+  }
+
+  Bytes take_raw(std::size_t size) {
+    if (size > raw_.size()) throw std::invalid_argument("fewer bytes follow the line than it says");
+    const std::string_view bytes = raw_.substr(0, size);
+    raw_.remove_prefix(size);
+    return {bytes.begin(), bytes.end()};
+  }
+
+  const Bytes& changed(std::size_t machine, std::string_view field, std::string_view delta) {
     Bytes& array = arrays_.try_emplace({machine, std::string(field)}, size(field)).first->second;
-    apply_delta(array, value.text);
-    value.bytes = array;
+    apply_delta(array, delta);
+    return array;
   }
 
   /// The usual encoding of a field; nothing for fields that are not bytes.
@@ -115,6 +130,8 @@ class Fields {
   std::map<std::pair<std::size_t, std::string>, Bytes>
       arrays_;  // what deltas have made; machine 0 is that of load
   std::size_t height_ = 0;
+  std::string_view
+      raw_;  // bytes behind the line of the reply that is being decoded, which no field has taken
 };
 
 }  // namespace racebeam::client::detail

@@ -50,14 +50,20 @@ class Lines : public std::enable_shared_from_this<Lines> {
         begin_ += line.size() + 1;
         co_return line;
       }
-      make_room();
-      searched = filled_;
-      try {
-        filled_ += co_await connection_->read(asio::buffer(data_.data() + filled_, data_.size() - filled_));
-      } catch (const boost::system::system_error& failure) {
-        lose(failure);
-      }
+      const std::size_t behind = filled_ - begin_;
+      co_await read_more();
+      searched = begin_ + behind;
     }
+  }
+
+  /// The next bytes, which follow a line.
+  asio::awaitable<std::string> read_bytes(std::size_t count) {
+    const Watch watch(*this);
+    if (count > options_.longest_reply) refuse_length();
+    while (filled_ - begin_ < count) co_await read_more();
+    std::string bytes(std::as_const(data_).data() + begin_, count);
+    begin_ += count;
+    co_return bytes;
   }
 
   void close() noexcept { connection_->close(); }
@@ -92,11 +98,22 @@ class Lines : public std::enable_shared_from_this<Lines> {
     throw Lost(std::string("the connection failed: ").append(failure.what()));
   }
 
+  asio::awaitable<void> read_more() {
+    make_room();
+    try {
+      filled_ += co_await connection_->read(asio::buffer(data_.data() + filled_, data_.size() - filled_));
+    } catch (const boost::system::system_error& failure) {
+      lose(failure);
+    }
+  }
+
+  [[noreturn]] void refuse_length() const {
+    throw Lost("the reply of the server is longer than " + std::to_string(options_.longest_reply) + " bytes");
+  }
+
   /// Makes room behind what was read.
   void make_room() {
-    if (filled_ - begin_ > options_.longest_reply)
-      throw Lost("the reply of the server is longer than " + std::to_string(options_.longest_reply) +
-                 " bytes");
+    if (filled_ - begin_ > options_.longest_reply) refuse_length();
     std::copy(data_.begin() + static_cast<std::ptrdiff_t>(begin_),
               data_.begin() + static_cast<std::ptrdiff_t>(filled_), data_.begin());
     filled_ -= begin_;

@@ -1,0 +1,174 @@
+#include "cli/connect/connect.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <racebeam/client.hpp>
+#include <sstream>
+#include <string>
+
+#include "cli/connect/half_blocks.hpp"
+#include "cli/connect/line_editor.hpp"
+#include "system/input_file.hpp"
+#include "system/printable.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr auto kFooter =
+    R"(Sends each line to a server of the line protocol, and prints its reply. On a terminal, lines can be edited, and
+earlier lines are recalled with the arrow keys; a value of more than 200 characters is shown by its length. Lines
+that begin with a colon are for this program:
+  :screen     show the screen in colours, as the half blocks of a terminal with 24-bit colours
+  :help       list these lines; help is the server's
+  :quit       end, as the end of the input does
+
+Address: tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, or file:PATH, a server's --ready-file or
+--announce file. Without one, the variable RACEBEAM_ADDRESS is used.
+
+Exit status: 0; 1 if the server is not there or goes; with --strict also at the first error.
+
+Examples:
+  racebeam connect tcp://127.0.0.1:7800
+  printf 'load beamfall\nact FIRE*30\n:screen\n' | racebeam connect unix:/run/racebeam/socket)";
+
+constexpr auto kLocalHelp =
+    ":screen shows the screen, :quit ends, and other lines go to the server; help explains its commands";
+
+constexpr std::size_t kLongestShown = 200;  // characters of a value on a terminal
+constexpr std::size_t kUsualColumns = 80, kMostColumns = 160;
+constexpr std::size_t kMostTokenFile = 1 << 16;
+
+struct ConnectOptions {
+  std::string address, token_file;
+  client::Options client;
+  double timeout = 0;  // seconds; 0: none
+  bool strict = false;
+};
+
+// The first token of a file of the form that serve --token-file reads.
+std::string token_in(const std::string& path) {
+  std::istringstream lines(read_input_file("token file", path, kMostTokenFile));
+  for (std::string line; std::getline(lines, line);) {
+    while (line.ends_with('\r') || line.ends_with(' ')) line.pop_back();
+    if (!line.empty() && !line.starts_with('#')) return line;
+  }
+  throw std::invalid_argument("the token file " + path + " has no token");
+}
+
+std::size_t terminal_columns() {
+  winsize size{};
+  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsualColumns;
+  return std::min<std::size_t>(size.ws_col, kMostColumns);
+}
+
+// A reply in which long values are replaced by their lengths.
+std::string shortened(std::string_view line) {
+  std::string text;
+  for (const std::string_view word : client::detail::split(line, ' ')) {
+    if (!text.empty()) text += ' ';
+    const std::size_t begin = word.find('=') + 1;  // 0 without a value
+    if (word.size() - begin > kLongestShown && begin > 0) {
+      text.append(word.substr(0, begin + 20))
+          .append("...(")
+          .append(std::to_string(word.size() - begin))
+          .append(")");
+    } else {
+      text.append(word);
+    }
+  }
+  return text;
+}
+
+class Conversation {
+ public:
+  Conversation(client::Session session, bool strict)
+      : session_(std::move(session)), strict_(strict), editor_("racebeam> ", commands(session_)) {}
+
+  // Returns the exit status.
+  int hold() {
+    while (const auto line = editor_.next()) {
+      const std::size_t begin = line->find_first_not_of(" \t\r");
+      if (begin == std::string::npos || (*line)[begin] == '#') continue;
+      if (line->substr(begin) == ":quit") break;
+      if (!answer(line->substr(begin, line->find_last_not_of(" \t\r") + 1 - begin)) && strict_) return 1;
+    }
+    return 0;
+  }
+
+ private:
+  // The commands of the server, for completion: help begins with "commands: hello help ...;".
+  static std::vector<std::string> commands(client::Session& session) {
+    std::vector<std::string> words{":screen", ":help", ":quit"};
+    const std::string told = session.help();
+    std::istringstream list(told.substr(0, told.find(';')));
+    list.ignore(std::numeric_limits<std::streamsize>::max(), ':');
+    for (std::string word; list >> word;) words.push_back(word);
+    return words;
+  }
+
+  // Prints what a line leads to. False if it was refused.
+  bool answer(const std::string& line) {
+    try {
+      if (line == ":screen") {
+        show_screen();
+      } else if (line.starts_with(':')) {
+        std::cout << kLocalHelp << std::endl;
+      } else {
+        const std::string reply = session_.request(line).line();
+        std::cout << printable(editor_.interactive() ? shortened(reply) : reply) << std::endl;
+      }
+      return true;
+    } catch (const client::Refused& refused) {
+      std::cout << "error " << printable(refused.code()) << ' ' << printable(refused.sentence()) << std::endl;
+      return false;
+    }
+  }
+
+  void show_screen() {
+    const auto shown = session_.look("screen:zlib", "palette");
+    std::cout << half_blocks(shown.bytes("screen"), shown.bytes("palette"), terminal_columns()) << std::flush;
+  }
+
+  client::Session session_;
+  bool strict_;
+  LineEditor editor_;
+};
+
+int connect(ConnectOptions options) {
+  if (!options.token_file.empty()) options.client.token = token_in(options.token_file);
+  if (options.timeout > 0)
+    options.client.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * options.timeout));
+  return Conversation(client::connect(options.address, options.client), options.strict).hold();
+}
+
+}  // namespace
+
+void add_connect(CLI::App& app) {
+  auto options = std::make_shared<ConnectOptions>();
+  CLI::App* command = app.add_subcommand("connect", "talk to a server, by hand or from a script");
+  command->footer(kFooter);
+  command->add_option("address", options->address, "where the server is")->envname("RACEBEAM_ADDRESS");
+  command->add_option("--token-file", options->token_file, "send the first token of this file")
+      ->type_name("FILE");
+  command
+      ->add_option("--authorities", options->client.authorities,
+                   "with tls://: trust these certificates, in PEM")
+      ->type_name("FILE");
+  command
+      ->add_option("--timeout", options->timeout, "seconds to wait for a connection or a reply; 0: for ever")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command->add_flag("--strict", options->strict, "end with status 1 at the first error");
+  command->callback([options] {
+    if (const int status = connect(*options); status != 0) throw CLI::RuntimeError(status);
+  });
+}
+
+}  // namespace racebeam

@@ -1,0 +1,95 @@
+#include "cli/connect/line_editor.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#ifdef RACEBEAM_LIBEDIT
+#include <editline/readline.h>
+#endif
+
+namespace racebeam {
+
+#ifdef RACEBEAM_LIBEDIT
+namespace {
+
+constexpr int kMostHistory = 1000;  // lines
+
+// libedit has one state for the program, and its callbacks have no argument of ours.
+std::vector<std::string>& completions() {
+  static std::vector<std::string> words;
+  return words;
+}
+
+// Called until it returns null: the next word that begins with `text`, in memory that libedit frees.
+char* complete(const char* text, int state) {
+  static std::size_t next = 0;
+  if (state == 0) next = 0;
+  while (next < completions().size()) {
+    const std::string& word = completions()[next++];
+    if (word.starts_with(text)) return ::strdup(word.c_str());
+  }
+  return nullptr;
+}
+
+char** complete_first_word(const char* text, int begin, int) {
+  ::rl_attempted_completion_over = 1;  // no file names
+  return begin == 0 ? ::rl_completion_matches(text, complete) : nullptr;
+}
+
+// Where the history is kept (XDG base directories); empty if there is no place.
+std::filesystem::path history_file() {
+  const char* state = std::getenv("XDG_STATE_HOME");
+  const char* home = std::getenv("HOME");
+  if (state != nullptr && *state == '/') return std::filesystem::path(state) / "racebeam_history";
+  return home != nullptr ? std::filesystem::path(home) / ".local/state/racebeam_history"
+                         : std::filesystem::path{};
+}
+
+}  // namespace
+
+LineEditor::LineEditor(std::string prompt, std::vector<std::string> words)
+    : prompt_(std::move(prompt)), interactive_(::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0) {
+  if (!interactive_) return;
+  completions() = std::move(words);
+  ::rl_attempted_completion_function = complete_first_word;
+  ::using_history();
+  ::stifle_history(kMostHistory);
+  ::read_history(history_file().c_str());
+}
+
+LineEditor::~LineEditor() {
+  if (!interactive_ || history_file().empty()) return;
+  std::error_code ignored;  // without a history, everything else works
+  std::filesystem::create_directories(history_file().parent_path(), ignored);
+  ::write_history(history_file().c_str());
+}
+
+std::optional<std::string> LineEditor::next() {
+  std::string line;
+  if (!interactive_) return std::getline(std::cin, line) ? std::optional(line) : std::nullopt;
+  const std::unique_ptr<char, decltype(&std::free)> typed(::readline(prompt_.c_str()), &std::free);
+  if (!typed) return std::nullopt;
+  line = typed.get();
+  if (!line.empty()) ::add_history(line.c_str());
+  return line;
+}
+#else
+LineEditor::LineEditor(std::string prompt, std::vector<std::string>)
+    : prompt_(std::move(prompt)), interactive_(::isatty(STDIN_FILENO) != 0 && ::isatty(STDOUT_FILENO) != 0) {}
+
+LineEditor::~LineEditor() = default;
+
+std::optional<std::string> LineEditor::next() {
+  if (interactive_) std::cout << prompt_ << std::flush;
+  std::string line;
+  return std::getline(std::cin, line) ? std::optional(line) : std::nullopt;
+}
+#endif
+
+}  // namespace racebeam

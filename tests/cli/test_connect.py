@@ -1,0 +1,158 @@
+"""racebeam connect: a line client for people and for scripts."""
+
+import os
+import pathlib
+import pty
+import re
+import select
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "server"))
+
+from harness import BINARY, PATIENCE, Server  # noqa: E402
+
+TOKEN = "0123456789abcdef"
+PIXEL = re.compile(r"\x1b\[38;2;(\d+);(\d+);(\d+)m\x1b\[48;2;(\d+);(\d+);(\d+)m\u2580")
+
+
+def connect(address, text, *options, **variables):
+    """A run whose input is a pipe."""
+    return subprocess.run([BINARY, "connect", *([address] if address else []), *options], input=text, capture_output=True, text=True,
+                          timeout=PATIENCE, env={**os.environ, **variables})
+
+
+class Piped(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:s")
+        cls.addClassCleanup(cls.server.__exit__)
+        cls.address = f"tcp://127.0.0.1:{cls.server.port()}"
+
+    def test_it_prints_replies_and_errors(self):
+        done = connect(self.address, "load beamfall seed=7 sticky=0\n\n# a comment\nact 99\n  act FIRE*60 \nlook screen\n")
+        lines = done.stdout.splitlines()
+        self.assertEqual((done.returncode, done.stderr, len(lines)), (0, "", 4))
+        self.assertRegex(lines[1], r"^error bad-action '99' is no action; ")
+        self.assertEqual(lines[2], "ok reward=21 terminated=0 truncated=0 lives=4")
+        self.assertGreater(len(lines[3]), 1000)  # whole, though it is long
+
+    def test_the_address_may_be_in_the_environment(self):
+        done = connect("", "hello\n", RACEBEAM_ADDRESS=f"unix:{self.server.path('s')}")
+        self.assertRegex(done.stdout, r"^ok server=racebeam/\S+ protocol=1 ")
+
+    def test_strict_ends_at_the_first_error(self):
+        done = connect(self.address, "nonsense\nhello\n", "--strict")
+        self.assertEqual((done.returncode, len(done.stdout.splitlines())), (1, 1))
+
+    def test_quit_ends(self):
+        self.assertEqual(connect(self.address, ":quit\nhello\n").stdout, "")
+
+    def test_screen_shows_the_colours_of_rgb(self):
+        done = connect(self.address, "load beamfall seed=7\nact FIRE*20\n:screen\n")
+        rows = done.stdout.splitlines()[2:]
+        self.assertEqual(len(rows), 26)  # 80 columns: a picture of 320 x 210 in cells of 1 x 2
+        colours = set()
+        for row in rows:
+            self.assertTrue(row.endswith("\x1b[0m"))
+            cells = PIXEL.findall(row)
+            self.assertEqual(len(cells), 80)
+            colours |= {cell[part:part + 3] for cell in cells for part in (0, 3)}
+        self.assertIn(("0", "0", "0"), colours)
+        self.assertGreater(len(colours), 5)
+
+    def test_screen_without_a_game_is_refused(self):
+        self.assertRegex(connect(self.address, ":screen\nhello\n").stdout, r"^error no-game .*\nok server=")
+
+    def test_a_server_that_is_not_there_is_an_error(self):
+        for address, sentence in (("tcp://127.0.0.1:1", "refused"), ("unix:/nonexistent/s", "No such file"), ("nonsense", "it takes tcp://")):
+            with self.subTest(address):
+                done = connect(address, "hello\n")
+                self.assertEqual((done.returncode, done.stdout), (1, ""))
+                self.assertRegex(done.stderr, f"^racebeam: .*{sentence}.*\n$")
+
+    def test_a_server_that_goes_is_an_error(self):
+        with Server("serve", "--listen", "tcp://127.0.0.1:0", "--grace", "0") as server:
+            client = subprocess.Popen([BINARY, "connect", f"tcp://127.0.0.1:{server.port()}"], stdin=subprocess.PIPE,
+                                      stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            client.stdin.write("hello\n")
+            client.stdin.flush()
+            client.stdout.readline()
+            server.stop()
+        told, errors = client.communicate("hello\nhello\n", timeout=PATIENCE)
+        self.assertEqual(client.returncode, 1, told)
+        self.assertRegex(errors, "^racebeam: ")
+
+
+class Tokens(unittest.TestCase):
+    def test_a_token_file_admits(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "tokens")
+            path.write_text(f"# who may\n{TOKEN}\n")
+            path.chmod(0o600)
+            with Server("serve", "--listen", "tcp://127.0.0.1:0", "--token-file", path) as server:
+                address = f"tcp://127.0.0.1:{server.port()}"
+                self.assertRegex(connect(address, "games\n", "--token-file", path).stdout, "^ok count=2 ")
+                self.assertRegex(connect(address, "games\n").stdout, "^error unauthorized ")
+                (pathlib.Path(folder) / "none").write_text("# nothing\n")
+                done = connect(address, "games\n", "--token-file", f"{folder}/none")
+                self.assertEqual((done.returncode, done.stderr), (1, f"racebeam: the token file {folder}/none has no token\n"))
+
+
+class Typed(unittest.TestCase):
+    """On a terminal."""
+
+    def setUp(self):
+        self.server = Server("serve", "--listen", "tcp://127.0.0.1:0")
+        self.addCleanup(self.server.__exit__)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.state = folder.name
+
+    def run_typed(self, *keys):
+        """What the terminal shows. Each of `keys` is typed after a prompt."""
+        words = [BINARY, "connect", f"tcp://127.0.0.1:{self.server.port()}"]
+        child, terminal = pty.fork()
+        if child == 0:
+            os.execve(BINARY, words, {**os.environ, "XDG_STATE_HOME": self.state, "TERM": "xterm"})
+        shown, waiting, until = "", list(keys), time.monotonic() + PATIENCE
+        prompts = 1
+        while time.monotonic() < until and select.select([terminal], [], [], PATIENCE)[0]:
+            try:
+                shown += os.read(terminal, 65536).decode()
+            except OSError:  # it has ended
+                break
+            if waiting and shown.count("racebeam> ") >= prompts:
+                text = waiting.pop(0)
+                prompts = shown.count("racebeam> ") + 1
+                os.write(terminal, text.encode())
+        os.close(terminal)
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0, shown)
+        return shown
+
+    def test_long_values_are_shortened(self):
+        shown = self.run_typed("load beamfall seed=7\n", "look screen\n", ":quit\n")
+        self.assertRegex(shown, r"ok screen=[0-9A-F]{20}\.\.\.\(\d+\)")
+
+    def test_history_lasts(self):
+        if not self.edits():
+            self.skipTest("built without libedit")
+        self.run_typed("games all\n", ":quit\n")
+        shown = self.run_typed("\x1b[A\x1b[A\n", ":quit\n")  # up, up, enter
+        self.assertIn("ok count=", shown)
+
+    def test_a_command_is_completed(self):
+        if not self.edits():
+            self.skipTest("built without libedit")
+        self.assertIn("error no-game", self.run_typed("difficul\t\n", ":quit\n"))
+
+    @staticmethod
+    def edits():
+        return b"libedit" in subprocess.run(["ldd", BINARY], capture_output=True).stdout
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,100 @@
+"""scripts/release: what it makes of a build that is there. The build itself takes long, and is left out here."""
+
+import hashlib
+import importlib.machinery
+import importlib.util
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tarfile
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / "tests/server"))
+
+from harness import BINARY, main  # noqa: E402
+
+BUILD = pathlib.Path(BINARY).parent
+
+
+def script(name):
+    """A program of scripts/ as a module."""
+    loader = importlib.machinery.SourceFileLoader(name, str(SOURCE / "scripts" / name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+def in_git():
+    return subprocess.run(["git", "rev-parse", "HEAD"], cwd=SOURCE, capture_output=True).returncode == 0
+
+
+class Release(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.release = script("release").Release("HEAD", 1)
+        cls.release.build = lambda *_: None
+        cls.release.pack = lambda source, _, scratch, into, pack=cls.release.pack: pack(source, BUILD, scratch, into)
+        for name in ("first", "second"):
+            (cls.folder / name).mkdir()
+            cls.release.make(cls.folder / name)
+        cls.made = cls.folder / "first"
+        cls.version = cls.release.version
+
+    def unpacked(self, pattern):
+        path = next(self.made.glob(pattern))
+        with tarfile.open(path) as archive:
+            archive.extractall(self.folder / path.name)
+        return next((self.folder / path.name).iterdir())
+
+    def test_all_packages_are_there(self):
+        kinds = {f"racebeam-{self.version}.deb", f"racebeam-{self.version}-source.tar.gz", "racebeam.rb", "PKGBUILD", "sbom.json", "SHA256SUMS"}
+        names = {path.name for path in self.made.iterdir()}
+        self.assertTrue(kinds <= names, names)
+        self.assertEqual(len(names - kinds), 1)  # that of the processor
+
+    def test_two_runs_give_the_same_sums(self):
+        self.assertEqual((self.made / "SHA256SUMS").read_text(), (self.folder / "second/SHA256SUMS").read_text())
+
+    def test_the_sums_are_those_of_the_files(self):
+        lines = (self.made / "SHA256SUMS").read_text().splitlines()
+        self.assertEqual(len(lines), len(list(self.made.iterdir())) - 1)
+        for line in lines:
+            digest, name = line.split()
+            self.assertEqual(hashlib.sha256((self.made / name).read_bytes()).hexdigest(), digest)
+
+    def test_the_program_plays_where_it_is_unpacked(self):
+        program = self.unpacked("*-linux-*.tar.gz") / "bin/racebeam"
+        told = subprocess.run([program, "serve", "--stdio"], input="load beamfall seed=7 sticky=0\nact FIRE*60\n", capture_output=True, text=True)
+        self.assertEqual(told.stdout.splitlines()[-1], "ok reward=21 terminated=0 truncated=0 lives=4")
+
+    def test_the_source_is_that_of_the_commit(self):
+        source = self.unpacked("*-source.tar.gz")
+        listed = subprocess.run(["git", "ls-tree", "-r", "--name-only", "HEAD"], cwd=SOURCE, capture_output=True, text=True, check=True).stdout
+        self.assertEqual({str(path.relative_to(source)) for path in source.rglob("*") if not path.is_dir()}, set(listed.splitlines()))
+
+    def test_the_texts_name_the_source(self):
+        digest = hashlib.sha256(next(self.made.glob("*-source.tar.gz")).read_bytes()).hexdigest()
+        for name in ("racebeam.rb", "PKGBUILD"):
+            text = (self.made / name).read_text()
+            self.assertIn(digest, text)
+            self.assertIn(self.version, text)
+            self.assertNotIn("@", text.replace("openssl@3", "").replace('"$@"', ""))
+        subprocess.run(["bash", "-n", self.made / "PKGBUILD"], check=True)
+
+    def test_the_parts_have_versions(self):
+        told = json.loads((self.made / "sbom.json").read_text())
+        self.assertEqual((told["bomFormat"], told["specVersion"], told["metadata"]["component"]["version"]), ("CycloneDX", "1.5", self.version))
+        names = {part["name"] for part in told["components"]}
+        self.assertTrue({"libc6", "libssl3", "zlib1g", "Boost headers"} <= names, names)
+        self.assertTrue(all(part["version"] and part["purl"].startswith("pkg:deb/debian/") for part in told["components"]))
+
+
+if __name__ == "__main__":
+    main(("git", in_git()), ("dpkg-deb", shutil.which("dpkg-deb")), ("cpack", shutil.which("cpack")))
