@@ -114,7 +114,7 @@ class Gymnasium(unittest.TestCase):
             one.reset()
         for _ in range(10):
             seen = envs.step(np.array([1, 3, 4]))[0]
-            expected = others.step({"action": np.array([4, 1, 3]), "env_id": np.array([2, 0, 1])})[0]
+            expected = others.step({"action": np.array([4, 1, 3], np.int32), "env_id": np.array([2, 0, 1], np.int32)})[0]
             self.assertTrue(np.array_equal(seen, expected))
 
 
@@ -133,7 +133,24 @@ class Others(unittest.TestCase):
         self.assertEqual([one.step_type.tolist() for one in shown], [[0] * 3, [1] * 3, [2] * 3, [0] * 3])
         self.assertEqual([one.discount.tolist() for one in shown], [[1] * 3, [1] * 3, [0] * 3, [1] * 3])
         self.assertEqual(shown[0].observation.obs.shape, (3, 4, 84, 84))
+        self.assertEqual([[one.first().tolist(), one.mid().tolist(), one.last().tolist()] for one in shown[:3]],
+                         [[[part == kind] * 3 for part in range(3)] for kind in range(3)])
         self.assertEqual(shown[0].observation._fields, ("env_id", "players", "obs", "lives", "reward", "terminated", "ram"))
+
+    def test_actions_of_other_types(self):
+        envs = make("dm")
+        envs.reset()
+        ids = np.arange(3, dtype=np.int32)
+        envs.step(np.ones(3))
+        envs.step({"env_id": ids, "players.env_id": ids, "action": np.ones(3, np.int32)})
+        with self.assertRaisesRegex(RuntimeError, "action of the action has the type int64; it must be int32"):
+            envs.step({"env_id": ids, "players.env_id": ids, "action": np.ones(3, np.int64)})
+        with self.assertRaises(TypeError):
+            envs.step(np.full(3, 0.5))
+
+    def test_an_environment_is_one_of_gymnasium(self):
+        for kind in (gymnasium.Env, gymnasium.vector.VectorEnv):
+            self.assertIsInstance(make("gymnasium"), kind)
 
     def test_tasks(self):
         tasks = envpool.list_all_envs()

@@ -1,4 +1,4 @@
-"""The examples learn, at a small scale, and draw their curves. Each is skipped where what it needs is not installed."""
+"""The examples that learn run, at a small scale, and draw their curves. Each is skipped where what it needs is not installed."""
 
 import importlib.util
 import pathlib
@@ -41,7 +41,7 @@ class Examples(unittest.TestCase):
 
     @needs("jax", "optax", "matplotlib")
     def test_ppo_on_ram(self):
-        said = self.run_example("examples/ppo.py", "--updates", 2, "--steps", 128, "--envs", 16, "--curve", "CURVE")
+        said = self.run_example("examples/ppo.py", "updraft", "--updates", 2, "--curve", "CURVE")
         self.assertRegex(said, r"update 2: [1-9]\d* games")
 
     @needs("jax", "optax")

@@ -2,7 +2,7 @@
 """PPO (Schulman et al. 2017) in JAX, on RAM or on pixels, over racebeam's vector environment.
 
     pip install "racebeam[gymnasium]" jax optax matplotlib
-    python ppo.py beamfall --observe ram --curve ppo.png
+    python ppo.py updraft --observe ram --curve ppo.png
 
 A lost life ends an episode for the agent, and the game goes on; rewards are clipped to -1..1, and scores are those of the game.
 With the same seed and processor, it learns the same."""
@@ -171,14 +171,14 @@ def draw(path, points, title):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("game", nargs="?", default="beamfall", help="(default: %(default)s)")
+    parser.add_argument("game", nargs="?", default="updraft", help="(default: %(default)s)")
     parser.add_argument("--observe", choices=("ram", "pixels"), default="ram", help="(default: %(default)s)")
     parser.add_argument("--envs", type=int, default=32, help="(default: %(default)s)")
-    parser.add_argument("--steps", type=int, default=64, help="of each environment before each update (default: %(default)s)")
-    parser.add_argument("--updates", type=int, default=200, help="(default: %(default)s)")
+    parser.add_argument("--steps", type=int, default=128, help="of each environment before each update (default: %(default)s)")
+    parser.add_argument("--updates", type=int, default=100, help="(default: %(default)s)")
     parser.add_argument("--epochs", type=int, default=4, help="of an update (default: %(default)s)")
     parser.add_argument("--parts", type=int, default=4, help="of an epoch (default: %(default)s)")
-    parser.add_argument("--rate", type=float, default=5e-4, help="of learning, at first; it falls to 0 (default: %(default)s)")
+    parser.add_argument("--rate", type=float, default=1e-3, help="of learning, at first; it falls to 0 (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="(default: %(default)s)")
     parser.add_argument("--server", help="the environments run there, such as unix:PATH")
     parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores")

@@ -9,9 +9,11 @@ of range is an IndexError. There is no xla().
 from __future__ import annotations
 
 import re
+import sys
 import warnings
 from typing import Any, NamedTuple
 
+import gymnasium
 import numpy as np
 import numpy.typing as npt
 from gymnasium import spaces
@@ -211,7 +213,10 @@ class _Pool:
 
     def _meant(self, action: Any, env_id: Any) -> Any:
         if isinstance(action, dict):
+            _check_parts(action)
             action, env_id = action["action"], action.get("env_id", action.get("players.env_id", env_id))
+        if isinstance(action, np.ndarray) and action.dtype.kind == "f" and np.array_equal(action, np.floor(action)):
+            action = action.astype(np.int64)
         if env_id is None:
             return action
         received = self._envs.received
@@ -229,7 +234,13 @@ class _Pool:
         return (observations[chosen], rewards[chosen].astype(np.float32), (terminated & ~truncated)[chosen], truncated[chosen], told)
 
 
-class GymnasiumEnvPool(_Pool, VectorEnv[Any, Any, Any]):  # type: ignore[misc]
+def _check_parts(action: dict[str, Any]) -> None:
+    for name, part in action.items():
+        if np.asarray(part).dtype != np.int32:
+            raise InvalidInput(f"{name} of the action has the type {np.asarray(part).dtype}; it must be int32")
+
+
+class GymnasiumEnvPool(_Pool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any]):  # type: ignore[misc]
     """env_type="gymnasium"."""
 
     metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP, "render_modes": ["rgb_array"]}
@@ -287,6 +298,16 @@ class TimeStep(NamedTuple):
     discount: npt.NDArray[np.float32]
     observation: State
 
+    def first(self) -> Any:
+        """Of which environments it is the first of an episode."""
+        return self.step_type == 0
+
+    def mid(self) -> Any:
+        return self.step_type == 1
+
+    def last(self) -> Any:
+        return self.step_type == 2
+
 
 class Players(NamedTuple):
     env_id: Any
@@ -322,6 +343,9 @@ def make_gym(task_id: str, **config: Any) -> GymEnvPool | GymnasiumEnvPool:
 
 
 def make_dm(task_id: str, **config: Any) -> DmEnvPool:
+    """It is a dm_env.Environment to a program that has imported dm_env."""
+    if "dm_env" in sys.modules:
+        sys.modules["dm_env"].Environment.register(DmEnvPool)
     return DmEnvPool(task_id, config)
 
 
