@@ -2,6 +2,7 @@
 #pragma once
 
 #include <charconv>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <optional>
@@ -28,7 +29,7 @@ std::optional<Number> parse_number(std::string_view text) {
   const auto [rest, error] = std::from_chars(text.data(), end, number);
   if (error != std::errc{} || rest != end || text.empty()) return std::nullopt;
   if constexpr (std::floating_point<Number>) {
-    if (!(number - number == 0)) return std::nullopt;
+    if (!std::isfinite(number)) return std::nullopt;
   }
   return number;
 }
