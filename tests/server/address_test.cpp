@@ -7,9 +7,10 @@ using namespace racebeam;
 
 TEST_CASE("An endpoint is written as it is read") {
   for (const std::string text :
-       {"tcp://127.0.0.1:0", "tcp://[::1]:65535", "tls://10.0.0.1:443", "tcp://node-1.cluster:0", "tls://4you.org:1", "tcp://node_1:1", "unix:s", "unix:/run/s", "systemd",
-        "systemd:name", "stdio", "pipes:/tmp/p", "classic+tcp://127.0.0.1:1", "classic+tls://127.0.0.1:1",
-        "classic+tls+unix:s", "tls+systemd:name", "classic+stdio"}) {
+       {"tcp://127.0.0.1:0", "tcp://[::1]:65535", "tls://10.0.0.1:443", "tcp://node-1.cluster:0",
+        "tls://4you.org:1", "tcp://node_1:1", "unix:s", "unix:/run/s", "systemd", "systemd:name", "stdio",
+        "pipes:/tmp/p", "classic+tcp://127.0.0.1:1", "classic+tls://127.0.0.1:1", "classic+tls+unix:s",
+        "tls+systemd:name", "classic+stdio"}) {
     CHECK(to_string(parse_endpoint(text)) == text);
   }
 }
