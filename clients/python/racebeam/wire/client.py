@@ -167,8 +167,8 @@ def reached(address: str | None, opened: Callable[[str], Opened]) -> tuple[Opene
     names; and the token of an announce file. Tries again as long as the address says."""
     address = address or os.environ.get("RACEBEAM_ADDRESS", "")
     waits = WAIT.fullmatch(address)
-    file, seconds = waits.groups() if waits else (address, 0)
-    until = time.monotonic() + float(seconds)
+    file = waits[1] if waits else address
+    until = time.monotonic() + (float(waits[2]) if waits else 0)
     while True:
         try:
             found, token = _in_file(file)
@@ -196,13 +196,13 @@ def _in_file(address: str) -> tuple[str, str | None]:
 
 def _announcement(path: str, text: str) -> dict[str, Any]:
     try:
-        announced = json.loads(text)
-    except ValueError:
+        announced: dict[str, Any] = json.loads(text)
+        version = announced["racebeam_announce"]
+        if version == ANNOUNCEMENT:
+            return {key: announced[key] for key in ("addresses", "token")}
+    except (KeyError, ValueError):
         raise ValueError(f"{path} is not a whole announce file") from None
-    version = announced.get("racebeam_announce")
-    if version != ANNOUNCEMENT:
-        raise ValueError(f"{path} is an announce file of version {version}; this client reads version {ANNOUNCEMENT}")
-    return announced
+    raise ValueError(f"{path} is an announce file of version {version}; this client reads version {ANNOUNCEMENT}")
 
 
 def _open(address: str, tls: ssl.SSLContext | None, timeout: float | None, arrays: bool) -> Session:

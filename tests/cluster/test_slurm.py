@@ -1,0 +1,206 @@
+"""The job scripts of cluster/slurm on a real Slurm, and what they give compared with the same without Slurm.
+
+Slice is what continuous integration has time for, and Whole the rest. Without root, or without Slurm, all are skipped.
+"""
+
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import agent
+import slurm
+
+sys.path.insert(0, str(slurm.TOP / "clients/python/racebeam/wire"))
+import client
+
+BINARY = os.environ.get("RACEBEAM_BINARY", str(slurm.TOP / "build/release/racebeam"))
+SCRIPTS = slurm.TOP / "cluster/slurm"
+AGENT = str(pathlib.Path(agent.__file__).resolve())
+
+PLAN = """games = ["beamfall"]
+agents = ["random", "const", "basic"]
+trials = 2
+training_episodes = 4
+evaluation_episodes = 2
+background_screens = 500
+environment = "max_episode_frames=1000"
+"""
+SHARDS = 24  # for 21 units: some have none
+
+
+def files(folder):
+    """The contents of all files of results by their paths, without times."""
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(folder.rglob("*"))
+            if path.is_file() and "times" not in path.name}
+
+
+def processes(mark):
+    """The command lines of processes whose environment has `mark`: a variable and its value."""
+    found = {}
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            if entry.name.isdecimal() and mark.encode() in (entry / "environ").read_bytes().split(b"\0"):
+                found[int(entry.name)] = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode()
+        except OSError:
+            continue
+    return found
+
+
+class Slurm(unittest.TestCase):
+    maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        if (reason := slurm.missing()) is not None:
+            raise unittest.SkipTest(reason)
+        cls.cluster = slurm.Cluster().__enter__()
+        cls.addClassCleanup(cls.cluster.__exit__)
+        cls.jobs = cls.cluster.folder / "jobs"
+        cls.temporary = cls.cluster.folder / "tmp"
+        cls.temporary.mkdir()
+        cls.cluster.environment |= {"PATH": f"{pathlib.Path(BINARY).parent}:{os.environ['PATH']}", "TMPDIR": str(cls.temporary),
+                                    "RACEBEAM_TEST": str(cls.cluster.folder), "PYTHONDONTWRITEBYTECODE": "1"}
+        with client.Session.start(BINARY, "--log-level", "warning") as game:
+            cls.expected = {number: agent.play(game, number) for number in range(16)}
+
+    def setUp(self):
+        for path in self.jobs.iterdir():
+            path.unlink() if path.is_file() else None
+        self.results = self.jobs / self.id().rsplit(".", 1)[1]
+        self.results.mkdir()
+
+    def job_processes(self):
+        """Those of jobs: all that have the tests' variable, but not the daemons, which do not."""
+        return {number: words for number, words in processes(f"RACEBEAM_TEST={self.cluster.folder}").items()
+                if words and not re.search("slurm|sbatch|munged", words)}
+
+    def nothing_is_left(self):
+        """No process of a job, no socket, no announce file, no folder of a job."""
+        def left():
+            return [*self.job_processes().values(), *self.temporary.iterdir(), *self.jobs.glob("racebeam-*")]
+        self.cluster.wait("the end of what jobs have left", lambda: not left())
+
+    def check_results(self, numbers):
+        found = {path.name: path.read_text() for path in self.results.iterdir() if path.name.startswith("result-")}
+        self.assertEqual(found, {f"result-{number}": f"{self.expected[number]}\n" for number in numbers})
+
+    def agent(self, *words):
+        return ("python3", AGENT, "--into", self.results, *words)
+
+    def wait_for_files(self, pattern, count):
+        self.cluster.wait(f"{count} of {pattern}", lambda: len(list(self.results.glob(pattern))) >= count)
+
+
+class Slice(Slurm):
+    def test_each_element_of_an_array_has_a_server(self):
+        job = self.cluster.submit("--array=0-7", SCRIPTS / "array.sbatch", *self.agent())
+        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
+        self.check_results(range(8))
+        self.nothing_is_left()
+
+    def test_a_server_on_each_node_and_agents_in_another_step(self):
+        job = self.cluster.submit("--nodes=4", "--ntasks-per-node=2", SCRIPTS / "nodes.sbatch", *self.agent())
+        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"}, self.cluster.logs())
+        self.check_results(range(8))
+        self.nothing_is_left()
+
+    def test_the_protocol_on_the_standard_streams_of_srun(self):
+        os.environ |= {name: self.cluster.environment[name] for name in ("SLURM_CONF", "PATH", "RACEBEAM_TEST")}
+        with client.Session.start(str(SCRIPTS / "racebeam-srun"), "--log-level", "warning") as game:
+            self.assertEqual(agent.play(game, 3), self.expected[3])
+        self.nothing_is_left()
+
+
+class Whole(Slurm):
+    def test_a_server_that_is_killed_ends_its_element_and_no_other(self):
+        job = self.cluster.submit("--array=0-3", SCRIPTS / "array.sbatch", *self.agent("--reached", self.results, "--pause", "8"))
+        self.wait_for_files("reached-*", 4)
+        with_one = [number for number, words in self.job_processes().items() if "racebeam with" in words]
+        children = [number for number in with_one if int(self.parent(number)) in with_one]
+        os.kill(children[0], signal.SIGKILL)
+        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED", "FAILED"})
+        self.assertEqual(len(list(self.results.glob("result-*"))), 3)
+        self.nothing_is_left()
+
+    def parent(self, number):
+        return pathlib.Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[1]
+
+    def test_scancel_leaves_nothing(self):
+        for script, words in (("array.sbatch", ("--array=0-3",)), ("nodes.sbatch", ("--nodes=2", "--ntasks-per-node=2"))):
+            with self.subTest(script=script):
+                job = self.cluster.submit(*words, SCRIPTS / script, *self.agent("--reached", self.results, "--pause", "60"))
+                self.wait_for_files("reached-*", 4)
+                self.cluster.run("scancel", job)
+                self.assertEqual(self.cluster.wait_for_end(job), {"CANCELLED"})
+                self.nothing_is_left()
+                for path in self.results.iterdir():
+                    path.unlink()
+
+    def test_the_time_limit_leaves_nothing(self):
+        job = self.cluster.submit("--time=0:01", "--nodes=2", "--ntasks-per-node=1", SCRIPTS / "nodes.sbatch",
+                                  *self.agent("--reached", self.results, "--pause", "300"))
+        self.assertEqual(self.cluster.wait_for_end(job, 240), {"TIMEOUT"})
+        self.nothing_is_left()
+
+    def test_a_requeued_job_gives_the_same(self):
+        job = self.cluster.submit("--nodes=2", "--ntasks-per-node=2", SCRIPTS / "nodes.sbatch",
+                                  *self.agent("--reached", self.results, "--pause", "60"))
+        self.wait_for_files("reached-*", 4)
+        self.cluster.run("scontrol", "requeue", job)
+        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
+        self.check_results(range(4))
+        self.nothing_is_left()
+
+    def test_a_node_that_fails_is_replaced(self):
+        job = self.cluster.submit("--array=5", SCRIPTS / "array.sbatch",
+                                  *self.agent("--reached", self.results, "--pause", "60"))
+        self.wait_for_files("reached-*", 1)
+        node = self.cluster.run("squeue", "-h", "-j", job, "-o", "%N").strip()
+        self.cluster.run("scontrol", "update", f"nodename={node}", "state=down", "reason=test")
+        self.addCleanup(self.cluster.run, "scontrol", "update", f"nodename={node}", "state=resume", check=False)
+        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
+        self.check_results([5])
+        self.nothing_is_left()
+
+    def test_a_heterogeneous_job_has_servers_and_a_learner_apart(self):
+        learner = ("bash", "-c", 'for RACEBEAM_ADDRESS in $RACEBEAM_SERVERS; do export RACEBEAM_ADDRESS; '
+                                 'SLURM_PROCID=$((number++)) python3 "$@"; done', "learner", AGENT, "--into", self.results)
+        job = self.cluster.submit(SCRIPTS / "learner.sbatch", *learner)
+        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"}, self.cluster.logs())
+        self.check_results(range(2))
+        self.nothing_is_left()
+
+    def test_an_experiment_in_shards_is_the_same_byte_for_byte(self):
+        plan = self.results / "plan.toml"
+        plan.write_text(PLAN)
+        alone, shared = self.results / "alone", self.results / "shared"
+        subprocess.run([BINARY, "experiment", plan, "--into", alone, "--threads", "1"], check=True, capture_output=True)
+        words = (plan, shared, "--threads", "1", "--checkpoint-seconds", "0")
+        job = self.cluster.submit(f"--array=1-{SHARDS}", SCRIPTS / "experiment.sbatch", *words)
+        self.cluster.wait("a first unit", lambda: list(shared.glob("units/*")))
+        self.cluster.run("scontrol", "requeue", f"{job}_[1-3]", check=False)
+        self.cluster.run("scontrol", "update", "nodename=n2", "state=down", "reason=test")
+        self.addCleanup(self.cluster.run, "scontrol", "update", "nodename=n2", "state=resume", check=False)
+        gathered = self.cluster.submit(f"--dependency=afterany:{job}", "--output", self.results / "gathered",
+                                       SCRIPTS / "gather.sbatch", *words)
+        self.assertEqual(self.cluster.wait_for_end(gathered, 400), {"COMPLETED"}, self.cluster.logs())
+        self.assertEqual(files(shared), files(alone))
+        self.assertRegex((self.results / "gathered").read_text(), r"\d+ rows confirmed, 0 wrong, 0 could not be checked")
+        self.nothing_is_left()
+
+    def test_two_hundred_servers_of_one_array(self):
+        began = time.monotonic()
+        job = self.cluster.submit("--array=0-199", "--oversubscribe", SCRIPTS / "array.sbatch", "bash", "-c",
+                                  f'source {slurm.TOP}/clients/shell/racebeam.bash; racebeam_connect && racebeam_ask load beamfall '
+                                  f'&& racebeam_value game >{self.results}/found-$SLURM_ARRAY_TASK_ID')
+        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
+        seconds = time.monotonic() - began
+        self.assertEqual({path.read_text() for path in self.results.glob("found-*")}, {"beamfall\n"})
+        self.assertEqual(len(list(self.results.glob("found-*"))), 200)
+        self.nothing_is_left()
+        print(f"\n200 servers of one array job: {seconds:.1f} s, load {os.getloadavg()[0]:.1f}")
