@@ -152,20 +152,20 @@ int connect(ConnectOptions options) {
 
 void add_connect(CLI::App& app) {
   auto options = std::make_shared<ConnectOptions>();
-  CLI::App* command = app.add_subcommand("connect", "talk to a server, by hand or from a script");
+  CLI::App* command = app.add_subcommand("connect", "Talk to a server, by hand or from a script");
   command->footer(kFooter);
-  command->add_option("address", options->address, "where the server is")->envname("RACEBEAM_ADDRESS");
-  command->add_option("--token-file", options->token_file, "send the first token of this file")
+  command->add_option("address", options->address, "Where the server is")->envname("RACEBEAM_ADDRESS");
+  command->add_option("--token-file", options->token_file, "Send the first token of this file")
       ->type_name("FILE");
   command
       ->add_option("--authorities", options->client.authorities,
-                   "with tls://: trust these certificates, in PEM")
+                   "With tls://: trust these certificates, in PEM")
       ->type_name("FILE");
   command
-      ->add_option("--timeout", options->timeout, "seconds to wait for a connection or a reply; 0: for ever")
+      ->add_option("--timeout", options->timeout, "Seconds to wait for a connection or a reply; 0: for ever")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
-  command->add_flag("--strict", options->strict, "end with status 1 at the first error");
+  command->add_flag("--strict", options->strict, "End with status 1 at the first error");
   command->callback([options] {
     if (const int status = connect(*options); status != 0) throw CLI::RuntimeError(status);
   });
