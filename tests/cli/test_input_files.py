@@ -72,11 +72,12 @@ class Refused(unittest.TestCase):
         self.check(path, "larger than ")
 
     def test_a_folder_of_images_that_is_none(self):
-        for words in (("roms", self.pipe), (*STDIO, "--roms", self.pipe)):
+        for words, expected, sentence in ((("roms", self.pipe), 1, "Not a directory"),
+                                          ((*STDIO, "--roms", self.pipe), 4, "is not a folder")):
             with self.subTest(words=words):
                 status, output, errors = self.run_racebeam(*words)
-                self.assertEqual((status, output, len(errors)), (1, b"", 1), errors)
-                self.assertIn("Not a directory", errors[0])
+                self.assertEqual((status, output, len(errors)), (expected, b"", 1), errors)
+                self.assertIn(sentence, errors[0])
 
     def test_the_configuration_of_a_classic_launcher_is_passed_over(self):
         os.mkfifo(os.path.join(self.folder, "ale.cfg"))
