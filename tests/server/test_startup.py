@@ -131,7 +131,7 @@ class CommandLine(Refusals):
 
     def test_an_unknown_subcommand_is_answered_by_those_there_are(self):
         self.check(["play"], 2, "'play' is not a subcommand", "serve, with, config, classic, connect")
-        self.check([], 2, "serve, with, config, classic, trace")
+        self.check([], 2, "serve, with, config, classic, connect")
 
 
 class Folders(unittest.TestCase):

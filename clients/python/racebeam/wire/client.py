@@ -187,19 +187,20 @@ def _in_file(address: str) -> tuple[str, str | None]:
     path = address.removeprefix("file:")
     with open(path, encoding="utf-8") as file:
         text = file.read()
-    announced = _announcement(path, text) if text.startswith("{") else {"addresses": text.splitlines(), "token": None}
-    for line in announced["addresses"]:
+    addresses, token = _announcement(path, text) if text.startswith("{") else (text.splitlines(), None)
+    for line in addresses:
         if line.startswith(("tcp://", "tls://", "unix:", "pipes:")):
-            return line, announced["token"]
+            return line, token
     raise ValueError(f"{path} names no address that this client can use")
 
 
-def _announcement(path: str, text: str) -> dict[str, Any]:
+def _announcement(path: str, text: str) -> tuple[list[str], str | None]:
+    """The addresses and the token of an announce file. Raises ValueError for a file of another version, and for a part of one."""
     try:
         announced: dict[str, Any] = json.loads(text)
         version = announced["racebeam_announce"]
         if version == ANNOUNCEMENT:
-            return {key: announced[key] for key in ("addresses", "token")}
+            return announced["addresses"], announced["token"]
     except (KeyError, ValueError):
         raise ValueError(f"{path} is not a whole announce file") from None
     raise ValueError(f"{path} is an announce file of version {version}; this client reads version {ANNOUNCEMENT}")
