@@ -68,7 +68,7 @@ std::size_t ram_index(int index) {
 Environment::Impl::Impl(std::shared_ptr<const Image> image_given, std::shared_ptr<const Game> game_given,
                         const Settings& settings_given, Pace* pace_given)
     : image(std::move(image_given)),
-      game(by_settings(game_given, settings_given)),
+      game(by_settings(std::move(game_given), settings_given)),
       settings(checked(settings_given, *game)),
       pace(pace_given),
       identity(*image, *game),

@@ -73,7 +73,8 @@ void ImageCode::emit_stubs(const Layout& layout) {
   std::for_each(std::rbegin(saved), std::rend(saved), [&](const auto& reg) { as.pop(reg); });
   as.ret();
   memory_.seal(as.getSize());
-  enter_ = reinterpret_cast<Enter>(reinterpret_cast<std::uintptr_t>(enter));
+  enter_ =
+      reinterpret_cast<Enter>(reinterpret_cast<std::uintptr_t>(enter));  // NOLINT(performance-no-int-to-ptr)
 }
 
 const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& layout) {

@@ -17,7 +17,8 @@ inline std::int64_t ticks() { return static_cast<std::int64_t>(__rdtsc()); }
 class TranslationBudget {
  public:
   // unlimited: the budget covers every batch, whatever it costs.
-  explicit TranslationBudget(bool unlimited) : balance_(unlimited ? kCapacity : 0), unlimited_(unlimited) {}
+  explicit TranslationBudget(bool unlimited)
+      : balance_(unlimited ? kCapacity : -kStartCost), unlimited_(unlimited) {}
 
   // Called around each step of the machine. While the budget is full, the counter is not read.
   void begin_step() { began_ = is_full() ? 0 : ticks(), spent_ = 0; }
@@ -49,10 +50,12 @@ class TranslationBudget {
     if (!unlimited_) balance_ -= cost;
   }
 
-  static constexpr std::int64_t kPercent = 25;  // of the time that the machine runs
+  static constexpr std::int64_t kPercent = 20;  // of the time that the machine runs
   // Longer steps are cut: another thread used the processor.
   static constexpr std::int64_t kLongestStep = 1'000'000;
   static constexpr std::int64_t kCapacity = 10'000'000;
+  // What the system does for the memory of the code, beyond what is charged: pages of short-lived machines.
+  static constexpr std::int64_t kStartCost = 1'000'000;
   static constexpr std::int64_t kBatchCost = 60'000;  // usual; a batch that costs more leaves a debt
 
   bool is_full() const { return balance_ == kCapacity; }

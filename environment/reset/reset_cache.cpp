@@ -23,6 +23,16 @@ bool ResetStart::operator==(const ResetStart& other) const {
          sound == other.sound && std::memcmp(&machine, &other.machine, sizeof machine) == 0;
 }
 
+void ResetCache::set_capacity(std::size_t entries) {
+  const std::lock_guard lock(mutex_);
+  capacity_ = std::max<std::size_t>(entries, 1);
+  shrink_to(capacity_);
+}
+
+void ResetCache::shrink_to(std::size_t entries) {
+  while (entries_.size() > entries) entries_.erase(std::ranges::min_element(entries_, {}, &Entry::used));
+}
+
 std::optional<ResetEnd> ResetCache::find(const ResetStart& start) {
   const std::uint64_t hash = start.hash();
   const std::lock_guard lock(mutex_);
@@ -37,7 +47,7 @@ std::optional<ResetEnd> ResetCache::find(const ResetStart& start) {
 void ResetCache::keep(const ResetStart& start, const ResetEnd& end) {
   const std::uint64_t hash = start.hash();
   const std::lock_guard lock(mutex_);
-  if (entries_.size() == kMost) entries_.erase(std::ranges::min_element(entries_, {}, &Entry::used));
+  shrink_to(capacity_ - 1);
   entries_.push_back({hash, ++calls_, start, end});
 }
 

@@ -48,10 +48,13 @@ struct ResetEnd {
 
 class ResetCache {
  public:
-  static constexpr std::size_t kMost = 128;  // entries; the two pictures take most of their memory
+  static constexpr std::size_t kMost = 128;  // entries; an entry takes some 70 KiB, mostly the two pictures
+
+  // At least 1 entry. Drops the entries that were not used for longest, if there are more.
+  void set_capacity(std::size_t entries);
 
   std::optional<ResetEnd> find(const ResetStart& start);
-  // Replaces the entry that was not used for longest.
+  // If the cache is full, replaces the entry that was not used for longest.
   void keep(const ResetStart& start, const ResetEnd& end);
   std::size_t size();
 
@@ -63,7 +66,10 @@ class ResetCache {
     ResetEnd end;
   };
 
+  void shrink_to(std::size_t entries);
+
   std::mutex mutex_;
+  std::size_t capacity_ = kMost;
   std::uint64_t calls_ = 0;
   std::vector<Entry> entries_;
 };

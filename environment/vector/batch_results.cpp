@@ -35,7 +35,8 @@ std::size_t ResultLayout::whole_screen() const { return static_cast<std::size_t>
 std::size_t ResultLayout::stacked_screen() const {
   const int rows = stack_.height == 0 ? height_ : stack_.height;
   const int columns = stack_.width == 0 ? kScreenWidth : stack_.width;
-  return static_cast<std::size_t>(rows * columns * stack_.channels());
+  return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns) *
+         static_cast<std::size_t>(stack_.channels());
 }
 
 std::size_t ResultLayout::observation_size() const {

@@ -76,10 +76,10 @@ void Slot::begin_request() {
 
 void Slot::look_at_ends() {
   const bool acts = settings_.steps == Steps::kActs;
-  outcome_.terminated = acts ? environment_.terminal() : progress_.terminated;
-  outcome_.truncated = acts ? environment_.truncated() : progress_.truncated;
-  outcome_.finished = finished();
   outcome_.game_over = environment_.terminal();
+  outcome_.terminated = acts ? outcome_.game_over : progress_.terminated;
+  outcome_.truncated = acts ? environment_.truncated() : progress_.truncated;
+  outcome_.finished = acts ? outcome_.terminated || outcome_.truncated : progress_.finished;
 }
 
 bool Slot::finished() const {
@@ -105,6 +105,7 @@ void Slot::add_outcome(Environment::RawRewards rewards, int frames) {
   outcome_.reward += clamped(rewards.a, settings_.machine);
   outcome_.reward_b += clamped(rewards.b, settings_.machine);
   outcome_.raw_reward += rewards.a;
+  progress_.score += rewards.a;
   outcome_.raw_reward_b += rewards.b;
   outcome_.frames += frames;
   ++outcome_.acts;

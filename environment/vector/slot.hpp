@@ -95,6 +95,7 @@ class Slot {
 
   bool finished() const;  // the episode is over: act() does nothing
   const Outcome& outcome() const { return outcome_; }
+  std::int64_t score() const { return progress_.score; }
   void set_outcome(const Outcome& outcome) { outcome_ = outcome; }
   // The frames of the longest reset so far, as the pace counts; 0 without a pace.
   std::int64_t reset_frames() const { return reset_frames_; }
@@ -112,10 +113,11 @@ class Slot {
  private:
   // What the environment does not know of the episode.
   struct Progress {
-    int elapsed = 0;        // frames of play in this game
-    int lives = 0;          // after the last step
-    bool finished = false;  // Steps::kFrames: the episode
-    bool goes_on = false;   // finished only by a lost life: the next episode continues the game
+    std::int64_t score = 0;  // sum of player A's rewards in this game, before clamping
+    int elapsed = 0;         // frames of play in this game
+    int lives = 0;           // after the last step
+    bool finished = false;   // Steps::kFrames: the episode
+    bool goes_on = false;    // finished only by a lost life: the next episode continues the game
     bool terminated = false, truncated = false;  // Steps::kFrames: how the last step ended
     bool blends = false;  // the last step ran at least two frames, so its screen blends them
   };

@@ -72,7 +72,8 @@ void Slot::begin_episode() {
 // The game continues with the next life. The no-ops are those of the model: none in ALE, a new draw in
 // EnvPool, one step in Stable-Baselines3.
 void Slot::begin_life() {
-  const int elapsed = progress_.elapsed, frames = environment_.episode_frame_number();
+  const int frames = environment_.episode_frame_number();
+  const Progress before = progress_;
   const bool fire = has_fire();
   draw_nothing();
   switch (settings_.reset_order) {
@@ -88,7 +89,10 @@ void Slot::begin_life() {
   if (environment_.game_over()) return begin_episode();
   const bool goes_on = environment_.episode_frame_number() > frames;
   progress_ = {};
-  if (goes_on) progress_.elapsed = elapsed;
+  if (goes_on) {
+    progress_.score = before.score;
+    progress_.elapsed = before.elapsed;
+  }
   progress_.lives = environment_.lives();
   look_at_ends();
   begin_stack(goes_on);

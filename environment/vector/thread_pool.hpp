@@ -51,7 +51,7 @@ class ThreadPool {
   class Queue final : private Job {
    public:
     Queue(ThreadPool& pool, Task task);
-    ~Queue();  // drops the tasks that were not begun, and waits for those in progress
+    ~Queue() override;  // drops the tasks that were not begun, and waits for those in progress
     Queue(const Queue&) = delete;
     Queue& operator=(const Queue&) = delete;
 

@@ -54,6 +54,7 @@ struct Instruction {
   Op op = Op::kConstant;
   Register a = 0, b = 0, c = 0;
   std::int32_t value = 0;
+  // NOLINTNEXTLINE(modernize-use-nullptr): a fault of clang-tidy 14
   auto operator<=>(const Instruction&) const = default;
 };
 

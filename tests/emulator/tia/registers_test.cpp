@@ -64,7 +64,7 @@ class Trial {
 
   TiaRegisters registers() {
     TiaRegisters tia;
-    for (std::uint8_t& color : tia.color) color = byte(128) << 1;
+    for (std::uint8_t& color : tia.color) color = byte() & 0xFE;
     for (std::uint8_t& pf : tia.pf) pf = below(2) == 0 ? 0 : byte();
     tia.ctrlpf = byte() & 0x37;
     tia.reflect = byte(2);

@@ -97,6 +97,25 @@ TEST_CASE("The resets that are kept are bounded, and the ones that were used las
   CHECK(cache.find(start));
 }
 
+TEST_CASE("A smaller capacity drops the resets that were not used for longest") {
+  ResetCache cache;
+  ResetStart start;
+  for (start.mode = 0; start.mode < 10; ++start.mode) cache.keep(start, {});
+  start.mode = 2;
+  REQUIRE(cache.find(start));
+  cache.set_capacity(3);
+  CHECK(cache.size() == 3);
+  for (const std::int32_t mode : {2, 8, 9}) {
+    start.mode = mode;
+    CHECK(cache.find(start));
+  }
+  start.mode = 10;
+  cache.keep(start, {});
+  CHECK(cache.size() == 3);
+  cache.set_capacity(0);
+  CHECK(cache.size() == 1);
+}
+
 // A program that overwrites RAM, timer and sound, and one that reads them first.
 BootFacts study(std::initializer_list<std::uint8_t> program) {
   auto bytes = std::make_shared<std::vector<std::uint8_t>>(4096, 0xEA);
