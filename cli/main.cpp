@@ -16,13 +16,16 @@
 #include "cli/commands/config.hpp"
 #include "cli/commands/experiment.hpp"
 #include "cli/commands/games.hpp"
+#include "cli/commands/play.hpp"
 #include "cli/commands/png.hpp"
+#include "cli/commands/render.hpp"
 #include "cli/commands/roms.hpp"
 #include "cli/commands/serve.hpp"
 #include "cli/commands/trace.hpp"
 #include "cli/commands/verify.hpp"
 #include "cli/commands/with.hpp"
 #include "cli/connect/connect.hpp"
+#include "cli/connect/watch.hpp"
 #include "system/printable.hpp"
 
 namespace {
@@ -94,20 +97,24 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "racebeam " RACEBEAM_VERSION);
   app.footer(kFooter);
   app.require_subcommand(1);
-  racebeam::add_serve(app);
-  racebeam::add_with(app);
-  racebeam::add_config(app);
-  racebeam::add_classic(app);
-  racebeam::add_connect(app);
-  racebeam::add_trace(app);
-  racebeam::add_bench(app);
-  racebeam::add_games(app);
-  racebeam::add_roms(app);
-  racebeam::add_png(app);
-  racebeam::add_experiment(app);
-  racebeam::add_verify(app);
-  racebeam::add_background(app);
-  racebeam::add_classes(app);
+  racebeam::Subcommand program(app);
+  racebeam::add_serve(program);
+  racebeam::add_with(program);
+  racebeam::add_config(program);
+  racebeam::add_classic(program);
+  racebeam::add_connect(program);
+  racebeam::add_play(program);
+  racebeam::add_watch(program);
+  racebeam::add_trace(program);
+  racebeam::add_bench(program);
+  racebeam::add_games(program);
+  racebeam::add_roms(program);
+  racebeam::add_png(program);
+  racebeam::add_experiment(program);
+  racebeam::add_verify(program);
+  racebeam::add_render(program);
+  racebeam::add_background(program);
+  racebeam::add_classes(program);
   try {
     const std::vector<const char*> words = words_of(argc, argv);
     app.parse(static_cast<int>(words.size()), words.data());  // executes the subcommand

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "cli/arguments/subcommand.hpp"
 #include "fuzz/target.hpp"
 
 namespace racebeam::fuzz {
@@ -53,7 +54,8 @@ std::optional<std::string> printed(std::string_view file) {
   const MemoryFile config(file);
   const CapturedOutput output;
   CLI::App app;
-  add_config(app);
+  Subcommand program(app);
+  add_config(program);
   try {
     // CLI11 expects them in reverse order
     app.parse(std::vector<std::string>{config.path(), "--config", "config"});

@@ -9,6 +9,7 @@ LineSession::LineSession(const LineService& service, Meter* meter)
 LineSession::~LineSession() = default;
 
 void LineSession::set_columns(int columns) { session_->columns = columns; }
+std::size_t LineSession::longest_line() const { return session_->input.longest(); }
 std::span<char> LineSession::space() { return session_->space(); }
 
 void LineSession::received(std::size_t count) {
@@ -21,8 +22,6 @@ bool LineSession::run(std::chrono::microseconds slice) { return session_->run(sl
 std::chrono::steady_clock::duration LineSession::worked() const { return session_->worked(); }
 
 bool LineSession::waits() const { return session_->waits(); }
-
-bool LineSession::wants_more() const { return session_->wants_more(); }
 
 std::string_view LineSession::output() const { return session_->whole_replies(); }
 

@@ -30,6 +30,7 @@ class LineSession {
   // reads them.
   void set_columns(int columns);
 
+  std::size_t longest_line() const;  // bytes that a request may have, now; without its end
   std::span<char> space();           // where input goes; do not read while it is empty
   void received(std::size_t count);  // this many bytes were added; 0: the client has closed its end
 
@@ -39,10 +40,6 @@ class LineSession {
   static constexpr std::chrono::microseconds kSlice{2000};  // how long other sessions may have to wait
 
   std::chrono::steady_clock::duration worked() const;  // duration of the last run()
-
-  // Replies to requests that were sent ahead wait, and few such requests are left. If more have been
-  // received, hand them in and run() again; else send the output.
-  bool wants_more() const;
 
   // A recording has no room for another frame: run() does nothing until it has. Other sessions have their
   // turn.

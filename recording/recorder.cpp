@@ -7,6 +7,8 @@
 #include <boost/asio/strand.hpp>
 #include <boost/asio/thread_pool.hpp>
 
+#include "recording/footage.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -15,13 +17,6 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kThreads = 2;  // so that one file's sync does not hold up all others
 constexpr auto kLastMoment = 100ms;  // to remove recordings that were aborted
-
-int frame_rate(Format format) { return format == Format::kPal || format == Format::kSecam ? 50 : 60; }
-
-Footage footage_of(const Environment& machine) {
-  return {static_cast<std::size_t>(machine.height()), palette(machine.format()),
-          frame_rate(machine.format())};
-}
 
 }  // namespace
 

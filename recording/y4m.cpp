@@ -1,5 +1,6 @@
 // Y4M: every frame, uncompressed, 4:4:4, for video encoders. Colours as in ITU-R BT.601, studio swing.
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "recording/media.hpp"
@@ -14,7 +15,7 @@ Yuv yuv_of(const Rgb& color) {
   const double y = 16 + 65.481 * r + 128.553 * g + 24.966 * b;
   const double u = 128 - 37.797 * r - 74.203 * g + 112.0 * b;
   const double v = 128 + 112.0 * r - 93.786 * g - 18.214 * b;
-  const auto rounded = [](double value) { return static_cast<std::uint8_t>(value + 0.5); };
+  const auto rounded = [](double value) { return static_cast<std::uint8_t>(std::lround(value)); };
   return {rounded(y), rounded(u), rounded(v)};
 }
 

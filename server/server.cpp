@@ -9,12 +9,12 @@
 
 #include "recording/recorder.hpp"
 #include "server/connections/connection_acceptor.hpp"
-#include "server/connections/http.hpp"
 #include "server/connections/idle_monitor.hpp"
 #include "server/connections/streams.hpp"
 #include "server/operation/announcement.hpp"
 #include "server/operation/log.hpp"
 #include "server/operation/published_file.hpp"
+#include "server/web/http.hpp"
 
 namespace racebeam {
 namespace {
@@ -51,6 +51,7 @@ class Server {
 
  private:
   void start();
+  void open_http();
   void tell_limits() const;  // to the log
   void publish();            // the ready file and the announce file
   std::string announcement() const;
@@ -97,10 +98,7 @@ Server::Server(const ServerSettings& settings, const Services& services)
     streams_.emplace_back(endpoint, endpoint.classic ? *services.classic : *services.line, settings.busy_poll,
                           metrics_);
   }
-  if (!settings.http.empty()) {
-    const HttpPages pages{[this] { return ready_.load(); }, [this] { return metrics_.text(); }};
-    http_ = std::make_unique<Http>(first_, parse_host_and_port(settings.http), pages);
-  }
+  if (!settings.http.empty()) http_ = std::make_unique<Http>(first_, parse_host_and_port(settings.http));
 }
 
 void Server::tell_limits() const {
@@ -109,6 +107,7 @@ void Server::tell_limits() const {
   if (settings_.max_memory == 0) return;
   log("memory: " + std::to_string(settings_.max_memory) + " bytes, limited by " + settings_.memory_limited_by,
       {{"event", "memory"}});
+  log("caches: " + settings_.caches, {{"event", "caches"}});
 }
 
 std::string Server::announcement() const {
@@ -131,8 +130,7 @@ void Server::publish() {
 void Server::start() {
   if (!acceptor_.empty()) tell_limits();
   acceptor_.open();
-  if (http_)
-    log("health and metrics on " + http_->name(), {{"event", "listening"}, {"address", http_->name()}});
+  if (http_) open_http();
   publish();  // may be refused
   for (StreamSession& stream : streams_) {
     stream.start([this] {
@@ -142,6 +140,15 @@ void Server::start() {
     });
   }
   notify_manager("READY=1");
+}
+
+void Server::open_http() {
+  const OperatorPages pages{[this] { return ready_.load(); }, [this] { return metrics_.text(); }};
+  http_->open({pages, acceptor_.session_rules(http_->is_loopback())},
+              [this](int descriptor, HttpRequest request) {
+                acceptor_.admit_over_http(descriptor, std::move(request), http_->name());
+              });
+  log("health and metrics on " + http_->name(), {{"event", "listening"}, {"address", http_->name()}});
 }
 
 int Server::run() {

@@ -10,15 +10,16 @@ constexpr int kMostThreads = 1024;
 
 }  // namespace
 
-void add_image_options(CLI::App& app, ImageOptions& options) {
-  app.add_option("--roms", options.folders,
-                 "A folder with cartridge images; may be repeated. Without it, the games that are built in")
-      ->allow_extra_args(false)
-      ->envname("RACEBEAM_ROMS");
-  app.add_option("--threads", options.threads, "Threads that play; 0: one for each processor")
-      ->check(whole_number(0, kMostThreads))
-      ->capture_default_str();
-  add_cpu_option(app, options.cpu);
+void add_image_options(Subcommand& command, ImageOptions& options) {
+  command
+      .option("--roms", options.folders,
+              "A folder with cartridge images; may be repeated. Without it, the games that are built in")
+      .one_a_time()
+      .variable("RACEBEAM_ROMS");
+  command.option("--threads", options.threads, "Threads that play; 0: one for each processor")
+      .check(whole_number(0, kMostThreads))
+      .shows_default();
+  add_cpu_option(command, options.cpu);
 }
 
 Images images_of(const ImageOptions& options) {

@@ -1,7 +1,6 @@
 // The options of subcommands that play many games: where their images are, and how many threads play.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -10,6 +9,8 @@
 
 namespace racebeam {
 
+class Subcommand;
+
 struct ImageOptions {
   std::vector<std::string> folders;
   unsigned threads = 0;  // 0: one for each processor that the process may use
@@ -17,7 +18,7 @@ struct ImageOptions {
 };
 
 // Adds --roms --threads --cpu. `options` must outlive the parsing.
-void add_image_options(CLI::App& app, ImageOptions& options);
+void add_image_options(Subcommand& command, ImageOptions& options);
 
 Images images_of(const ImageOptions& options);  // throws InvalidInput
 unsigned threads_of(const ImageOptions& options);

@@ -3,11 +3,9 @@
 #include <chrono>
 #include <iostream>
 #include <limits>
-#include <map>
 
 #include "games/catalogue.hpp"
 #include "games/rom_image.hpp"
-#include "protocol/line/words.hpp"
 #include "system/printable.hpp"
 
 namespace racebeam {
@@ -15,24 +13,6 @@ namespace {
 
 constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
 constexpr std::int64_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
-
-// CLI::Range accepts "nan".
-CLI::Validator probability() {
-  const auto check = [](const std::string& text) {
-    const auto value = parse_number<double>(text);
-    const bool accepted = value && *value >= 0 && *value <= 1;
-    return accepted ? std::string{} : "'" + text + "' is not a probability from 0 to 1";
-  };
-  return CLI::Validator(check, "0..1");
-}
-
-CLI::Validator one_of(const std::map<std::string, Rules>& rules) {
-  const auto check = [rules](const std::string& text) {
-    return rules.contains(text) ? std::string{}
-                                : "'" + text + "' is not known; accepted are ale-0.12 and fixed";
-  };
-  return CLI::Validator(check, "");
-}
 
 void warn_about(const Recognition& recognition, const Image& image, const Tell& tell) {
   const Game& game = *recognition.game;
@@ -46,66 +26,48 @@ void warn_about(const Recognition& recognition, const Image& image, const Tell& 
   }
 }
 
-const std::map<std::string, CpuKind> kCpuKinds = {
-    {"auto", CpuKind::kAuto}, {"interpreter", CpuKind::kInterpreter}, {"translator", CpuKind::kTranslator}};
-
 }  // namespace
 
-// Checks the text before CLI11 converts it, because CLI11's message does not say what is accepted.
-CLI::Validator whole_number(std::int64_t least, std::int64_t most) {
-  const auto check = [least, most](const std::string& text) {
-    const auto number = parse_number<std::int64_t>(text);
-    const bool accepted = number && *number >= least && *number <= most;
-    if (accepted) return std::string{};
-    return "'" + text + "' is not a whole number from " + std::to_string(least) + " to " +
-           std::to_string(most);
-  };
-  return CLI::Validator(check, "");
+Option add_count(Subcommand& command, const std::string& name, int& value, int least,
+                 const std::string& help) {
+  return command.option(name, value, help).check(whole_number(least, kMostInt)).shows_default();
 }
 
-CLI::Option* add_count(CLI::App& app, const std::string& name, int& value, int least,
-                       const std::string& help) {
-  return app.add_option(name, value, help)->check(whole_number(least, kMostInt))->capture_default_str();
+void add_cpu_option(Subcommand& command, CpuKind& cpu) {
+  command.choice<CpuKind>(
+      "--cpu", cpu,
+      {{"auto", CpuKind::kAuto},
+       {"interpreter", CpuKind::kInterpreter},
+       {"translator", CpuKind::kTranslator}},
+      "auto",
+      "How instructions are executed; auto: translated where that saves time and the system permits it; "
+      "translator: all code is translated at once, whatever that costs; interpreter: no code is");
 }
 
-void add_cpu_option(CLI::App& app, CpuKind& cpu) {
-  const auto set_cpu = [&cpu](const std::string& name) { cpu = kCpuKinds.at(name); };
-  app.add_option_function<std::string>(
-         "--cpu", set_cpu,
-         "How instructions are executed; auto: translated where that saves time and the system permits it; "
-         "translator: all code is translated at once, whatever that costs; interpreter: no code is")
-      ->check(CLI::IsMember(kCpuKinds))
-      ->default_str("auto");
-}
-
-void add_machine_options(CLI::App& app, MachineOptions& options) {
+void add_machine_options(Subcommand& command, MachineOptions& options) {
   Settings& settings = options.settings;
-  app.add_option("--rom", options.rom, "The cartridge image: a file, or builtin:NAME")->required();
-  CLI::Option* game =
-      app.add_option("--game", options.game, "Use the rule of this game of the catalogue (racebeam games)");
-  app.add_option("--game-file", options.game_file, "Use the rule of this game file")->excludes(game);
-  const auto add_seed = [&app](const std::string& name, std::uint32_t& seed, const std::string& help) {
-    app.add_option(name, seed, help)->check(whole_number(0, kMostSeed))->capture_default_str();
+  command.option("--rom", options.rom, "The cartridge image: a file, or builtin:NAME").required();
+  const Option game =
+      command.option("--game", options.game, "Use the rule of this game of the catalogue (racebeam games)");
+  command.option("--game-file", options.game_file, "Use the rule of this game file").excludes(game);
+  const auto add_seed = [&command](const std::string& name, std::uint32_t& seed, const std::string& help) {
+    command.option(name, seed, help).check(whole_number(0, kMostSeed)).shows_default();
   };
   add_seed("--seed", settings.random_seed, "Seed of the sticky actions; 0: from the clock");
   add_seed("--system-seed", settings.system_seed, "Seed of the memory's contents at power-on");
-  add_count(app, "--frame-skip", settings.frame_skip, 1, "Frames of an action");
-  app.add_option("--sticky", settings.sticky, "Probability that a frame repeats the previous action")
-      ->check(probability())
-      ->capture_default_str();
-  app.add_flag("--color-averaging", settings.color_averaging, "Blend each picture with the previous one");
-  const std::map<std::string, Rules> rules = {{"ale-0.12", Rules::kAle012}, {"fixed", Rules::kFixed}};
-  app.add_option_function<std::string>(
-         "--rules", [&settings, rules](const std::string& name) { settings.rules = rules.at(name); },
-         "Rules for rewards, lives and end: ale-0.12, or fixed, with corrections (racebeam games --rules)")
-      ->check(one_of(rules))
-      ->default_str("ale-0.12")
-      ->type_name("NAME");
-  add_cpu_option(app, settings.cpu);
-  app.add_option("--mode", options.mode, "Game variation (racebeam games lists them)")
-      ->check(whole_number(0, kMostInt));
-  app.add_option("--difficulty", options.difficulty, "Difficulty switches (racebeam games lists them)")
-      ->check(whole_number(0, kMostInt));
+  add_count(command, "--frame-skip", settings.frame_skip, 1, "Frames of an action");
+  command.option("--sticky", settings.sticky, "Probability that a frame repeats the previous action")
+      .check(number(0, 1, "0..1"))
+      .shows_default();
+  command.flag("--color-averaging", settings.color_averaging, "Blend each picture with the previous one");
+  command.choice<Rules>(
+      "--rules", settings.rules, {{"ale-0.12", Rules::kAle012}, {"fixed", Rules::kFixed}}, "ale-0.12",
+      "Rules for rewards, lives and end: ale-0.12, or fixed, with corrections (racebeam games --rules)");
+  add_cpu_option(command, settings.cpu);
+  command.option("--mode", options.mode, "Game variation (racebeam games lists them)")
+      .check(whole_number(0, kMostInt));
+  command.option("--difficulty", options.difficulty, "Difficulty switches (racebeam games lists them)")
+      .check(whole_number(0, kMostInt));
 }
 
 void tell_on_standard_error(const std::string& sentence) {

@@ -1,12 +1,12 @@
 // The options of every subcommand with a machine, and the machine that they describe.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "cli/arguments/subcommand.hpp"
 #include "environment/environment.hpp"
 #include "games/catalogue.hpp"
 
@@ -25,17 +25,14 @@ struct MachineOptions {
 
 // Adds --rom --game --game-file --seed --system-seed --frame-skip --sticky --color-averaging --rules --cpu
 // --mode --difficulty. Set `options` to the subcommand's defaults first; it must outlive the parsing.
-void add_machine_options(CLI::App& app, MachineOptions& options);
+void add_machine_options(Subcommand& command, MachineOptions& options);
 
 // Adds --cpu. `cpu` must outlive the parsing.
-void add_cpu_option(CLI::App& app, CpuKind& cpu);
+void add_cpu_option(Subcommand& command, CpuKind& cpu);
 
-// Accepts whole numbers in this range. Its message says what is accepted.
-CLI::Validator whole_number(std::int64_t least, std::int64_t most);
-
-// A whole number of at least `least`, such as a number of frames.
-CLI::Option* add_count(CLI::App& app, const std::string& name, int& value, int least,
-                       const std::string& help);
+// Adds a whole number of at least `least`, such as a number of frames.
+Option add_count(Subcommand& command, const std::string& name, int& value, int least,
+                 const std::string& help);
 
 using Tell = std::function<void(const std::string& sentence)>;
 void tell_on_standard_error(const std::string& sentence);

@@ -1,5 +1,6 @@
 #include "cli/arguments/settings_sources.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -8,6 +9,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "cli/arguments/subcommand.hpp"
 #include "games/files/toml.hpp"
 #include "system/input_file.hpp"
 
@@ -21,6 +23,18 @@ struct FromFile {
   std::string name;
   std::map<std::string, Values> values;  // by key
 };
+
+std::string key_of(const CLI::Option& option) {
+  std::string key = option.get_lnames().front();
+  std::ranges::replace(key, '-', '_');
+  return key;
+}
+
+std::string variable_of(const CLI::Option& option) {
+  std::string name = "RACEBEAM_" + key_of(option);
+  std::ranges::transform(name, name.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
+  return name;
+}
 
 bool is_list(const CLI::Option& option) { return option.get_items_expected_max() > 1; }
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
@@ -42,7 +56,7 @@ std::string text_of(const toml::node& node, const std::string& where) {
     std::array<char, 64> digits;  // the fewest that give the same number again
     return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), real->get()).ptr};
   }
-  throw CLI::ValidationError(where, "must be a text, a number, true or false, or a list of them");
+  throw UsageError(where + ": must be a text, a number, true or false, or a list of them");
 }
 
 Values values_of(const toml::node& node, const std::string& where) {
@@ -69,17 +83,17 @@ FromFile read_file(const std::string& path, const std::vector<CLI::Option*>& opt
   try {
     table = toml::parse(read_input_file("cannot read", path, kLargestFile), path);
   } catch (const InputFileError& error) {
-    throw CLI::ValidationError("--config", error.what());
+    throw UsageError("--config: " + std::string(error.what()));
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
-    throw CLI::ValidationError(
-        path, (line > 0 ? "line " + std::to_string(line) + ": " : "") + std::string(error.description()));
+    throw UsageError(path + (line > 0 ? ": line " + std::to_string(line) : "") + ": " +
+                     std::string(error.description()));
   }
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
     const auto is_named = [&name](const CLI::Option* option) { return key_of(*option) == name; };
     if (std::ranges::none_of(options, is_named))
-      throw CLI::ValidationError(path, "unknown setting '" + name + "'; there are " + names_of(options));
+      throw UsageError(path + ": unknown setting '" + name + "'; there are " + names_of(options));
     file.values[name] = values_of(node, path + ": " + name);
   }
   return file;
@@ -95,32 +109,34 @@ Values in_environment(const CLI::Option& option) {
 }
 
 void give(CLI::Option& option, const Values& values, const std::string& where) {
-  if (values.size() > 1 && !is_list(option)) throw CLI::ValidationError(where, "must be one value");
+  if (values.size() > 1 && !is_list(option)) throw UsageError(where + ": must be one value");
   for (const std::string& value : values) {
     const bool truth = value == "true" || value == "false" || value == "1" || value == "0";
-    if (is_flag(option) && !truth)
-      throw CLI::ValidationError(where, "must be true or false, not '" + value + "'");
+    if (is_flag(option) && !truth) throw UsageError(where + ": must be true or false, not '" + value + "'");
     option.add_result(value);
   }
   try {
     option.run_callback();
   } catch (const CLI::ParseError& error) {
-    throw CLI::ValidationError(where, error.what());
+    throw UsageError(where + ": " + error.what());
   }
 }
 
 Setting complete(CLI::Option& option, const FromFile& file) {
-  if (option.count() > 0) return {&option, Source::kCommandLine, option.results()};
+  const auto setting = [&option](Source source, const Values& values) {
+    return Setting{key_of(option), is_list(option), source, values};
+  };
+  if (option.count() > 0) return setting(Source::kCommandLine, option.results());
   if (const Values values = in_environment(option); !values.empty()) {
     give(option, values, variable_of(option));
-    return {&option, Source::kEnvironment, values};
+    return setting(Source::kEnvironment, values);
   }
   if (const auto found = file.values.find(key_of(option)); found != file.values.end()) {
     if (!found->second.empty()) give(option, found->second, file.name + ": " + found->first);
-    return {&option, Source::kFile, found->second};
+    return setting(Source::kFile, found->second);
   }
   const std::string usual = is_flag(option) ? "false" : option.get_default_str();
-  return {&option, Source::kDefault, usual.empty() ? Values{} : Values{usual}};
+  return setting(Source::kDefault, usual.empty() ? Values{} : Values{usual});
 }
 
 // The value of the option --config, or of its environment variable.
@@ -132,18 +148,6 @@ std::string config_file(const CLI::Option& option) {
 
 }  // namespace
 
-std::string key_of(const CLI::Option& option) {
-  std::string key = option.get_lnames().front();
-  std::ranges::replace(key, '-', '_');
-  return key;
-}
-
-std::string variable_of(const CLI::Option& option) {
-  std::string name = "RACEBEAM_" + key_of(option);
-  std::ranges::transform(name, name.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
-  return name;
-}
-
 std::string describe(Source source) {
   switch (source) {
     case Source::kCommandLine: return "command line";
@@ -154,9 +158,21 @@ std::string describe(Source source) {
   return "default";
 }
 
-std::vector<Setting> complete(CLI::App& command) {
-  const auto options = settings_of(command);
-  const FromFile file = read_file(config_file(*command.get_option(kConfig)), options);
+std::string Setting::name() const {
+  std::string name = "--" + key;
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
+
+bool is_default(const std::vector<Setting>& settings, const std::string& key) {
+  return std::ranges::any_of(settings, [&](const Setting& setting) {
+    return setting.key == key && setting.source == Source::kDefault;
+  });
+}
+
+std::vector<Setting> complete(Subcommand command) {
+  const auto options = settings_of(command.app());
+  const FromFile file = read_file(config_file(*command.app().get_option(kConfig)), options);
   std::vector<Setting> settings;
   for (CLI::Option* option : options) settings.push_back(complete(*option, file));
   return settings;

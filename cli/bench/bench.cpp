@@ -22,7 +22,7 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter =
+constexpr auto kBenchFooter =
     R"(Processor seconds of this process are counted, of the acts alone; resets are counted apart. Without
 --actions the game's legal actions are drawn at random from a fixed seed, so that two runs do the same.
 
@@ -241,35 +241,35 @@ void run(const BenchOptions& options) {
 
 }  // namespace
 
-void add_bench(CLI::App& app) {
+void add_bench(Subcommand& program) {
   const auto options = std::make_shared<BenchOptions>();
   Settings& settings = options->machine.settings;
   settings.random_seed = 123;
   settings.sticky = 0;
 
-  CLI::App& command = *app.add_subcommand("bench", "Measure how fast a game runs");
+  Subcommand command = program.add_subcommand("bench", "Measure how fast a game runs", kBenchFooter);
   add_machine_options(command, options->machine);
-  command.get_option("--seed")->description("Seed of the actions and of the sticky actions");
-  command.add_option("--actions", options->actions,
-                     "Repeat the actions of this file (in the format of racebeam trace)");
+  command.find("--seed").help("Seed of the actions and of the sticky actions");
+  command.option("--actions", options->actions,
+                 "Repeat the actions of this file (in the format of racebeam trace)");
   add_count(command, "--frames", options->frames, 1, "Frames to play");
-  command.add_option("--screen", options->screen, "Which screens to produce")
-      ->check(CLI::IsMember({"every", "last", "none"}))
-      ->capture_default_str();
-  command.add_flag("--audio", settings.sound, "Also produce sound");
-  command.add_flag("--save-restore", options->save_restore, "Also measure saving and restoring");
-  command.add_flag("--commands", options->commands, "Execute the commands on standard input, line by line");
+  command.option("--screen", options->screen, "Which screens to produce: every, last or none")
+      .check(one_of({"every", "last", "none"}))
+      .value_name("NAME")
+      .shows_default();
+  command.flag("--audio", settings.sound, "Also produce sound");
+  command.flag("--save-restore", options->save_restore, "Also measure saving and restoring");
+  command.flag("--commands", options->commands, "Execute the commands on standard input, line by line");
   add_count(command, "--batch", options->batch.machines, 1, "Measure a batch of this many machines instead");
   add_count(command, "--threads", options->batch.threads, 1,
             "Threads of the batch (default: one for each processor)");
-  command.add_flag("--same-step", options->batch.same_step,
-                   "Machines of the batch reset in the step that ends an episode");
-  command.add_flag("--search", options->search,
-                   "Measure a planner's work instead: 500 random branches of 300 frames from one state");
+  command.flag("--same-step", options->batch.same_step,
+               "Machines of the batch reset in the step that ends an episode");
+  command.flag("--search", options->search,
+               "Measure a planner's work instead: 500 random branches of 300 frames from one state");
   add_count(command, "--resets", options->resets, 1, "Measure this many resets instead, in milliseconds");
-  command.add_flag("--json", options->json, "Print the figures as one JSON object");
-  command.footer(kFooter);
-  command.callback([options] { run(*options); });
+  command.flag("--json", options->json, "Print the figures as one JSON object");
+  command.runs([options] { run(*options); });
 }
 
 }  // namespace racebeam

@@ -1,12 +1,10 @@
 // racebeam bench: measures how fast a game runs.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
 
-void add_bench(CLI::App& app);
+class Subcommand;
+
+void add_bench(Subcommand& program);
 
 }  // namespace racebeam

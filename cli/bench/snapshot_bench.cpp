@@ -8,7 +8,7 @@
 namespace racebeam {
 namespace {
 
-constexpr int kFramesBefore = 120;
+constexpr int kFramesBeforeSnapshots = 120;
 
 template <typename Action>
 double nanoseconds_each(int times, Action action) {
@@ -28,7 +28,7 @@ void time_equality(const Cartridge& cartridge, const MachineOptions& options, Sn
 
 void time_client(const Cartridge& cartridge, const MachineOptions& options, SnapshotTimes& times) {
   Environment environment = power_on(cartridge, options);
-  for (int frame = 0; frame < kFramesBefore; ++frame) environment.act(0);
+  for (int frame = 0; frame < kFramesBeforeSnapshots; ++frame) environment.act(0);
   times.client_ns = time_client_snapshots(environment, 20'000);
   times.frame_ns = nanoseconds_each(1'000, [&](std::size_t) { environment.act(0); });
   times.round_ns = nanoseconds_each(1'000, [&](std::size_t) {
@@ -45,7 +45,7 @@ double time_machine_snapshots(const Cartridge& cartridge, const MachineOptions& 
   SystemGenerator generator{options.settings.system_seed};
   Console console{cartridge.image->bytes, cartridge.game->properties_for(cartridge.image->md5), generator};
   console.reset();
-  for (int frame = 0; frame < kFramesBefore; ++frame) console.step();
+  for (int frame = 0; frame < kFramesBeforeSnapshots; ++frame) console.step();
   std::array<State, 64> saved;
   return nanoseconds_each(times, [&](std::size_t i) {
     State& place = saved[i % saved.size()];

@@ -1,9 +1,9 @@
 #include "cli/commands/background.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
+#include "cli/arguments/subcommand.hpp"
 #include "cli/commands/discovery.hpp"
 #include "cli/commands/feature_pictures.hpp"
 #include "recording/atomic_file.hpp"
@@ -11,7 +11,7 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter =
+constexpr auto kBackgroundFooter =
     R"(Plays random actions, and finds the most frequent colour of each pixel. Basic and BASS leave it out of the screen.
 Writes to FOLDER:
   GAME.background      for experiments: they take it from RESULTS/games if seed and number of screens are theirs
@@ -23,7 +23,7 @@ Writes to FOLDER:
 Example:
   racebeam background asterix --roms ~/atari --into pictures)";
 
-void run(const DiscoveryOptions& options) {
+void write_background_files(const DiscoveryOptions& options) {
   const Images images = images_of(options.images);
   const Cartridge& cartridge = cartridge_of(images, options);
   const Background background = background_of(cartridge, options);
@@ -38,13 +38,13 @@ void run(const DiscoveryOptions& options) {
 
 }  // namespace
 
-void add_background(CLI::App& app) {
+void add_background(Subcommand& program) {
   const auto options = std::make_shared<DiscoveryOptions>();
-  CLI::App& command = *app.add_subcommand("background", "Discover the still part of a game's screen");
+  Subcommand command =
+      program.add_subcommand("background", "Discover the still part of a game's screen", kBackgroundFooter);
   add_discovery_options(command, *options);
   add_screens_option(command, "--screens", options->samples.background_screens, "Screens that are looked at");
-  command.footer(kFooter);
-  command.callback([options] { run(*options); });
+  command.runs([options] { write_background_files(*options); });
 }
 
 }  // namespace racebeam

@@ -1,12 +1,10 @@
 // racebeam background: discovers the still part of a game's screen.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
 
-void add_background(CLI::App& app);
+class Subcommand;
+
+void add_background(Subcommand& program);
 
 }  // namespace racebeam

@@ -1,9 +1,9 @@
 #include "cli/commands/classes.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
+#include "cli/arguments/subcommand.hpp"
 #include "cli/commands/discovery.hpp"
 #include "cli/commands/feature_pictures.hpp"
 #include "recording/atomic_file.hpp"
@@ -11,7 +11,7 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter =
+constexpr auto kClassesFooter =
     R"(Plays random actions, and finds objects: what is not the background, and moves. Objects of similar shapes are
 a class. DISCO learns from where the objects of at most ten classes are.
 Writes to FOLDER:
@@ -23,7 +23,7 @@ Writes to FOLDER:
 Example:
   racebeam classes freeway --roms ~/atari --into pictures)";
 
-void run(const DiscoveryOptions& options) {
+void write_class_files(const DiscoveryOptions& options) {
   const Images images = images_of(options.images);
   const Cartridge& cartridge = cartridge_of(images, options);
   const Background background = background_of(cartridge, options);
@@ -40,16 +40,16 @@ void run(const DiscoveryOptions& options) {
 
 }  // namespace
 
-void add_classes(CLI::App& app) {
+void add_classes(Subcommand& program) {
   const auto options = std::make_shared<DiscoveryOptions>();
   SampleSettings& samples = options->samples;
-  CLI::App& command = *app.add_subcommand("classes", "Discover the classes of objects in a game");
+  Subcommand command =
+      program.add_subcommand("classes", "Discover the classes of objects in a game", kClassesFooter);
   add_discovery_options(command, *options);
   add_screens_option(command, "--screens", samples.class_screens, "Screens that are looked at for classes");
   add_screens_option(command, "--background-screens", samples.background_screens,
                      "Screens that are looked at for the background");
-  command.footer(kFooter);
-  command.callback([options] { run(*options); });
+  command.runs([options] { write_class_files(*options); });
 }
 
 }  // namespace racebeam

@@ -1,12 +1,10 @@
 // racebeam classes: discovers the classes of objects in a game.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
 
-void add_classes(CLI::App& app);
+class Subcommand;
+
+void add_classes(Subcommand& program);
 
 }  // namespace racebeam

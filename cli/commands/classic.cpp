@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 
 #include "cli/arguments/options.hpp"
 #include "cli/commands/classic_settings.hpp"
 #include "cli/commands/png_file.hpp"
 #include "games/catalogue.hpp"
+#include "protocol/line/words.hpp"
+#include "server/connections/rl_glue_connection.hpp"
 #include "server/operation/log.hpp"
 #include "server/server.hpp"
 
@@ -17,9 +20,10 @@ namespace {
 
 constexpr auto kAbout = "Serve with the command line of ALE 0.4 to 0.6, for old launchers";
 
-constexpr auto kUsage = R"(racebeam classic -game_controller fifo|fifo_named [-key value]... IMAGE
+constexpr auto kUsage = R"(racebeam classic -game_controller fifo|fifo_named|rlglue [-key value]... IMAGE
 
-  -game_controller NAME                  fifo: standard streams; fifo_named: ale_fifo_out and ale_fifo_in
+  -game_controller NAME                  fifo: standard streams; fifo_named: ale_fifo_out and ale_fifo_in;
+                                         rlglue: an RL-Glue core at 127.0.0.1, port RLGLUE_PORT (4096)
   -random_seed N                         0 or time: from the clock
   -run_length_encoding true|false        whether screens are written in run lengths (true)
   -frame_skip N                          frames of an action (1)
@@ -28,6 +32,8 @@ constexpr auto kUsage = R"(racebeam classic -game_controller fifo|fifo_named [-k
   -max_num_frames_per_episode N          frames after which an episode ends (0: no limit)
   -color_averaging true|false            blend each picture with the previous one (false)
   -record_screen_dir FOLDER              write the screen before each frame to 000000.png and so on
+  -restricted_action_set true|false      with rlglue: only the actions that the game uses (false)
+  -send_rgb true|false                   with rlglue: observations have colours, not their indices (false)
   -config FILE                           lines of key = value, which override the command line
 
 Other keys are ignored. ale.cfg in the working directory is read first. The image's file name selects the game,
@@ -71,15 +77,10 @@ Cartridge open_by_name(const MachineOptions& machine) {
   return cartridge;
 }
 
-// Whether the controller is the one over named pipes.
-bool check_controller(const std::string& name) {
-  if (name == "rlglue")
-    throw std::invalid_argument("-game_controller rlglue is not supported; accepted are fifo and fifo_named");
-  if (name != "fifo" && name != "fifo_named") {
-    throw std::invalid_argument("-game_controller '" + name +
-                                "' is not supported; accepted are fifo and fifo_named");
-  }
-  return name == "fifo_named";
+void check_controller(const std::string& name) {
+  if (name == "fifo" || name == "fifo_named" || name == "rlglue") return;
+  throw std::invalid_argument("-game_controller '" + name +
+                              "' is not supported; accepted are fifo, fifo_named and rlglue");
 }
 
 // The screens of one session, numbered from 000000.png on, as ALE 0.6 writes them. An existing file is
@@ -119,6 +120,37 @@ ClassicOptions protocol_options(const ClassicSettings& settings) {
   return options;
 }
 
+std::uint16_t rl_glue_port() {
+  const char* const text = std::getenv("RLGLUE_PORT");
+  if (text == nullptr || *text == '\0') return kRlGluePort;
+  const auto port = parse_number<std::uint16_t>(text);
+  if (port && *port > 0) return *port;
+  throw std::invalid_argument("RLGLUE_PORT is '" + std::string(text) +
+                              "'; it takes the number of a port, from 1 to 65535");
+}
+
+int serve_rl_glue(const ClassicSettings& settings, const MachineOptions& machine,
+                  const Cartridge& cartridge) {
+  Environment environment = power_on(cartridge, machine);
+  log("session: " + describe(environment));
+  RlGlueEnvironment session(environment, {.rgb = settings.truth("send_rgb", false),
+                                          .minimal_actions = settings.truth("restricted_action_set", false),
+                                          .max_num_frames = settings.number("max_num_frames", 0)});
+  serve_rl_glue(rl_glue_port(), session);
+  return 0;
+}
+
+int serve_lines(const ClassicSettings& settings, const MachineOptions& machine, const Cartridge& cartridge) {
+  const bool named = settings.text("game_controller") == "fifo_named";
+  const ClassicService service{[&](Pace* pace) { return power_on(cartridge, machine, pace); },
+                               protocol_options(settings), nullptr};
+  ServerSettings server;
+  server.endpoints.push_back({named ? Address(AlePipes{}) : Address(StandardStreams{}), true});
+  Services services;
+  services.classic = service;
+  return serve(server, services);
+}
+
 int run(const std::vector<std::string>& words) {
   if (ClassicSettings::asks_for("--help", words)) {
     std::cout << kUsage << "\n";
@@ -129,27 +161,21 @@ int run(const std::vector<std::string>& words) {
     return kExitFailure;
   }
   const ClassicSettings settings(words);
-  const bool named = check_controller(settings.text("game_controller"));
+  const std::string controller = settings.text("game_controller");
+  check_controller(controller);
   const MachineOptions machine = machine_options(settings);
   const Cartridge cartridge = open_by_name(machine);
   mention_ignored(settings);
-  const ClassicOptions protocol = protocol_options(settings);
-  const ClassicService service{[&](Pace* pace) { return power_on(cartridge, machine, pace); }, protocol,
-                               nullptr};
-  ServerSettings server;
-  server.endpoints = {{named ? Address(AlePipes{}) : Address(StandardStreams{}), true}};
-  Services services;
-  services.classic = service;
-  return serve(server, services);
+  return controller == "rlglue" ? serve_rl_glue(settings, machine, cartridge)
+                                : serve_lines(settings, machine, cartridge);
 }
 
 }  // namespace
 
-void add_classic(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("classic", kAbout);
-  command->set_help_flag();
-  command->prefix_command();  // CLI11 must not parse the words
-  command->callback([command] { throw CLI::RuntimeError(run(command->remaining())); });
+void add_classic(Subcommand& program) {
+  Subcommand command = program.add_subcommand("classic", kAbout, "");
+  command.takes_all_words();
+  command.exits_with([command] { return run(command.words()); });
 }
 
 }  // namespace racebeam

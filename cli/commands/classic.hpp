@@ -2,12 +2,10 @@
 // program.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
 
-void add_classic(CLI::App& app);
+class Subcommand;
+
+void add_classic(Subcommand& program);
 
 }  // namespace racebeam

@@ -11,7 +11,7 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter =
+constexpr auto kConfigFooter =
     R"(Takes the options of racebeam serve, but does not serve. It prints each setting with its value and its source,
 as a TOML file that racebeam serve --config reads. The command line takes precedence over the environment
 (RACEBEAM_MAX_STATES for --max-states), the environment over the file (max_states), and the file over the
@@ -57,27 +57,27 @@ std::string as_toml(const std::string& text) {
 }
 
 std::string as_toml(const Setting& setting) {
-  if (setting.option->get_items_expected_max() <= 1) return as_toml(setting.values.back());
+  if (!setting.is_list) return as_toml(setting.values.back());
   std::string list;
   for (const std::string& value : setting.values) list += (list.empty() ? "" : ", ") + quoted(value);
   return "[" + list + "]";
 }
 
 void print(const Setting& setting) {
-  const std::string key = key_of(*setting.option);
+  const std::string& key = setting.key;
   const std::string line = setting.values.empty() ? "# " + key + " =" : key + " = " + as_toml(setting);
   std::cout << std::left << std::setw(kColumn) << line << "  # " << describe(setting.source) << "\n";
 }
 
 }  // namespace
 
-void add_config(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("config", "Show the settings of racebeam serve, and their sources");
-  command->footer(kFooter);
+void add_config(Subcommand& program) {
+  Subcommand command = program.add_subcommand(
+      "config", "Show the settings of racebeam serve, and their sources", kConfigFooter);
   const auto options = std::make_shared<ServeOptions>();
-  add_serve_options(*command, *options);
-  command->callback([options, command] {
-    for (const Setting& setting : complete(*command)) print(setting);
+  add_serve_options(command, *options);
+  command.runs([options, command] {
+    for (const Setting& setting : complete(command)) print(setting);
   });
 }
 

@@ -1,12 +1,10 @@
 // racebeam config: shows the settings of a server, and their sources.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
 
-void add_config(CLI::App& app);
+class Subcommand;
+
+void add_config(Subcommand& program);
 
 }  // namespace racebeam

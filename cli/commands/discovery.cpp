@@ -1,6 +1,5 @@
 #include "cli/commands/discovery.hpp"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <limits>
 
@@ -24,18 +23,18 @@ DiscoveryOptions::DiscoveryOptions() {
   machine.max_episode_frames = 18000;
 }
 
-void add_discovery_options(CLI::App& command, DiscoveryOptions& options) {
-  command.add_option("GAME", options.game, "The game, by its name")->required();
-  command.add_option("--into", options.into, "The folder of the files that are written")->required();
-  command.add_option("--csv", options.csv, "Take the background from this file: 210 lines of 160 colours");
-  command.add_option("--seed", options.samples.seed, "Seed of the random play")
-      ->check(whole_number(0, std::numeric_limits<std::uint32_t>::max()))
-      ->capture_default_str();
+void add_discovery_options(Subcommand& command, DiscoveryOptions& options) {
+  command.option("GAME", options.game, "The game, by its name").required();
+  command.option("--into", options.into, "The folder of the files that are written").required();
+  command.option("--csv", options.csv, "Take the background from this file: 210 lines of 160 colours");
+  command.option("--seed", options.samples.seed, "Seed of the random play")
+      .check(whole_number(0, std::numeric_limits<std::uint32_t>::max()))
+      .shows_default();
   add_image_options(command, options.images);
 }
 
-void add_screens_option(CLI::App& command, const std::string& name, int& screens, const std::string& help) {
-  command.add_option(name, screens, help)->check(whole_number(1, kMostScreens))->capture_default_str();
+void add_screens_option(Subcommand& command, const std::string& name, int& screens, const std::string& help) {
+  command.option(name, screens, help).check(whole_number(1, kMostScreens)).shows_default();
 }
 
 const Cartridge& cartridge_of(const Images& images, const DiscoveryOptions& options) {

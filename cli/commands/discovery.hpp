@@ -6,11 +6,9 @@
 #include "agents/features/game_facts.hpp"
 #include "cli/arguments/image_options.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
+
+class Subcommand;
 
 struct DiscoveryOptions {
   DiscoveryOptions();  // samples as those of an experiment
@@ -21,10 +19,10 @@ struct DiscoveryOptions {
 };
 
 // `options` must outlive the parsing.
-void add_discovery_options(CLI::App& command, DiscoveryOptions& options);
+void add_discovery_options(Subcommand& command, DiscoveryOptions& options);
 
 // Adds an option for a number of screens.
-void add_screens_option(CLI::App& command, const std::string& name, int& screens, const std::string& help);
+void add_screens_option(Subcommand& command, const std::string& name, int& screens, const std::string& help);
 
 // The image of the game. Throws InvalidInput if there is none.
 const Cartridge& cartridge_of(const Images& images, const DiscoveryOptions& options);

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -18,11 +17,7 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter = R"(PLAN is a TOML file, or the name of a plan that is part of the program:
-  smoke   our own games, for half a minute
-  hour    the paper's five training games, for an hour on two cores
-  paper   all 55 games of the paper
-
+constexpr auto kExperimentFooter = R"(
 RESULTS is a folder. It gets the plan with every setting written out, results.csv with a row for each evaluation
 episode, curves.csv with a row for each training episode, times.csv, and a log of each evaluation episode. The
 command can be stopped at any time, and repeated: finished units are not run again, and unfinished ones go on.
@@ -33,7 +28,17 @@ Examples:
   racebeam experiment paper --roms ~/atari --into results --shard 3/100
   racebeam verify results)";
 
-struct Options {
+std::string footer() {
+  std::string text = "PLAN is a TOML file, or the name of a plan that is part of the program:\n";
+  for (const ShippedPlan& plan : shipped_plans()) {
+    std::string name(plan.name);
+    name.resize(12, ' ');
+    ((text += "  ") += name).append(plan.summary) += '\n';
+  }
+  return text + kExperimentFooter;
+}
+
+struct ExperimentOptions {
   std::string plan, into, shard;
   bool dry_run = false;
   int checkpoint_seconds = 60;
@@ -81,11 +86,11 @@ void print_cost(const Plan& plan, const Images& images) {
     std::printf("missing image: %s\n", game.c_str());
 }
 
-void run(const Options& options) {
+void run(const ExperimentOptions& options) {
   Plan plan = load_plan(options.plan);
   const Images images = images_of(options.images);
   if (options.dry_run) return print_cost(plan, images);
-  if (options.into.empty()) throw CLI::RequiredError("--into");
+  if (options.into.empty()) throw UsageError("--into is required");
   ExperimentSettings settings;
   settings.threads = threads_of(options.images);
   settings.checkpoints = std::chrono::seconds(options.checkpoint_seconds);
@@ -97,20 +102,19 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_experiment(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("experiment", "Run agents on games, as a plan says");
-  command.add_option("PLAN", options->plan, "A plan's name, or a TOML file")->required();
-  command.add_option("--into", options->into, "The folder of the results; it may hold a part of them");
-  command.add_flag("--dry-run", options->dry_run,
-                   "Only list the units, their cost, and the images that are missing");
-  command.add_option("--shard", options->shard,
-                     "Run a part, such as 3/100: each hundredth unit from the third on");
+void add_experiment(Subcommand& program) {
+  const auto options = std::make_shared<ExperimentOptions>();
+  Subcommand command = program.add_subcommand("experiment", "Run agents on games, as a plan says", footer());
+  command.option("PLAN", options->plan, "A plan's name, or a TOML file").required();
+  command.option("--into", options->into, "The folder of the results; it may hold a part of them");
+  command.flag("--dry-run", options->dry_run,
+               "Only list the units, their cost, and the images that are missing");
+  command.option("--shard", options->shard,
+                 "Run a part, such as 3/100: each hundredth unit from the third on");
   add_count(command, "--checkpoint-seconds", options->checkpoint_seconds, 0,
             "Least time between two checkpoints of a unit");
   add_image_options(command, options->images);
-  command.footer(kFooter);
-  command.callback([options] { run(*options); });
+  command.runs([options] { run(*options); });
 }
 
 }  // namespace racebeam

@@ -22,7 +22,9 @@ using Picture = std::vector<Rgb>;  // 160 x 210 pixels
 
 Screen screen_of(const Colours& colours) { return Screen(colours.data(), kFeaturePixels); }
 
-std::size_t pixel_at(int x, int y) { return static_cast<std::size_t>(y * kFeatureWidth + x); }
+std::size_t pixel_at(int x, int y) {
+  return static_cast<std::size_t>(y) * kFeatureWidth + static_cast<std::size_t>(x);
+}
 
 void write(const std::string& path, const Picture& picture) {
   std::vector<std::uint8_t> rgb;

@@ -1,6 +1,5 @@
 #include "cli/commands/games.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -8,12 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "cli/arguments/subcommand.hpp"
 #include "games/catalogue.hpp"
 
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter =
+constexpr auto kGamesFooter =
     R"(NAME is the name for --game. An image is recognised by its MD5, else by the name of its file.
 * marks a game whose image is part of this program: --rom builtin:NAME plays it.
 SCORE says whether there is a rule that computes score and end from the game's memory. ACT. is the number of
@@ -134,14 +134,13 @@ void print_json() {
 
 }  // namespace
 
-void add_games(CLI::App& app) {
+void add_games(Subcommand& program) {
   const auto json = std::make_shared<bool>(false), rules = std::make_shared<bool>(false);
-  CLI::App& command = *app.add_subcommand("games", "List the games of the catalogue");
-  CLI::Option* as_array = command.add_flag("--json", *json, "Print a JSON array instead of a table");
-  command.add_flag("--rules", *rules, "Print the origin of each rule, and what --rules fixed corrects")
-      ->excludes(as_array);
-  command.footer(kFooter);
-  command.callback([json, rules] { *json ? print_json() : *rules ? print_rules() : print_table(); });
+  Subcommand command = program.add_subcommand("games", "List the games of the catalogue", kGamesFooter);
+  const Option as_array = command.flag("--json", *json, "Print a JSON array instead of a table");
+  command.flag("--rules", *rules, "Print the origin of each rule, and what --rules fixed corrects")
+      .excludes(as_array);
+  command.runs([json, rules] { *json ? print_json() : *rules ? print_rules() : print_table(); });
 }
 
 }  // namespace racebeam

@@ -1,12 +1,10 @@
 // racebeam games: lists the catalogue.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
 
-void add_games(CLI::App& app);
+class Subcommand;
+
+void add_games(Subcommand& program);
 
 }  // namespace racebeam

@@ -1,6 +1,5 @@
 #include "cli/commands/png.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <iostream>
@@ -11,13 +10,14 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/arguments/subcommand.hpp"
 #include "cli/commands/png_file.hpp"
 #include "emulator/tia/palette.hpp"
 
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter =
+constexpr auto kPngFooter =
     R"(Reads one line of the classic protocol from standard input, or only its field with the screen, and writes the
 picture: 320 pixels wide, because every pixel is doubled. The line does not contain its format: give --full if
 the server was started with --full-screen, and --palette for the game's television standard.
@@ -99,19 +99,18 @@ void run(const PngOptions& options) {
 
 }  // namespace
 
-void add_png(CLI::App& app) {
-  const std::map<std::string, Format> formats{
-      {"ntsc", Format::kNtsc}, {"pal", Format::kPal}, {"secam", Format::kSecam}};
+void add_png(Subcommand& program) {
   const auto options = std::make_shared<PngOptions>();
-  CLI::App& command = *app.add_subcommand("png", "Convert a screen that a client received to a PNG file");
-  command.add_option("OUT.png", options->path, "The file to write")->required();
-  command.add_option("--palette", options->format, "ntsc (the default), pal or secam")
-      ->transform(CLI::CheckedTransformer(formats).description(""));
-  CLI::Option* run_lengths =
-      command.add_flag("--rle", options->run_lengths, "The screen is in run lengths, as usual");
-  command.add_flag("--full", options->full, "The screen is full: two digits a pixel")->excludes(run_lengths);
-  command.footer(kFooter);
-  command.callback([options] { run(*options); });
+  Subcommand command =
+      program.add_subcommand("png", "Convert a screen that a client received to a PNG file", kPngFooter);
+  command.option("OUT.png", options->path, "The file to write").required();
+  command.choice<Format>("--palette", options->format,
+                         {{"ntsc", Format::kNtsc}, {"pal", Format::kPal}, {"secam", Format::kSecam}}, "ntsc",
+                         "ntsc, pal or secam");
+  const Option run_lengths =
+      command.flag("--rle", options->run_lengths, "The screen is in run lengths, as usual");
+  command.flag("--full", options->full, "The screen is full: two digits a pixel").excludes(run_lengths);
+  command.runs([options] { run(*options); });
 }
 
 }  // namespace racebeam

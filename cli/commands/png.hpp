@@ -1,12 +1,10 @@
 // racebeam png: converts a screen, as a client received it, to a picture.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
 
-void add_png(CLI::App& app);
+class Subcommand;
+
+void add_png(Subcommand& program);
 
 }  // namespace racebeam

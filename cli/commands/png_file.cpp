@@ -8,7 +8,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kWidth = 160, kChannels = 3;
+constexpr std::size_t kPngWidth = 160, kChannels = 3;
 
 std::vector<std::uint8_t> doubled(std::span<const std::uint8_t> rgb) {
   std::vector<std::uint8_t> wide;
@@ -26,8 +26,8 @@ void write_png(const std::string& path, std::span<const std::uint8_t> rgb) {
   const auto wide = doubled(rgb);
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
-  image.width = 2 * kWidth;
-  image.height = static_cast<png_uint_32>(rgb.size() / (kWidth * kChannels));
+  image.width = 2 * kPngWidth;
+  image.height = static_cast<png_uint_32>(rgb.size() / (kPngWidth * kChannels));
   image.format = PNG_FORMAT_RGB;
   if (png_image_write_to_file(&image, path.c_str(), 0, wide.data(), 0, nullptr) == 0) {
     throw std::runtime_error("can't write '" + path + "': " + image.message);

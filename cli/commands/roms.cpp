@@ -1,6 +1,5 @@
 #include "cli/commands/roms.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/arguments/subcommand.hpp"
 #include "games/catalogue.hpp"
 #include "games/rom_image.hpp"
 #include "system/printable.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto kFooter =
+constexpr auto kRomsFooter =
     R"(Examines the files in the folder (not in its subfolders) that end in .bin, .a26 or .rom, also with .gz after it.
 Each file is one of:
   known     its MD5 is in the catalogue: it plays as this game
@@ -31,7 +31,7 @@ Then the command lists the games of the catalogue that the folder has no image o
 Example:
   racebeam roms ~/atari)";
 
-struct Finding {
+struct RomFinding {
   std::string file;
   std::string verdict;  // known, by-name, unknown, unusable
   std::string game;     // known, by-name
@@ -47,7 +47,7 @@ std::string other_dump_of(const std::string& md5) {
   return "";
 }
 
-Finding judge(const Image& image) {
+RomFinding judge(const Image& image) {
   const Recognition recognition = recognise(image);
   const std::string& name = recognition.game->name;
   if (recognition.how == RecognisedBy::kMd5) return {"", "known", name, image.md5, ""};
@@ -58,8 +58,8 @@ Finding judge(const Image& image) {
           dump.empty() ? "needs --game" : "another dump of " + dump + ": try --game " + dump};
 }
 
-Finding examine(const fs::path& path) {
-  Finding finding;
+RomFinding examine(const fs::path& path) {
+  RomFinding finding;
   try {
     finding = judge(*load_image(path.string()));
   } catch (const std::exception& error) {
@@ -69,9 +69,9 @@ Finding examine(const fs::path& path) {
   return finding;
 }
 
-std::vector<std::string> games_without(const std::vector<Finding>& findings) {
+std::vector<std::string> games_without(const std::vector<RomFinding>& findings) {
   std::set<std::string> found;
-  for (const Finding& finding : findings) found.insert(finding.game);
+  for (const RomFinding& finding : findings) found.insert(finding.game);
   std::vector<std::string> missing;
   for (const CatalogueEntry& entry : catalogue()) {
     const std::string name{entry.name};
@@ -80,8 +80,8 @@ std::vector<std::string> games_without(const std::vector<Finding>& findings) {
   return missing;
 }
 
-void print_text(const std::vector<Finding>& findings, const std::vector<std::string>& missing) {
-  for (const Finding& finding : findings) {
+void print_text(const std::vector<RomFinding>& findings, const std::vector<std::string>& missing) {
+  for (const RomFinding& finding : findings) {
     const std::string game = finding.game.empty() ? "-" : finding.game;
     std::printf("%-8s  %-20s %-32s  %s%s%s\n", finding.verdict.c_str(), game.c_str(),
                 finding.md5.empty() ? "-" : finding.md5.c_str(), printable(finding.file).c_str(),
@@ -91,9 +91,9 @@ void print_text(const std::vector<Finding>& findings, const std::vector<std::str
   std::printf("%zu images; %zu games without one\n", findings.size(), missing.size());
 }
 
-void print_json(const std::vector<Finding>& findings, const std::vector<std::string>& missing) {
+void print_json(const std::vector<RomFinding>& findings, const std::vector<std::string>& missing) {
   auto rows = nlohmann::ordered_json::array();
-  for (const Finding& finding : findings) {
+  for (const RomFinding& finding : findings) {
     rows.push_back({{"file", finding.file},
                     {"verdict", finding.verdict},
                     {"game", finding.game},
@@ -108,7 +108,7 @@ void print_json(const std::vector<Finding>& findings, const std::vector<std::str
 }
 
 void run(const std::string& folder, bool json) {
-  std::vector<Finding> findings;
+  std::vector<RomFinding> findings;
   for (const fs::path path : image_files(folder)) findings.push_back(examine(path));
   const auto missing = games_without(findings);
   json ? print_json(findings, missing) : print_text(findings, missing);
@@ -116,18 +116,17 @@ void run(const std::string& folder, bool json) {
 
 }  // namespace
 
-void add_roms(CLI::App& app) {
+void add_roms(Subcommand& program) {
   struct Options {
     std::string folder;
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App& command =
-      *app.add_subcommand("roms", "List which images in a folder are known, and which games lack one");
-  command.add_option("DIR", options->folder, "The folder with the images")->required();
-  command.add_flag("--json", options->json, "Print a JSON object instead of text");
-  command.footer(kFooter);
-  command.callback([options] { run(options->folder, options->json); });
+  Subcommand command = program.add_subcommand(
+      "roms", "List which images in a folder are known, and which games lack one", kRomsFooter);
+  command.option("DIR", options->folder, "The folder with the images").required();
+  command.flag("--json", options->json, "Print a JSON object instead of text");
+  command.runs([options] { run(options->folder, options->json); });
 }
 
 }  // namespace racebeam

@@ -1,12 +1,10 @@
 // racebeam roms: lists which images in a folder are known.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
 
-void add_roms(CLI::App& app);
+class Subcommand;
+
+void add_roms(Subcommand& program);
 
 }  // namespace racebeam

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "cli/commands/serve_options.hpp"
+#include "cli/commands/shared_caches.hpp"
 #include "emulator/translator/translator.hpp"
 #include "environment/vector/thread_pool.hpp"
 #include "recording/recorder.hpp"
@@ -24,7 +25,7 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter =
+constexpr auto kServeFooter =
     R"(Without --classic, the server speaks the racebeam line protocol (protocol/PROTOCOL.md): a request is a line of
 text, and so is the reply. Each client loads a game of its choice. By hand: racebeam serve --stdio, then type
 help.
@@ -107,6 +108,7 @@ LineService line_service(const ServeOptions& options, ThreadPool& pool) {
   service.threads = static_cast<std::size_t>(options.server.threads);
   service.cpu = options.machine.settings.cpu;
   service.strict = options.strict;
+  service.share_all = options.watch_all;
   service.report_fault = [](const std::string& sentence) { log(LogLevel::kError, sentence); };
   service.parallel = [&pool](std::size_t count, const std::function<void(std::size_t)>& task) {
     pool.run(count, task);
@@ -123,9 +125,9 @@ void tell_obstacle(CpuKind cpu) {
 
 // What decides about a setting, for the log: its option, or what limits its default.
 std::string limit_of(const std::vector<Setting>& settings, const std::string& key, const std::string& limit) {
-  const auto is_it = [&](const Setting& setting) { return key_of(*setting.option) == key; };
+  const auto is_it = [&](const Setting& setting) { return setting.key == key; };
   const Setting& setting = *std::ranges::find_if(settings, is_it);
-  return setting.source == Source::kDefault ? limit : "--" + setting.option->get_lnames().front();
+  return setting.source == Source::kDefault ? limit : setting.name();
 }
 
 // Returns large blocks to the system at once: those as large as a picture, or as the records of its lines.
@@ -136,12 +138,11 @@ void return_large_blocks() {
 #endif
 }
 
-// Charges the memory of the server itself, and of what sessions share: cached resets and translated code.
-void limit_memory(Services& services, std::uint64_t most) {
+// Charges the memory of the server itself, and of what sessions share.
+void limit_memory(Services& services, std::uint64_t most, const SharedCaches& caches) {
   if (most == 0) return;
-  constexpr std::uint64_t kShared = 24 << 20;
   const auto budget = std::make_shared<MemoryBudget>(most);
-  budget->take_anyway(resident_memory() + kShared);
+  budget->take_anyway(resident_memory() + caches.bytes);
   if (budget->taken() >= most) {
     throw MemoryError("--max-memory " + std::to_string(most) + " is too little: the server itself uses " +
                       std::to_string(budget->taken()) + " bytes");
@@ -150,13 +151,13 @@ void limit_memory(Services& services, std::uint64_t most) {
   if (services.line) std::get<LineService>(*services.line).memory = budget;
 }
 
-int serve(const ServeOptions& options) {
+int serve(const ServeOptions& options, const SharedCaches& caches) {
   ThreadPool pool(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1,
                   options.server.busy_poll);
   Services services;
   if (serves(options, true)) services.classic = classic_service(options);
   if (serves(options, false)) services.line = line_service(options, pool);
-  limit_memory(services, options.server.max_memory);
+  limit_memory(services, options.server.max_memory, caches);
   return serve(options.server, services);
 }
 
@@ -181,12 +182,15 @@ int run_server(ServeOptions& options, const std::vector<Setting>& settings) {
   set_up_log(options.log_level, options.log_format);
   options.server.threads_limited_by = limit_of(settings, "threads", usable_processors().limited_by);
   options.server.memory_limited_by = limit_of(settings, "max_memory", usable_memory().limited_by);
+  const SharedCaches caches = shared_caches_for(options.server.max_memory);
+  options.server.caches = text_of(caches);
+  use(caches);
   tell_obstacle(options.machine.settings.cpu);
   const auto fails = [&](const std::exception& error, int status) {
     return fail(options.log_format, error.what(), status);
   };
   try {
-    return serve(options);
+    return serve(options, caches);
   } catch (const AddressError& error) {
     return fails(error, kExitAddress);
   } catch (const FolderError& error) {
@@ -200,13 +204,12 @@ int run_server(ServeOptions& options, const std::vector<Setting>& settings) {
   }
 }
 
-void add_serve(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("serve", "Serve games to agents, over a pipe or a socket");
-  command->footer(kFooter);
+void add_serve(Subcommand& program) {
+  Subcommand command =
+      program.add_subcommand("serve", "Serve games to agents, over a pipe or a socket", kServeFooter);
   const auto options = std::make_shared<ServeOptions>();
-  add_serve_options(*command, *options);
-  command->callback(
-      [options, command] { throw CLI::RuntimeError(run_server(*options, complete(*command))); });
+  add_serve_options(command, *options);
+  command.exits_with([options, command] { return run_server(*options, complete(command)); });
 }
 
 }  // namespace racebeam

@@ -3,16 +3,14 @@
 
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
+
+class Subcommand;
 
 struct ServeOptions;
 struct Setting;
 
-void add_serve(CLI::App& app);
+void add_serve(Subcommand& program);
 
 // Serves until the end. `settings`: from complete(), after which `options` may be changed. Returns the exit
 // status; the reason of a failure has been written. Throws for settings that do not fit together.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "server/web/origin.hpp"
 #include "system/resources.hpp"
 
 namespace racebeam {
@@ -14,7 +15,7 @@ namespace {
 constexpr const char* kClassicOnly[] = {"seed",        "system_seed",    "frame_skip",         "sticky",
                                         "mode",        "difficulty",     "max_episode_frames", "max_frames",
                                         "full_screen", "color_averaging"};
-constexpr const char* kLineOnly[] = {"record_dir"};
+constexpr const char* kLineOnly[] = {"record_dir", "watch"};
 
 std::string check_endpoint(const std::string& text) {
   try {
@@ -23,6 +24,12 @@ std::string check_endpoint(const std::string& text) {
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
+}
+
+std::string check_origin(const std::string& text) {
+  return is_origin(text)
+             ? std::string()
+             : "'" + text + "' is not an origin; accepted are http://HOST[:PORT] and https://HOST[:PORT]";
 }
 
 std::string check_host_and_port(const std::string& text) {
@@ -35,66 +42,57 @@ std::string check_host_and_port(const std::string& text) {
 }
 
 template <typename Number>
-void add_number(CLI::App& app, const std::string& name, Number& value, std::int64_t least,
+void add_number(Subcommand& command, const std::string& name, Number& value, std::int64_t least,
                 const std::string& help) {
   constexpr auto kMost = std::min<std::uint64_t>(std::numeric_limits<Number>::max(), 1ULL << 60);
-  app.add_option(name, value, help)
-      ->check(whole_number(least, static_cast<std::int64_t>(kMost)))
-      ->capture_default_str()
-      ->group("Limits");
+  command.option(name, value, help)
+      .check(whole_number(least, static_cast<std::int64_t>(kMost)))
+      .shows_default()
+      .group("Limits");
 }
 
-template <typename Value>
-void add_choice(CLI::App& app, const std::string& name, Value& value,
-                const std::map<std::string, Value>& choices, const std::string& usual,
-                const std::string& help) {
-  const auto check = [choices](const std::string& text) {
-    std::string names;
-    for (const auto& [choice, ignored] : choices) names += (names.empty() ? "" : ", ") + choice;
-    return choices.contains(text) ? std::string{} : "'" + text + "' is not known; accepted are " + names;
-  };
-  app.add_option_function<std::string>(
-         name, [&value, choices](const std::string& text) { value = choices.at(text); }, help)
-      ->check(CLI::Validator(check, ""))
-      ->default_str(usual)
-      ->type_name("NAME")
-      ->group("Operation");
-}
-
-void add_transports(CLI::App& command, ServeOptions& options) {
+void add_transports(Subcommand& command, ServeOptions& options) {
   const std::string group = "Where";
-  command.add_flag("--stdio", options.standard_streams, "One session on standard input and output")
-      ->group(group);
+  command.flag("--stdio", options.standard_streams, "One session on standard input and output").group(group);
   command
-      .add_option("--pipes", options.pipes,
-                  "One session on the named pipes PREFIX_out and PREFIX_in, created if missing")
-      ->type_name("PREFIX")
-      ->group(group);
+      .option("--pipes", options.pipes,
+              "One session on the named pipes PREFIX_out and PREFIX_in, created if missing")
+      .value_name("PREFIX")
+      .group(group);
   command
-      .add_option(
+      .option(
           "--listen", options.addresses,
-          "Sessions on tcp://HOST:PORT (port 0 picks one), tls://HOST:PORT, unix:PATH, systemd[:NAME], "
-          "stdio or pipes:PREFIX, with classic+ before it for the classic protocol; repeatable")
-      ->type_name("ADDRESS")
-      ->check(CLI::Validator(check_endpoint, ""))
-      ->allow_extra_args(false)
-      ->group(group);
-  command.add_flag("--classic", options.classic, "Use the text protocol of ALE 0.4 to 0.6 on all addresses")
-      ->group(group);
+          "Sessions on tcp://HOST:PORT (port 0 picks one), tls://HOST:PORT, ws://HOST:PORT, "
+          "wss://HOST:PORT, unix:PATH, systemd[:NAME], stdio or pipes:PREFIX, with classic+ before it for "
+          "the classic protocol; repeatable")
+      .value_name("ADDRESS")
+      .check({check_endpoint, ""})
+      .one_a_time()
+      .group(group);
   command
-      .add_flag("--strict", options.strict,
-                "End a session on --stdio or --pipes at its first error, with status 1; for scripts")
-      ->group(group);
+      .option("--allow-origin", options.server.allowed_origins,
+              "Pages of this origin may open sessions, besides the server's own: http://HOST[:PORT] or "
+              "https://HOST[:PORT]; repeatable")
+      .value_name("ORIGIN")
+      .check({check_origin, ""})
+      .one_a_time()
+      .group(group);
+  command.flag("--classic", options.classic, "Use the text protocol of ALE 0.4 to 0.6 on all addresses")
+      .group(group);
+  command
+      .flag("--strict", options.strict,
+            "End a session on --stdio or --pipes at its first error, with status 1; for scripts")
+      .group(group);
   const auto add_file = [&](const std::string& name, std::string& value, const std::string& help) {
-    command.add_option(name, value, help)->type_name("FILE")->group(group);
+    command.option(name, value, help).value_name("FILE").group(group);
   };
   add_file("--token-file", options.server.token_file,
            "File of tokens, one a line, that clients over TCP must send; required beyond this machine");
-  add_file("--tls-cert", options.server.tls_certificate, "Certificate chain for tls://, in PEM");
+  add_file("--tls-cert", options.server.tls_certificate, "Certificate chain for tls:// and wss://, in PEM");
   add_file("--tls-key", options.server.tls_key, "Key of the certificate, in PEM");
 }
 
-void add_limits(CLI::App& command, ServeOptions& options) {
+void add_limits(Subcommand& command, ServeOptions& options) {
   LineLimits& limits = options.limits;
   ServerSettings& server = options.server;
   add_number(command, "--max-sessions", server.max_sessions, 1, "Sessions on sockets at the same time");
@@ -115,87 +113,99 @@ void add_limits(CLI::App& command, ServeOptions& options) {
              "Seconds without a session after which the server stops, as on SIGTERM; 0: never");
 }
 
-void add_memory(CLI::App& command, ServerSettings& server) {
+void add_memory(Subcommand& command, ServerSettings& server) {
   server.max_memory = usable_memory().amount / 4 * 3;
   command
-      .add_option("--max-memory", server.max_memory,
-                  "Bytes of memory for all sessions, also as 512M or 2G (default: three quarters of what the "
-                  "process may use); 0: no limit")
-      ->transform(CLI::AsSizeValue(false))
-      ->capture_default_str()
-      ->group("Limits");
+      .option("--max-memory", server.max_memory,
+              "Bytes of memory for all sessions, also as 512M or 2G (default: three quarters of what the "
+              "process may use); 0: no limit")
+      .sizes()
+      .shows_default()
+      .group("Limits");
 }
 
-void add_operation(CLI::App& command, ServeOptions& options) {
+void add_operation(Subcommand& command, ServeOptions& options) {
   ServerSettings& server = options.server;
   const std::string group = "Operation";
   constexpr std::uint64_t kMostThreads = 1024;
   server.threads = static_cast<int>(std::min(usable_processors().amount, kMostThreads));
   command
-      .add_option(
+      .option(
           "--threads", server.threads,
           "Threads of event loops; as many others help with open and step (default: the usable processors)")
-      ->check(whole_number(1, kMostThreads))
-      ->capture_default_str()
-      ->group(group);
+      .check(whole_number(1, kMostThreads))
+      .shows_default()
+      .group(group);
   command
-      .add_option_function<std::int64_t>(
+      .option(
           "--busy-poll",
-          [&server](std::int64_t given) { server.busy_poll = std::chrono::microseconds(given); },
+          [&server](const std::string& given) {
+            server.busy_poll = std::chrono::microseconds(std::stoll(given));
+          },
           "Microseconds that a thread polls for a client whose requests follow at once; 0: never")
-      ->check(whole_number(0, 1'000'000))
-      ->default_val(server.busy_poll.count())
-      ->group(group);
+      .check(whole_number(0, 1'000'000))
+      .default_text(std::to_string(server.busy_poll.count()))
+      .value_name("INT")
+      .group(group);
   command
-      .add_option(
+      .option(
           "--ready-file", server.ready_file,
           "File for the addresses, one a line after # lines, written when all are served, removed at the end")
-      ->type_name("FILE")
-      ->group(group);
+      .value_name("FILE")
+      .group(group);
   command
-      .add_option(
-          "--announce", server.announce,
-          "File of JSON for clients (file:PATH): addresses, host, process, games and a token of its own, "
-          "which clients over TCP must send; readable for its owner alone, removed at the end")
-      ->type_name("FILE")
-      ->group(group);
-  command.add_option("--http", server.http, "Health and metrics: /healthz, /readyz, /metrics")
-      ->type_name("HOST:PORT")
-      ->check(CLI::Validator(check_host_and_port, ""))
-      ->group(group);
-  add_choice<LogLevel>(command, "--log-level", options.log_level,
-                       {{"debug", LogLevel::kDebug},
-                        {"info", LogLevel::kInfo},
-                        {"warning", LogLevel::kWarning},
-                        {"error", LogLevel::kError},
-                        {"off", LogLevel::kOff}},
-                       "info", "Lowest level that is logged: debug, info, warning, error or off");
-  add_choice<LogFormat>(command, "--log-format", options.log_format,
-                        {{"text", LogFormat::kText}, {"json", LogFormat::kJson}}, "text",
-                        "Format of the log: one line of text, or of JSON, for each event");
-  command.add_option("--config", "A TOML file with settings")->type_name("FILE")->group(group);
+      .option("--announce", server.announce,
+              "File of JSON for clients (file:PATH): addresses, host, process, games and a token of its own, "
+              "which clients over TCP must send; readable for its owner alone, removed at the end")
+      .value_name("FILE")
+      .group(group);
+  command
+      .option("--http", server.http,
+              "The page for a browser, its sessions, and health and metrics: /, /session, /healthz, /readyz, "
+              "/metrics")
+      .value_name("HOST:PORT")
+      .check({check_host_and_port, ""})
+      .group(group);
+  command
+      .choice<bool>("--watch", options.watch_all, {{"shared", false}, {"all", true}}, "shared",
+                    "Sessions that others may watch: shared, those whose client says share, or all")
+      .group(group);
+  command
+      .choice<LogLevel>("--log-level", options.log_level,
+                        {{"debug", LogLevel::kDebug},
+                         {"info", LogLevel::kInfo},
+                         {"warning", LogLevel::kWarning},
+                         {"error", LogLevel::kError},
+                         {"off", LogLevel::kOff}},
+                        "info", "Lowest level that is logged: debug, info, warning, error or off")
+      .group(group);
+  command
+      .choice<LogFormat>("--log-format", options.log_format,
+                         {{"text", LogFormat::kText}, {"json", LogFormat::kJson}}, "text",
+                         "Format of the log: one line of text, or of JSON, for each event")
+      .group(group);
+  command.option("--config", nullptr, "A TOML file with settings").value_name("FILE").group(group);
 }
 
-void add_games(CLI::App& command, ServeOptions& options) {
+void add_games(Subcommand& command, ServeOptions& options) {
   add_machine_options(command, options.machine);
-  command.get_option("--rom")->required(false);
+  command.find("--rom").required(false);
   add_count(command, "--max-episode-frames", options.machine.settings.max_episode_frames, 0,
             "Frames after which an episode is truncated; 0: no limit");
   add_count(command, "--max-frames", options.protocol.max_num_frames, 0,
             "Frames after which the session ends with DIE; 0: no limit");
-  command.add_flag("--full-screen", options.full_screen, "Write every pixel of a screen instead of runs");
-  command.add_option("--roms", options.roms, "A folder with cartridge images that clients may load")
-      ->type_name("DIR");
-  command.add_option("--record-dir", options.record_folder, "A folder that clients may record into")
-      ->type_name("DIR");
+  command.flag("--full-screen", options.full_screen, "Write every pixel of a screen instead of runs");
+  command.option("--roms", options.roms, "A folder with cartridge images that clients may load")
+      .value_name("DIR");
+  command.option("--record-dir", options.record_folder, "A folder that clients may record into")
+      .value_name("DIR");
 }
 
 template <typename VariableNames>
 void refuse_any_of(const std::vector<Setting>& settings, const VariableNames& names, const std::string& why) {
   for (const Setting& setting : settings) {
-    const bool named = std::ranges::find(names, key_of(*setting.option)) != std::end(names);
-    if (named && setting.source == Source::kCommandLine)
-      throw CLI::ValidationError("--" + setting.option->get_lnames().front(), why);
+    const bool named = std::ranges::find(names, setting.key) != std::end(names);
+    if (named && setting.source == Source::kCommandLine) throw UsageError(setting.name() + ": " + why);
   }
 }
 
@@ -206,16 +216,17 @@ void collect_endpoints(ServeOptions& options) {
   for (const std::string& address : addresses) {
     Endpoint endpoint = parse_endpoint(address);
     endpoint.classic |= options.classic;
+    if (endpoint.classic && endpoint.web)
+      throw UsageError("--listen: " + address + " excludes the classic protocol");
     options.server.endpoints.push_back(std::move(endpoint));
   }
   if (addresses.empty())
-    throw CLI::ValidationError("serve",
-                               "no address to serve: give --stdio, --pipes PREFIX or --listen ADDRESS");
+    throw UsageError("serve: no address to serve: give --stdio, --pipes PREFIX or --listen ADDRESS");
   const auto is_stdio = [](const Endpoint& endpoint) {
     return std::holds_alternative<StandardStreams>(endpoint.address);
   };
   if (std::ranges::count_if(options.server.endpoints, is_stdio) > 1)
-    throw CLI::ValidationError("serve", "the standard streams can serve only one session: give --stdio once");
+    throw UsageError("serve: the standard streams can serve only one session: give --stdio once");
 }
 
 // An error of one client must not end a server with other clients.
@@ -224,7 +235,7 @@ void check_strict(const ServeOptions& options) {
   const bool fits = std::ranges::all_of(options.server.endpoints, [](const Endpoint& endpoint) {
     return is_stream(endpoint.address) && !endpoint.classic;
   });
-  if (!fits) throw CLI::ValidationError("--strict", "requires --stdio or --pipes, and the line protocol");
+  if (!fits) throw UsageError("--strict: requires --stdio or --pipes, and the line protocol");
 }
 
 // Clients of an announce file speak the line protocol on a socket.
@@ -233,8 +244,7 @@ void check_announce(const ServeOptions& options) {
   const bool fits = std::ranges::any_of(options.server.endpoints, [](const Endpoint& endpoint) {
     return !is_stream(endpoint.address) && !endpoint.classic;
   });
-  if (!fits)
-    throw CLI::ValidationError("--announce", "requires the line protocol on a socket: --listen ADDRESS");
+  if (!fits) throw UsageError("--announce: requires the line protocol on a socket: --listen ADDRESS");
 }
 
 }  // namespace
@@ -244,7 +254,7 @@ bool serves(const ServeOptions& options, bool classic) {
                              [classic](const Endpoint& endpoint) { return endpoint.classic == classic; });
 }
 
-void add_serve_options(CLI::App& command, ServeOptions& options) {
+void add_serve_options(Subcommand& command, ServeOptions& options) {
   add_transports(command, options);
   add_games(command, options);
   add_limits(command, options);
@@ -255,17 +265,16 @@ void add_serve_options(CLI::App& command, ServeOptions& options) {
 void finish(ServeOptions& options, const std::vector<Setting>& settings) {
   collect_endpoints(options);
   if (serves(options, true)) {
-    if (options.machine.rom.empty()) throw CLI::ValidationError("serve", "--rom is required with --classic");
+    if (options.machine.rom.empty()) throw UsageError("serve: --rom is required with --classic");
   } else {
     refuse_any_of(settings, kClassicOnly, "requires --classic; in the line protocol, load sets it");
   }
   if (!serves(options, false)) refuse_any_of(settings, kLineOnly, "excludes --classic");
   check_strict(options);
   check_announce(options);
-  if (options.machine.game && options.machine.game_file)
-    throw CLI::ValidationError("--game-file", "excludes --game");
+  if (options.machine.game && options.machine.game_file) throw UsageError("--game-file: excludes --game");
   if (options.server.tls_certificate.empty() != options.server.tls_key.empty())
-    throw CLI::ValidationError("serve", "--tls-cert and --tls-key must be given together");
+    throw UsageError("serve: --tls-cert and --tls-key must be given together");
   options.limits.idle_seconds = options.server.idle_seconds;
   options.protocol.run_length = !options.full_screen;
 }

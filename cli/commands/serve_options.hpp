@@ -20,16 +20,17 @@ struct ServeOptions {
   LineLimits limits;
   ServerSettings server;
   bool classic = false, standard_streams = false, full_screen = false, strict = false;
+  bool watch_all = false;
   std::string pipes, roms, record_folder;
   std::vector<std::string> addresses;
   LogLevel log_level = LogLevel::kInfo;
   LogFormat log_format = LogFormat::kText;
 };
 
-void add_serve_options(CLI::App& command, ServeOptions& options);  // `options` must outlive the parsing
+void add_serve_options(Subcommand& command, ServeOptions& options);  // `options` must outlive the parsing
 
 // Call it after complete(). Computes the endpoints, and checks that all settings fit together. Throws
-// CLI::ValidationError.
+// UsageError.
 void finish(ServeOptions& options, const std::vector<Setting>& settings);
 
 bool serves(const ServeOptions& options, bool classic);  // on any endpoint

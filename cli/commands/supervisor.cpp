@@ -101,9 +101,13 @@ int Supervisor::wait_until_ready(const std::filesystem::path& announce) {
   return 0;
 }
 
-int Supervisor::run(const std::vector<std::string>& command) {
+void Supervisor::start(const std::vector<std::string>& command) {
   command_.process = fork_child();
   if (command_.process == 0) execute(command);
+}
+
+int Supervisor::run(const std::vector<std::string>& command) {
+  start(command);
   bool serves = server_.process != 0;
   while (command_.process != 0) {
     const siginfo_t signal = next_signal();
@@ -114,6 +118,14 @@ int Supervisor::run(const std::vector<std::string>& command) {
     serves = server_.process != 0;
   }
   return command_.status;
+}
+
+int Supervisor::wait() {
+  while (server_.process != 0) {
+    const siginfo_t signal = next_signal();
+    if (signal.si_signo != 0 && signal.si_signo != SIGCHLD) stop_server();
+  }
+  return server_.status;
 }
 
 void Supervisor::stop_server() {

@@ -45,6 +45,13 @@ class Supervisor {
   // found, 126 if it cannot be executed. Throws std::system_error.
   int run(const std::vector<std::string>& command);
 
+  // Starts a command, and does not wait for it. Throws std::system_error.
+  void start(const std::vector<std::string>& command);
+
+  // Waits until the server ends, or a signal comes, after which the server is stopped. Returns the server's
+  // exit status. A command that was started may go on.
+  int wait();
+
   // Tells the server to stop, and waits for its end. A signal ends its grace period.
   void stop_server();
 

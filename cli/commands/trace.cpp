@@ -15,7 +15,7 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter = R"(The output has these lines:
+constexpr auto kTraceFooter = R"(The output has these lines:
   R OBSERVATION                        a reset: the first, and one after each end
   A ACTION REWARD OVER OBSERVATION     one act; ACTION is a number, or NUMBER@STRENGTH
   M INDEX VALUE OBSERVATION            a write to RAM
@@ -172,34 +172,34 @@ void run(const TraceOptions& options) {
 
 }  // namespace
 
-void add_trace(CLI::App& app) {
+void add_trace(Subcommand& program) {
   const auto options = std::make_shared<TraceOptions>();
   Settings& settings = options->machine.settings;
   settings.random_seed = 123;
   settings.sticky = 0;
 
-  CLI::App& command = *app.add_subcommand("trace", "Play a list of actions and print the result of each");
+  Subcommand command =
+      program.add_subcommand("trace", "Play a list of actions and print the result of each", kTraceFooter);
   add_machine_options(command, options->machine);
-  command.get_option("--seed")->description("Seed of the sticky actions");
+  command.find("--seed").help("Seed of the sticky actions");
   command
-      .add_option("--actions", options->actions,
-                  "A file with a trace, or with numbers of actions; plain or gzip; -: standard input")
-      ->required();
+      .option("--actions", options->actions,
+              "A file with a trace, or with numbers of actions; plain or gzip; -: standard input")
+      .required();
   add_count(command, "--max-frames", settings.max_episode_frames, 0,
             "Frames after which an episode is over; 0: no limit");
-  command.add_flag("--truncate-on-life-loss", settings.truncate_on_life_loss,
-                   "An episode is over when a life is lost");
-  command.add_flag("--audio", settings.sound, "Also print the checksum of the sound");
-  command.add_flag("--counters", options->counters,
-                   "Also print: truncated, frames since loading, frames of the episode");
+  command.flag("--truncate-on-life-loss", settings.truncate_on_life_loss,
+               "An episode is over when a life is lost");
+  command.flag("--audio", settings.sound, "Also print the checksum of the sound");
+  command.flag("--counters", options->counters,
+               "Also print: truncated, frames since loading, frames of the episode");
   add_count(command, "--colors", options->colors, 0,
             "Also print the checksums of the screen in colours and in grey, every N lines; 0: never");
   add_count(command, "--screen-of", options->screen_of, 0,
             "Also print the screen of this line; the first is 0")
-      ->default_str("");
-  command.add_flag("--ram", options->ram, "Also print the RAM in full");
-  command.footer(kFooter);
-  command.callback([options] { run(*options); });
+      .default_text("");
+  command.flag("--ram", options->ram, "Also print the RAM in full");
+  command.runs([options] { run(*options); });
 }
 
 }  // namespace racebeam

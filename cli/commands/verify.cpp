@@ -1,6 +1,5 @@
 #include "cli/commands/verify.hpp"
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -16,7 +15,7 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter =
+constexpr auto kVerifyFooter =
     R"(Plays the log of each row of RESULTS/results.csv again, and compares the row, its log and what the machine gives.
 Each row that is not confirmed gets a line. With --table, also says whether a table or a report was made from
 these results: it must contain the SHA-256 of results.csv.
@@ -29,7 +28,7 @@ Example:
 
 constexpr std::size_t kMostTableBytes = std::size_t{1} << 30;
 
-struct Options {
+struct VerifyOptions {
   std::string results;
   std::vector<std::string> tables;
   ImageOptions images;
@@ -44,7 +43,7 @@ bool check_table(const std::string& path, const std::string& digest) {
   return same;
 }
 
-int run(const Options& options) {
+int run(const VerifyOptions& options) {
   const ResultsFolder folder(options.results);
   const auto start = std::chrono::steady_clock::now();
   const Verdict verdict =
@@ -63,19 +62,15 @@ int run(const Options& options) {
 
 }  // namespace
 
-void add_verify(CLI::App& app) {
-  const auto options = std::make_shared<Options>();
-  CLI::App& command =
-      *app.add_subcommand("verify", "Play the episodes of an experiment again, and confirm its scores");
-  command.add_option("RESULTS", options->results, "The folder of the results")->required();
-  command
-      .add_option("--table", options->tables, "A table or report that was made from them; may be repeated")
-      ->allow_extra_args(false);
+void add_verify(Subcommand& program) {
+  const auto options = std::make_shared<VerifyOptions>();
+  Subcommand command = program.add_subcommand(
+      "verify", "Play the episodes of an experiment again, and confirm its scores", kVerifyFooter);
+  command.option("RESULTS", options->results, "The folder of the results").required();
+  command.option("--table", options->tables, "A table or report that was made from them; may be repeated")
+      .one_a_time();
   add_image_options(command, options->images);
-  command.footer(kFooter);
-  command.callback([options] {
-    if (const int status = run(*options); status != 0) throw CLI::RuntimeError(status);
-  });
+  command.exits_with([options] { return run(*options); });
 }
 
 }  // namespace racebeam

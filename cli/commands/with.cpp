@@ -13,7 +13,7 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter =
+constexpr auto kWithFooter =
     R"(Starts a server, waits until it accepts connections, and runs COMMAND with the variable RACEBEAM_ADDRESS, which
 all clients of clients/ and of the Python package read. When COMMAND ends, the server stops. Nothing is left
 behind: the server's socket and its announce file lie in a folder of their own, below TMPDIR or /tmp.
@@ -31,9 +31,9 @@ COMMAND and the server get SIGTERM.
 Exit status: that of COMMAND; 128 and the number of the signal that has ended it; 127 if COMMAND is not found, 126 if
 it cannot be executed. If the server does not start: its own, see racebeam serve --help.)";
 
-void refuse(const std::string& option, const std::string& why) { throw CLI::ValidationError(option, why); }
+void refuse(const std::string& option, const std::string& why) { throw UsageError(option + ": " + why); }
 
-void check(const ServeOptions& options) {
+void check_for_command(const ServeOptions& options) {
   if (options.standard_streams || !options.pipes.empty())
     refuse(options.standard_streams ? "--stdio" : "--pipes",
            "requires racebeam serve; COMMAND needs a socket");
@@ -49,14 +49,8 @@ std::vector<std::string> usual_addresses(const PrivateFolder& folder) {
   return addresses;
 }
 
-bool is_default(const std::vector<Setting>& settings, const std::string& key) {
-  return std::ranges::any_of(settings, [&](const Setting& setting) {
-    return key_of(*setting.option) == key && setting.source == Source::kDefault;
-  });
-}
-
 int run(ServeOptions& options, const std::vector<Setting>& settings, const std::vector<std::string>& words) {
-  check(options);
+  check_for_command(options);
   Supervisor supervisor;
   const PrivateFolder folder;
   options.server.announce = folder.path() / "announce";
@@ -72,15 +66,13 @@ int run(ServeOptions& options, const std::vector<Setting>& settings, const std::
 
 }  // namespace
 
-void add_with(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("with", "Run a command with a server of its own");
-  command->footer(kFooter);
+void add_with(Subcommand& program) {
+  Subcommand command = program.add_subcommand("with", "Run a command with a server of its own", kWithFooter);
   const auto options = std::make_shared<ServeOptions>();
   const auto words = std::make_shared<std::vector<std::string>>();
-  add_serve_options(*command, *options);
-  command->add_option("COMMAND", *words, "The command and its arguments, after --")->required();
-  command->callback(
-      [options, words, command] { throw CLI::RuntimeError(run(*options, complete(*command), *words)); });
+  add_serve_options(command, *options);
+  command.option("COMMAND", *words, "The command and its arguments, after --").required();
+  command.exits_with([options, words, command] { return run(*options, complete(command), *words); });
 }
 
 }  // namespace racebeam

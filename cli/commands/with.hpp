@@ -1,12 +1,10 @@
 // racebeam with: a server for as long as a command runs.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
 
-void add_with(CLI::App& app);
+class Subcommand;
+
+void add_with(Subcommand& program);
 
 }  // namespace racebeam

@@ -3,7 +3,6 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -13,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+#include "cli/arguments/subcommand.hpp"
 #include "cli/connect/half_blocks.hpp"
 #include "cli/connect/line_editor.hpp"
 #include "system/input_file.hpp"
@@ -21,7 +21,7 @@
 namespace racebeam {
 namespace {
 
-constexpr auto kFooter =
+constexpr auto kConnectFooter =
     R"(Sends each line to a server of the line protocol, and prints its reply. On a terminal, lines can be edited, and
 earlier lines are recalled with the arrow keys; a value of more than 200 characters is shown by its length. Lines
 that begin with a colon are for this program:
@@ -150,25 +150,20 @@ int connect(ConnectOptions options) {
 
 }  // namespace
 
-void add_connect(CLI::App& app) {
+void add_connect(Subcommand& program) {
   auto options = std::make_shared<ConnectOptions>();
-  CLI::App* command = app.add_subcommand("connect", "Talk to a server, by hand or from a script");
-  command->footer(kFooter);
-  command->add_option("address", options->address, "Where the server is")->envname("RACEBEAM_ADDRESS");
-  command->add_option("--token-file", options->token_file, "Send the first token of this file")
-      ->type_name("FILE");
+  Subcommand command =
+      program.add_subcommand("connect", "Talk to a server, by hand or from a script", kConnectFooter);
+  command.option("address", options->address, "Where the server is").variable("RACEBEAM_ADDRESS");
+  command.option("--token-file", options->token_file, "Send the first token of this file").value_name("FILE");
   command
-      ->add_option("--authorities", options->client.authorities,
-                   "With tls://: trust these certificates, in PEM")
-      ->type_name("FILE");
-  command
-      ->add_option("--timeout", options->timeout, "Seconds to wait for a connection or a reply; 0: for ever")
-      ->check(CLI::Range(0.0, 1e6))
-      ->capture_default_str();
-  command->add_flag("--strict", options->strict, "End with status 1 at the first error");
-  command->callback([options] {
-    if (const int status = connect(*options); status != 0) throw CLI::RuntimeError(status);
-  });
+      .option("--authorities", options->client.authorities, "With tls://: trust these certificates, in PEM")
+      .value_name("FILE");
+  command.option("--timeout", options->timeout, "Seconds to wait for a connection or a reply; 0: for ever")
+      .check(number(0, 1e6))
+      .shows_default();
+  command.flag("--strict", options->strict, "End with status 1 at the first error");
+  command.exits_with([options] { return connect(*options); });
 }
 
 }  // namespace racebeam

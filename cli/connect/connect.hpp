@@ -1,12 +1,10 @@
 // racebeam connect: a person or a script talks to a server of the line protocol.
 #pragma once
 
-namespace CLI {
-class App;
-}
-
 namespace racebeam {
 
-void add_connect(CLI::App& app);
+class Subcommand;
+
+void add_connect(Subcommand& program);
 
 }  // namespace racebeam

@@ -20,7 +20,7 @@ class Client:
     language: str                  # as on its page, in fences
     runner: tuple[str, ...]        # a command and the program that takes a file of steps
     sources: str                   # a pattern: the files of the client
-    offers: frozenset = EVERY_WAY  # beside TCP, as in `section ... needs WHAT`
+    offers: frozenset = EVERY_WAY  # beside TCP, as in `section ... needs WHAT...`
     build: tuple[str, ...] = ()    # a command
     compiler: tuple[str, ...] = ()  # a command that takes a program, so that the runner need not compile it
     probe: tuple[str, ...] = ()    # a command that succeeds where the runner has what it needs
@@ -49,8 +49,10 @@ CLIENTS = (
     Client("python", "python", ("python3", "-B", str(HERE / "runner.py")), "clients/python/racebeam/wire/client.py",
            offers=EVERYTHING),
     Client("java", "java", ("java", "-cp", str(BUILT / "java"), str(HERE / "Runner.java")), "clients/java/src/main/java/racebeam/*.java",
+           offers=EVERYTHING,
            build=("javac", "-Xlint:all", "-d", str(BUILT / "java"), *map(str, ROOT.glob("clients/java/src/main/java/**/*.java")))),
     *(Client(program, "lua", (program, str(HERE / "runner.lua")), "clients/lua/racebeam/*.lua",
+             offers=EVERYTHING,
              probe=(program, "-e", "require 'socket' require 'ssl'"),
              variables=(("LUA_PATH", f"{ROOT}/clients/lua/?.lua;{ROOT}/clients/lua/?/init.lua;;"),))
       for program in ("lua5.1", "lua5.4", "luajit")),
@@ -59,7 +61,7 @@ CLIENTS = (
            offers=EVERYTHING,
            compiler=("python3", "-B", str(HERE / "run_cpp.py"), "--build"),
            probe=("python3", "-B", str(HERE / "run_cpp.py"), "--probe")),
-    Client("javascript", "js", ("node", str(HERE / "runner.mjs")), "clients/js/src/*.js"),
+    Client("javascript", "js", ("node", str(HERE / "runner.mjs")), "clients/js/src/**/*.js", offers=EVERYTHING),
     Client("bash", "shell", ("bash", str(HERE / "runner.bash")), "clients/shell/racebeam.bash",
            offers=frozenset({"pipes", "file", "announce", "launch"}),
            variables=(("PATH", f"{ROOT}/clients/shell:{os.environ['PATH']}"),)),

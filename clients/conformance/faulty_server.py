@@ -50,6 +50,17 @@ class Connection(socketserver.StreamRequestHandler):
     def damaged(self, text):
         return self.say(f"ok {self.field}={text}\n".encode())
 
+    def bytes(self, size, following):
+        return self.say(f"ok {self.field}={size} raw={following}\n\n\n".encode())
+
+    def half_bytes(self):
+        self.bytes(128, 128)
+        return False
+
+    def silent_bytes(self):
+        self.bytes(128, 128)
+        return self.silent()
+
     def die(self):
         return False
 

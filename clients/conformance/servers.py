@@ -79,7 +79,8 @@ def started(racebeam, roms=None):
             (tls,), _ = servers.start("tls", "--listen", "tls://127.0.0.1:0", *guarded, "--tls-cert", chain, "--tls-key", key)
             announced = folder / "announced"
             servers.start("announced", *tcp, "--announce", announced)
-            servers.start("pipes", "--pipes", folder / "pipes")
+            for pipes in ("pipes", "more_pipes"):  # each serves one client
+                servers.start(pipes, "--pipes", folder / pipes)
             yield {
                 **faulty_server.start(),
                 "TCP": main_tcp,
@@ -93,6 +94,7 @@ def started(racebeam, roms=None):
                 "TLS": tls,
                 "MISNAMED": tls.replace("127.0.0.1", "localhost"),
                 "PIPES": f"pipes:{folder}/pipes",
+                "MORE_PIPES": f"pipes:{folder}/more_pipes",
                 "TOKEN": TOKEN,
                 "AUTHORITY": str(chain),
                 "IMAGE": base64.b64encode((ROOT / "games/homebrew/updraft.bin").read_bytes()).decode(),

@@ -106,7 +106,9 @@ std::optional<StackSettings> parse_stack(std::string_view& name) {
 }
 
 std::size_t bytes_of(const StackSettings& stack) {
-  return static_cast<std::size_t>(stack.depth * stack.width * stack.height * stack.channels());
+  const int pictures = stack.depth * stack.channels();
+  return static_cast<std::size_t>(stack.width) * static_cast<std::size_t>(stack.height) *
+         static_cast<std::size_t>(pictures);
 }
 
 Field parse_field(std::string_view word) {

@@ -66,15 +66,4 @@ std::optional<LineReader::Line> LineReader::next() {
   return Line{Kind::kHalf, {}};
 }
 
-std::size_t LineReader::lines(std::size_t most) const {
-  const std::string_view rest(buffer_.data() + begin_, unread());
-  std::size_t found = 0;
-  for (std::size_t at = searched_; found < most; ++found) {
-    at = rest.find('\n', at);
-    if (at == std::string_view::npos) break;
-    ++at;
-  }
-  return found;
-}
-
 }  // namespace racebeam

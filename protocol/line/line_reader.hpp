@@ -32,7 +32,6 @@ class LineReader {
   };
   std::optional<Line> next();
   bool empty() const { return unread() == 0; }  // next() has returned all lines
-  std::size_t lines(std::size_t most) const;    // number of complete lines that wait, at most `most`
 
  private:
   std::size_t unread() const { return end_ - begin_; }

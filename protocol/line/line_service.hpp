@@ -10,6 +10,7 @@
 
 #include "emulator/translator/translator.hpp"
 #include "protocol/line/images.hpp"
+#include "protocol/line/share.hpp"
 #include "protocol/running/memory_budget.hpp"
 
 namespace racebeam {
@@ -47,6 +48,8 @@ struct LineService {
   CpuKind cpu = CpuKind::kAuto;          // of all machines
   std::shared_ptr<MemoryBudget> memory;  // of all sessions; null: there is no limit
   bool strict = false;                   // the first error ends a session; for scripts
+  std::shared_ptr<Shares> shares = std::make_shared<Shares>();
+  bool share_all = false;  // sessions are shared from their first game on
   // Reports an `internal` error; thread-safe; may be empty.
   std::function<void(const std::string& sentence)> report_fault;
 };

@@ -11,11 +11,7 @@
 namespace racebeam {
 namespace {
 
-// Waking a sleeping client takes as long as a step, and sending takes longer still. The replies to requests
-// that were sent ahead are therefore sent together, when kLastRequests requests are left. The session answers
-// those while the client reads. The other constants limit how many replies wait.
-constexpr std::size_t kLastRequests = 3;
-constexpr int kFewReplies = 4;
+// Replies to requests that were sent ahead are sent together. These limit how many wait.
 constexpr int kFramesOfReplies = 64;              // take some hundred microseconds
 constexpr std::size_t kBytesOfReplies = 1 << 16;  // about twenty screens
 
@@ -134,12 +130,7 @@ bool Session::has_enough() const {
 
 bool Session::pauses() const {
   if (pacer.in_progress() || out.empty() || input.empty()) return false;
-  return has_enough() || (unsent_ >= kFewReplies && input.lines(kLastRequests + 1) == kLastRequests);
-}
-
-bool Session::wants_more() const {
-  return !pacer.in_progress() && !done_ && unsent_ > 1 && !has_enough() &&
-         input.lines(kLastRequests + 1) <= kLastRequests;
+  return has_enough();
 }
 
 bool Session::waits() const { return pacer.in_progress() && recording && recording->is_behind(); }
@@ -251,12 +242,31 @@ void Session::finish_reply() {
   out += '\n';
   out += raw;
   raw.clear();
-  ++unsent_;
   statistics.bytes_out += static_cast<std::int64_t>(out.size() - reply_);
   done_ = quitting || refused();
   memory.set(footprint());
+  if (sharing && sharing->share().is_wanted() && sharing->share().is_due(looked_)) publish();
   if (meter_) measure();
   began_ = looked_;  // when the next request begins, if it is here
+}
+
+// The client has its reply already, or gets it at the same time as without watchers.
+void Session::publish() {
+  const Slot& slot = loaded->slot();
+  const Environment& machine = slot.environment();
+  Snapshot shown;
+  shown.game = machine.game().name;
+  shown.format = machine.format();
+  shown.frame = machine.frame_number();
+  shown.episode = statistics.episodes + (slot.finished() ? 0 : 1);
+  shown.score = slot.score();
+  shown.reward = slot.outcome().reward;
+  shown.lives = machine.lives();
+  shown.action = actions.empty() ? 0 : actions.back().act.a;
+  shown.over = slot.finished();
+  shown.screen.assign(machine.screen().begin(), machine.screen().end());
+  std::ranges::copy(machine.ram(), shown.ram.begin());
+  sharing->share().publish(std::move(shown), statistics.frames);
 }
 
 void Session::measure() {
@@ -268,11 +278,14 @@ void Session::measure() {
 // Estimates the bytes of memory that the session holds. A request checks large allocations by itself.
 std::size_t Session::footprint() const {
   constexpr std::size_t kSession = std::size_t{48} << 10;  // with connection, fiber and buffers
+  constexpr std::size_t kShare = std::size_t{80} << 10;    // two copies of a screen
   std::size_t bytes = kSession + out.capacity() + raw.capacity() + input.capacity() + states.footprint() +
                       machines.footprint(fields) + actions.capacity() * sizeof(Action) +
                       step_acts.capacity() * sizeof(Act) + words_.capacity() * sizeof(std::string_view);
   if (loaded) bytes += LoadedMachine::footprint(fields);
   if (has_own_image) bytes += kOwnImage;
+  if (sharing) bytes += kShare;
+  for (const auto& [name, watched] : watching) bytes += watched.footprint();
   return bytes;
 }
 
@@ -288,7 +301,6 @@ std::string_view Session::whole_replies() const {
 
 void Session::sent(std::size_t count) {
   out.erase(0, count);
-  unsent_ = 0;
   sent_frames_ = pacer.frames();
   reply_ -= std::min(reply_, count);
 }
@@ -302,7 +314,8 @@ void Session::cancel() {
 }
 
 void Session::rest() {
-  if (pacer.in_progress()) return;  // the request, whose words are in use, waits for its client to read
+  if (pacer.in_progress()) return;   // the request, whose words are in use, waits for its client to read
+  if (loaded && sharing) publish();  // a session that pauses shows what it stopped at
   if (loaded) loaded->machine().rest();
   machines.rest();
   if (out.empty()) out.shrink_to_fit();

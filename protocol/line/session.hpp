@@ -15,6 +15,7 @@
 #include "protocol/line/machines.hpp"
 #include "protocol/line/meter.hpp"
 #include "protocol/line/states.hpp"
+#include "protocol/line/watching.hpp"
 #include "protocol/running/memory_budget.hpp"
 #include "protocol/running/pacer.hpp"
 
@@ -58,6 +59,8 @@ class Session {
   std::unique_ptr<LoadedMachine> loaded;
   States states;
   std::unique_ptr<SessionRecording> recording;  // null if nothing is being recorded
+  std::unique_ptr<Sharing> sharing;             // null if the session is not shared
+  Watching watching;                            // shared sessions that this one watches
 
   MemoryShare memory;           // of the server's budget; a request checks it before it allocates
   std::vector<Action> actions;  // of the current request; members to reuse their memory
@@ -81,7 +84,6 @@ class Session {
   Pacer::Clock::duration worked() const { return worked_; }
   std::string_view whole_replies() const;  // without that of a request in progress, which may still fail
   void sent(std::size_t count);            // removes this many bytes of them
-  bool wants_more() const;                 // see LineSession
   bool waits() const;                      // see LineSession
   bool finished() const { return done_; }
   bool refused() const { return service.strict && statistics.errors > 0; }
@@ -104,6 +106,7 @@ class Session {
   void refuse_fault(const std::string& what);
   std::size_t footprint() const;
   void finish_reply();
+  void publish();  // to watchers
   void measure();
   template <typename Step>
   void guarded(Step step);  // an exception becomes an error reply
@@ -111,7 +114,6 @@ class Session {
   const CommandTable& table_;
   std::vector<std::string_view> words_;
   std::size_t reply_ = 0;         // offset of the current reply in `out`
-  int unsent_ = 0;                // number of whole replies in `out`
   std::int64_t sent_frames_ = 0;  // pacer.frames() when `out` was last sent
   bool done_ = false;
   Clock::time_point began_;   // when the current request began

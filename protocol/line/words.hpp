@@ -50,6 +50,7 @@ std::string_view value_of(std::string_view word, std::string_view key, std::stri
 template <typename Rows>
 std::vector<std::string_view> names_of(const Rows& rows) {  // the names of a table's rows
   std::vector<std::string_view> names;
+  names.reserve(std::size(rows));
   for (const auto& row : rows) names.push_back(row.name);
   return names;
 }

@@ -12,7 +12,8 @@
 namespace racebeam {
 namespace {
 
-constexpr std::string_view kClassic = "classic+", kTls = "tls+", kTlsScheme = "tls://";
+constexpr std::string_view kClassic = "classic+", kTls = "tls+", kTlsScheme = "tls://", kWeb = "ws://",
+                           kWebTls = "wss://";
 constexpr std::string_view kTcp = "tcp://", kUnix = "unix:", kSystemd = "systemd",
                            kPipes = "pipes:", kStdio = "stdio";
 
@@ -92,9 +93,25 @@ struct Writer {
   std::string operator()(AlePipes) const { return "pipes:ale_fifo"; }
 };
 
+// ws://HOST:PORT and wss://HOST:PORT.
+std::optional<Endpoint> parse_web(std::string_view text) {
+  const bool tls = text.starts_with(kWebTls);
+  if (!cut(text, tls ? kWebTls : kWeb)) return std::nullopt;
+  const auto address = parse_tcp(text);
+  if (!address) return std::nullopt;
+  return Endpoint{*address, false, tls, true};
+}
+
+// The scheme of a TCP address.
+std::string_view scheme_of(const Endpoint& endpoint) {
+  if (endpoint.web) return endpoint.tls ? kWebTls : kWeb;
+  return endpoint.tls ? kTlsScheme : kTcp;
+}
+
 }  // namespace
 
 Endpoint parse_endpoint(const std::string& text) {
+  if (const auto web = parse_web(text)) return *web;
   std::string_view rest = text;
   Endpoint endpoint;
   endpoint.classic = cut(rest, kClassic);
@@ -111,8 +128,9 @@ Endpoint parse_endpoint(const std::string& text) {
   }
   throw std::invalid_argument(
       "'" + text +
-      "' is not an address to listen on; accepted are tcp://HOST:PORT and tls://HOST:PORT (an IP address or "
-      "a host name; port 0 picks a free one), unix:PATH, systemd or systemd:NAME, stdio and pipes:PREFIX; "
+      "' is not an address to listen on; accepted are tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT and "
+      "wss://HOST:PORT (an IP address or a host name; port 0 picks a free one), unix:PATH, systemd or "
+      "systemd:NAME, stdio and pipes:PREFIX; "
       "classic+ before an address selects the classic protocol");
 }
 
@@ -126,7 +144,11 @@ std::string to_string(const Address& address) { return std::visit(Writer{}, addr
 
 std::string to_string(const Endpoint& endpoint) {
   std::string text = to_string(endpoint.address);
-  if (endpoint.tls) text = text.starts_with(kTcp) ? "tls://" + text.substr(kTcp.size()) : "tls+" + text;
+  if (text.starts_with(kTcp)) {
+    text.replace(0, kTcp.size(), scheme_of(endpoint));
+  } else if (endpoint.tls) {
+    text.insert(0, kTls);
+  }
   return (endpoint.classic ? "classic+" : "") + text;
 }
 

@@ -45,10 +45,12 @@ struct Endpoint {
   Address address;
   bool classic = false;  // the protocol of ALE 0.4 to 0.6
   bool tls = false;
+  bool web = false;  // the line protocol over WebSocket; always a TcpAddress
 };
 
 // Parses [classic+][tls+]ADDRESS, where ADDRESS is tcp://HOST:PORT, unix:PATH, systemd, systemd:NAME, stdio
-// or pipes:PREFIX. tls:// is short for tls+tcp://. Throws std::invalid_argument with a sentence.
+// or pipes:PREFIX. tls:// is short for tls+tcp://. Also parses ws://HOST:PORT and wss://HOST:PORT, which take
+// nothing before them. Throws std::invalid_argument with a sentence.
 Endpoint parse_endpoint(const std::string& text);
 
 TcpAddress parse_host_and_port(const std::string& text);  // throws std::invalid_argument

@@ -4,8 +4,6 @@ namespace racebeam {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLong = 50us;  // a request above this is long
-
 Client::Client(Socket connection, Loop& home, std::string who)
     : socket(std::move(connection)), loop(home), name(std::move(who)) {
   ++loop.sessions;
@@ -24,9 +22,7 @@ void Client::received(std::size_t bytes) {
 }
 
 void Client::sent(std::size_t bytes) {
-  const auto asked = active_;
   is_active();
-  sleeps_ = active_ - asked > kLong;
   loop.meter.bytes_out.add(static_cast<std::int64_t>(bytes));
   if (quick_) loop.busy.begin();
 }
@@ -42,6 +38,7 @@ void Client::end(ErrorCode code, const std::string& sentence) {
     return;
   }
   ended_ = Clock::now();
+  code_ = code;
   reason_ = sentence;
   ((((farewell_ = "error ") += name_of(code)) += ' ') += sentence) += '\n';
   socket.cancel(ignored);

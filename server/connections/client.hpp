@@ -38,14 +38,13 @@ class Client {
   }
   void received(std::size_t bytes);
   void sent(std::size_t bytes);
-  // The client probably sleeps until its reply, because its last request was long.
-  bool sleeps() const { return sleeps_; }
 
   // Ends the session: cancels what it waits for, and sends it the error. A client that does not read the
   // error within two seconds is disconnected by the next end().
   void end(ErrorCode code, const std::string& sentence);
   bool ending() const { return !farewell_.empty(); }
   const std::string& farewell() const { return farewell_; }  // a reply of the line protocol
+  ErrorCode code() const { return code_; }                   // of the farewell
   const std::string& reason() const { return reason_; }      // for the log
 
   // Called once in each pause: the session releases caches.
@@ -60,6 +59,7 @@ class Client {
   const std::string name;
   std::optional<Guesser> guesser;     // while a token is required
   std::optional<Lobby::Place> place;  // while a token is required
+  bool greeted = false;               // the handshakes of TLS and HTTP are done
   bool admitted = false;              // it has given its token, or needs none
   bool held_back = false;             // its token is delayed, because of wrong ones from the same address
   bool working = false;               // a slice of its requests is done, and the next is pending
@@ -69,7 +69,7 @@ class Client {
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};
   bool rests_ = false;
   bool quick_ = false;  // its next request came at once
-  bool sleeps_ = false;
+  ErrorCode code_{};
   std::string farewell_, reason_;
 };
 

@@ -11,9 +11,10 @@
 #include <boost/asio/ssl.hpp>
 
 #include "server/connections/departure.hpp"
-#include "server/connections/request_peeker.hpp"
 #include "server/connections/session_loop.hpp"
 #include "server/operation/log.hpp"
+#include "server/web/exchange.hpp"
+#include "server/web/web_socket.hpp"
 
 namespace racebeam {
 namespace {
@@ -31,6 +32,7 @@ std::size_t send_at_once(Socket& socket, std::string_view text) {
   return socket.write_some(net::buffer(text), full);
 }
 std::size_t send_at_once(TlsStream&, std::string_view) { return 0; }
+std::size_t send_at_once(WebSocket&, std::string_view) { return 0; }
 
 // Sends in pieces. Each piece that is accepted shows that the client still reads.
 template <typename Stream>
@@ -46,22 +48,22 @@ net::awaitable<void> send_rest(Stream& stream, Client& client, std::string_view 
   }
 }
 
-template <typename Token>
-auto read_some(Socket& socket, net::mutable_buffer space, Socket::message_flags flags, Token token) {
-  return socket.async_receive(space, flags, std::move(token));
-}
-template <typename Token>
-auto read_some(TlsStream& stream, net::mutable_buffer space, Socket::message_flags, Token token) {
-  return stream.async_read_some(space, std::move(token));
+net::awaitable<void> send_rest(WebSocket& stream, Client& client, std::string_view text) {
+  co_await stream.write(text, [&client](std::size_t count) { client.sent(count); });
 }
 
 // Receives bytes. Returns their number; 0: there will be no more.
 template <typename Stream>
-net::awaitable<std::size_t> receive(Stream& stream, Client& client, std::span<char> space,
-                                    Socket::message_flags flags = 0) {
+net::awaitable<std::size_t> receive(Stream& stream, Client& client, std::span<char> space) {
   error_code error;
-  const std::size_t count = co_await read_some(stream, net::buffer(space.data(), space.size()), flags,
-                                               net::redirect_error(use_awaitable, error));
+  const std::size_t count = co_await stream.async_read_some(net::buffer(space.data(), space.size()),
+                                                            net::redirect_error(use_awaitable, error));
+  client.received(count);
+  co_return count;
+}
+
+net::awaitable<std::size_t> receive(WebSocket& stream, Client& client, std::span<char> space) {
+  const std::size_t count = co_await stream.read(space);
   client.received(count);
   co_return count;
 }
@@ -75,15 +77,23 @@ net::awaitable<void> take_leave(Stream& stream, Client& client) {
   throw std::runtime_error("closed: " + client.reason());
 }
 
-RequestPeeker look_ahead(Socket& socket) { return RequestPeeker(&socket); }
-RequestPeeker look_ahead(TlsStream&) { return RequestPeeker(nullptr); }
+CloseCode close_code(ErrorCode why) {
+  if (why == ErrorCode::kStopping) return CloseCode::kGoingAway;
+  return why == ErrorCode::kBusy ? CloseCode::kTryAgainLater : CloseCode::kPolicyViolation;
+}
 
-bool found_more(RequestPeeker& ahead, Client& client, LineSession& session) {
-  const std::size_t count = client.ending() ? 0 : ahead.look(session.space());
-  if (count == 0) return false;  // receive() handles the end and errors
-  client.received(count);
-  session.received(count);
-  return true;
+net::awaitable<void> take_leave(WebSocket& stream, Client& client) {
+  std::string_view line = client.farewell();
+  line.remove_suffix(1);  // LF
+  co_await stream.leave(line, close_code(client.code()));
+  throw std::runtime_error("closed: " + client.reason());
+}
+
+// A message has at most one longest line, with its end.
+template <typename Stream>
+void limit_message(Stream&, const LineSession&) {}
+void limit_message(WebSocket& stream, const LineSession& session) {
+  stream.limit_message(session.longest_line() + 2);
 }
 
 // A client that writes a request in pieces may delay the next one until this one is acknowledged (Nagle's
@@ -173,13 +183,10 @@ net::awaitable<void> await_recording(Client& client) {
 
 // `piece`: everything that was received last is part of a line.
 template <typename Stream>
-net::awaitable<void> read(Stream& stream, Client& client, LineSession& session, RequestPeeker& ahead,
-                          bool piece) {
+net::awaitable<void> read(Stream& stream, Client& client, LineSession& session, bool piece) {
   if (piece) acknowledge(client.socket);
-  ahead.take();
-  const auto flags = ahead.flags(client.sleeps());
-  const std::size_t count = co_await receive(stream, client, session.space(), flags);
-  ahead.was_read(flags, count);
+  limit_message(stream, session);
+  const std::size_t count = co_await receive(stream, client, session.space());
   if (count > 0 || !client.ending()) session.received(count);
   if (client.guesser) co_await hold_back(client);
 }
@@ -191,7 +198,6 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
                                       Metrics& metrics) {
   using Next = SessionLoop::Next;
   constexpr int kMostParts = 4;
-  RequestPeeker ahead = look_ahead(stream);
   Departure departure;
   Turns& turns = client.loop.turns;
   SessionLoop loop(session);
@@ -200,11 +206,10 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
     turns.worked(client.usage, session.worked());
     return more;
   };
-  const auto find_more = [&] { return turns.may_work(client.usage) && found_more(ahead, client, session); };
   bool piece = false;
   for (int parts = 0;;) {
     if (!turns.may_work(client.usage)) co_await take_turn(client);
-    Next next = loop.work(run, find_more);
+    Next next = loop.work(run);
     client.admitted = session.admitted();
     if (client.guesser) judge(client, session, metrics);
     const bool sends = next == Next::kSend;
@@ -214,12 +219,11 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
       client.sent(count);
       if (count < text.size()) co_await send_rest(stream, client, text.substr(count));
       next = loop.sent();
-      ahead.take();
       piece = false;
     }
     if (next == Next::kDone) break;
     if (next == Next::kRead) {
-      if (!client.ending()) co_await read(stream, client, session, ahead, std::exchange(piece, true));
+      if (!client.ending()) co_await read(stream, client, session, std::exchange(piece, true));
     } else {
       if (!sends && departure.has_gone(client.socket))
         throw std::runtime_error("the client left in the middle of a request");
@@ -238,7 +242,7 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
 // Limits how long a client may take to close its end.
 class Patience {
  public:
-  explicit Patience(std::shared_ptr<Client> client) : timer_(client->socket.get_executor(), 2s) {
+  explicit Patience(const std::shared_ptr<Client>& client) : timer_(client->socket.get_executor(), 2s) {
     timer_.async_wait([client](error_code cancelled) {
       error_code ignored;
       if (!cancelled) client->socket.close(ignored);
@@ -297,30 +301,57 @@ net::awaitable<void> play(Stream& stream, Client& client, const Service& service
   return std::visit([&](const auto& kind) { return play(stream, client, kind, metrics); }, service);
 }
 
-net::awaitable<void> play_over_tls(std::shared_ptr<Client> client, const Service& service,
-                                   net::ssl::context& context, Metrics& metrics) {
-  TlsStream stream(client->socket, context);
+// Answers the request of a client of the site. If that opens a session, plays it over a WebSocket.
+net::awaitable<void> play_over_http(ByteStream stream, Client& client, const Service& service,
+                                    Carrier& carrier, Metrics& metrics) {
+  if (!carrier.request) {
+    boost::beast::flat_buffer buffer;
+    carrier.request = (co_await exchange(stream, buffer, *carrier.site)).session;
+    if (client.ending()) throw std::runtime_error("closed: " + client.reason());
+    if (!carrier.request) co_return;
+  }
+  WebSocket socket(stream);
+  co_await socket.accept(*carrier.request);
+  carrier.request.reset();
+  client.greeted = true;
+  socket.on_control([&client] { client.is_active(); });
+  ++metrics.sessions_line;
+  co_await play(socket, client, std::get<LineService>(service), metrics);
+  co_await socket.leave({}, client.admitted ? CloseCode::kNormal : CloseCode::kPolicyViolation);
+}
+
+template <typename Stream>
+net::awaitable<void> play_over(Stream& stream, Client& client, const Service& service, Carrier& carrier,
+                               Metrics& metrics) {
+  if (carrier.site != nullptr) return play_over_http(ByteStream(stream), client, service, carrier, metrics);
+  client.greeted = true;
+  return play(stream, client, service, metrics);
+}
+
+net::awaitable<void> play_over_tls(std::shared_ptr<Client> client, const Service& service, Carrier& carrier,
+                                   Metrics& metrics) {
+  TlsStream stream(client->socket, *carrier.tls);
   error_code error;
   co_await stream.async_handshake(TlsStream::server, net::redirect_error(use_awaitable, error));
   if (error) {
     ++metrics.refused_tls;
     throw std::runtime_error("TLS handshake failed: " + error.message());
   }
-  co_await play(stream, *client, service, metrics);
+  co_await play_over(stream, *client, service, carrier, metrics);
   const Patience patience(client);
   co_await stream.async_shutdown(net::redirect_error(use_awaitable, error));
 }
 
 }  // namespace
 
-net::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Service& service,
-                                      std::shared_ptr<net::ssl::context> tls, Metrics& metrics) {
+net::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
+                                      Metrics& metrics) {
   client->came_in();
   try {
-    if (tls) {
-      co_await play_over_tls(client, service, *tls, metrics);
+    if (carrier.tls) {
+      co_await play_over_tls(client, service, carrier, metrics);
     } else {
-      co_await play(client->socket, *client, service, metrics);
+      co_await play_over(client->socket, *client, service, carrier, metrics);
     }
   } catch (const std::exception& error) {
     log(client->name + ": " + error.what(), {{"client", client->name}, {"event", "left"}});
@@ -330,9 +361,9 @@ net::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Serv
   co_await close_gently(client);
 }
 
-net::awaitable<void> turn_away(std::shared_ptr<Client> client, bool understands) {
+net::awaitable<void> turn_away(std::shared_ptr<Client> client, std::string text) {
   error_code ignored;
-  if (understands) client->socket.write_some(net::buffer(client->farewell()), ignored);
+  if (!text.empty()) client->socket.write_some(net::buffer(text), ignored);
   co_await close_gently(client);
 }
 

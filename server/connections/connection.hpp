@@ -1,7 +1,10 @@
-// Serves one connection on its event loop: bytes to and from the session, over a plain socket or TLS.
+// Serves one connection on its event loop: bytes to and from the session, over a plain socket, TLS or
+// WebSocket.
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>  // needed by Asio 1.74
 
 #include <boost/asio/awaitable.hpp>
@@ -9,16 +12,22 @@
 
 #include "server/connections/client.hpp"
 #include "server/connections/service.hpp"
+#include "server/web/site.hpp"
 
 namespace racebeam {
 
-// Serves the whole session on the client's loop. `service` must outlive it; `tls` is null for a plain socket.
-// Never throws.
-boost::asio::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Service& service,
-                                              std::shared_ptr<boost::asio::ssl::context> tls,
-                                              Metrics& metrics);
+// What a client speaks below the protocol of its session.
+struct Carrier {
+  std::shared_ptr<boost::asio::ssl::context> tls;  // null: no TLS
+  const Site* site = nullptr;                      // null: no HTTP
+  std::optional<HttpRequest> request;              // over HTTP: opens the session, if it has come already
+};
 
-// Closes the connection. If `understands`, sends the reason before, as a line of the line protocol.
-boost::asio::awaitable<void> turn_away(std::shared_ptr<Client> client, bool understands);
+// Serves the whole session on the client's loop. `service` and the site must outlive it. Never throws.
+boost::asio::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Service& service,
+                                              Carrier carrier, Metrics& metrics);
+
+// Closes the connection, after a last text, which may be empty.
+boost::asio::awaitable<void> turn_away(std::shared_ptr<Client> client, std::string text);
 
 }  // namespace racebeam

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "server/connections/connection.hpp"
 #include "server/operation/log.hpp"
 
 namespace racebeam {
@@ -37,6 +36,12 @@ bool has_memory_for_one_more(const Service& service) {
 // The longest delay of a token: it must be checked before the handshake's timeout.
 WrongTokens::Delay longest_delay(const ServerSettings& settings) {
   return std::min<WrongTokens::Delay>(5s, 500ms * settings.handshake_seconds);
+}
+
+// What a client gets that is refused: an error that it understands. Over TLS there has been no handshake.
+std::string refusal(const Endpoint& endpoint, const Client& client) {
+  if (endpoint.classic || endpoint.tls) return {};
+  return endpoint.web ? http_refusal(client.reason()) : client.farewell();
 }
 
 // The address of a client that has disconnected already is unknown.
@@ -76,6 +81,7 @@ ConnectionAcceptor::ConnectionAcceptor(const ServerSettings& settings, const Ser
       return tokens_->admits(token);
     };
   }
+  site_.sessions = session_rules(true);  // an address beyond loopback is refused without tokens
   for (const Endpoint& endpoint : settings.endpoints) {
     if (const auto* inherited = std::get_if<InheritedAddress>(&endpoint.address)) {
       listen_inherited(endpoint, inherited->name);
@@ -128,7 +134,12 @@ void ConnectionAcceptor::check(const Listener& listener) const {
 // Permissions of the file system protect a Unix socket.
 const Service& ConnectionAcceptor::service_of(const Listener& listener) const {
   if (listener.endpoint().classic) return *services_.classic;
-  return guarded_ && !listener.is_local() ? *guarded_ : *services_.line;
+  return listener.is_local() ? *services_.line : guarded_service();
+}
+
+std::optional<OriginRules> ConnectionAcceptor::session_rules(bool is_loopback) const {
+  if (!services_.line || !(is_loopback || tokens_)) return std::nullopt;
+  return OriginRules{settings_.allowed_origins, tokens_.has_value()};
 }
 
 std::vector<std::string> ConnectionAcceptor::names() const {
@@ -192,25 +203,48 @@ std::optional<std::string> ConnectionAcceptor::obstacle(const Service& service) 
 }
 
 void ConnectionAcceptor::admit(Socket socket, Loop& loop, const Listener& listener, int number) {
+  const Endpoint& endpoint = listener.endpoint();
   std::string name = listener.name() + " client " + std::to_string(number);
-  auto client = std::make_shared<Client>(std::move(socket), loop, std::move(name));
-  const Service& service = service_of(listener);
+  Carrier carrier;
+  if (endpoint.tls) carrier.tls = tls_->context();
+  if (endpoint.web) carrier.site = &site_;
+  admit(std::make_shared<Client>(std::move(socket), loop, std::move(name)), service_of(listener),
+        std::move(carrier), endpoint);
+}
+
+void ConnectionAcceptor::admit_over_http(int descriptor, HttpRequest request, const std::string& address) {
+  Loop& loop = loops_.idlest();
+  error_code error;
+  Socket socket(loop.context);
+  sockaddr_storage here{};
+  socklen_t size = sizeof here;
+  ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&here), &size);
+  socket.assign(Protocol(here.ss_family, SOCK_STREAM), descriptor, error);
+  set_options(socket);
+  std::string name = address + " client " + std::to_string(++from_http_);
+  admit(std::make_shared<Client>(std::move(socket), loop, std::move(name)), guarded_service(),
+        Carrier{nullptr, &site_, std::move(request)}, Endpoint{TcpAddress(), false, false, true});
+}
+
+void ConnectionAcceptor::admit(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
+                               const Endpoint& endpoint) {
+  auto& context = client->loop.context;
   if (const auto why = obstacle(service)) {
     ++metrics_.refused_busy;
     log_warning(client->name + ": refused, " + *why);
     client->end(ErrorCode::kBusy, *why + "; try again later");
-    const bool understands = !listener.endpoint().classic && !listener.endpoint().tls;
-    net::co_spawn(loop.context, turn_away(std::move(client), understands), net::detached);
+    std::string text = refusal(endpoint, *client);
+    net::co_spawn(context, turn_away(std::move(client), std::move(text)), net::detached);
     return;
   }
   ++metrics_.sessions_open;
-  ++(listener.endpoint().classic ? metrics_.sessions_classic : metrics_.sessions_line);
+  if (endpoint.classic) ++metrics_.sessions_classic;
+  if (!endpoint.classic && !endpoint.web) ++metrics_.sessions_line;  // over HTTP, a session begins later
   if (guarded_ && &service == &*guarded_) {
     client->guesser.emplace(wrong_tokens_, source_of(client->socket));
     lobby_->enter(client);
   }
-  auto tls = listener.endpoint().tls ? tls_->context() : nullptr;
-  net::co_spawn(loop.context, serve_connection(std::move(client), service, std::move(tls), metrics_),
+  net::co_spawn(context, serve_connection(std::move(client), service, std::move(carrier), metrics_),
                 net::detached);
 }
 

@@ -14,6 +14,7 @@
 #include "server/access/tls.hpp"
 #include "server/access/tokens.hpp"
 #include "server/access/wrong_tokens.hpp"
+#include "server/connections/connection.hpp"
 #include "server/connections/listener.hpp"
 #include "server/connections/lobby.hpp"
 #include "server/connections/service.hpp"
@@ -37,14 +38,23 @@ class ConnectionAcceptor {
   void close();       // accepts no more
   void read_again();  // tokens and certificate; errors are logged, and the old ones stay in use
 
+  // Which pages may open a session over HTTP. Nothing: none may, because other machines can reach the server,
+  // and it requires no token, or because it does not speak the line protocol.
+  std::optional<OriginRules> session_rules(bool is_loopback) const;
+  // Admits a client of --http, whose `request` opens a session. Closes `descriptor` at the end.
+  void admit_over_http(int descriptor, HttpRequest request, const std::string& address);
+
  private:
   void listen(const Endpoint& endpoint);
   void listen_inherited(const Endpoint& endpoint, const std::string& name);
   void check(const Listener& listener) const;  // throws unless it is safe
   const Service& service_of(const Listener& listener) const;
+  const Service& guarded_service() const { return guarded_ ? *guarded_ : *services_.line; }
   boost::asio::awaitable<void> welcome(Listener& listener);
   // The reason against one more session; nothing if there is none.
   std::optional<std::string> obstacle(const Service& service);
+  void admit(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
+             const Endpoint& endpoint);
   void admit(Socket socket, Loop& loop, const Listener& listener, int number);
 
   const ServerSettings& settings_;
@@ -57,6 +67,8 @@ class ConnectionAcceptor {
   std::optional<Tls> tls_;
   std::optional<Service> guarded_;  // the line protocol, with tokens required
   std::list<Listener> listeners_;
+  Site site_;            // of ws:// and wss:// addresses
+  int from_http_ = 0;    // number of clients of --http
   std::set<int> taken_;  // inherited descriptors that are in use
   bool closed_ = false;
 };

@@ -15,8 +15,9 @@ using namespace std::chrono_literals;
 constexpr auto kBetweenLooks = 250ms;
 constexpr auto kPause = 2s;  // of a client, after which its session releases its caches
 
-std::string why_no_token(const Client& client, int handshake_seconds) {
+std::string why_not_admitted(const Client& client, int handshake_seconds) {
   const std::string time = std::to_string(handshake_seconds) + " seconds";
+  if (!client.greeted) return "no handshake came within " + time;
   if (!client.held_back) return "no token came within " + time;
   return "wrong tokens from " + client.guesser->source() + " held this one back for " + time +
          "; try again later";
@@ -56,7 +57,7 @@ void IdleMonitor::look_at(Client& client) {
     client.end(ErrorCode::kIdle, {});  // with its second call, the client is disconnected
   } else if (!client.admitted && now - client.came() > handshake) {
     ++metrics_.ended_handshake;
-    client.end(ErrorCode::kUnauthorized, why_no_token(client, settings_.handshake_seconds));
+    client.end(ErrorCode::kUnauthorized, why_not_admitted(client, settings_.handshake_seconds));
   } else if (client.working) {
     return;
   } else if (idle > 0s && now - client.active() > idle) {

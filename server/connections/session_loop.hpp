@@ -21,13 +21,10 @@ class SessionLoop {
 
   explicit SessionLoop(LineSession& session) : session_(session) {}
 
-  // Carries out requests for a slice of time. `run` calls LineSession::run() and returns what it returned;
-  // `find_more` hands in what has come by now, without waiting, and returns whether there was any.
-  template <typename Run, typename FindMore>
-  Next work(Run run, FindMore find_more) {
-    do {
-      more_ = run();
-    } while (session_.wants_more() && find_more());
+  // Carries out requests for a slice of time. `run` calls LineSession::run() and returns what it returned.
+  template <typename Run>
+  Next work(Run run) {
+    more_ = run();
     return output().empty() ? next() : Next::kSend;
   }
 

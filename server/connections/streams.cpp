@@ -60,7 +60,7 @@ class StreamSession::LineConversation final : public Conversation {
     using Next = SessionLoop::Next;
     SessionLoop loop(session_);
     for (;;) {
-      Next next = loop.work([this] { return session_.run(); }, [&] { return read_at_once(streams); });
+      Next next = loop.work([this] { return session_.run(); });
       if (next == Next::kSend) {
         if (!streams.write(loop.output())) return client_gone(halt);
         meter_.bytes_out.add(static_cast<std::int64_t>(loop.output().size()));
@@ -83,14 +83,6 @@ class StreamSession::LineConversation final : public Conversation {
   std::string description() const override { return "the line protocol"; }
 
  private:
-  bool read_at_once(BlockingPair& streams) {  // what has been received by now, without the end
-    const auto count = streams.read_at_once(session_.space());
-    if (!count || *count == 0) return false;
-    meter_.bytes_in.add(static_cast<std::int64_t>(*count));
-    session_.received(*count);
-    return true;
-  }
-
   Meter& meter_;
   LineSession session_;
 };

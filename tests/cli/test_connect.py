@@ -102,6 +102,60 @@ class Tokens(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stderr), (1, f"racebeam: the token file {folder}/none has no token\n"))
 
 
+class Encrypted(unittest.TestCase):
+    """tls:// with certificates of our own."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.certificate, cls.key = cls.certified(folder.name, "own")
+        cls.stranger, _ = cls.certified(folder.name, "stranger")
+        cls.server = Server("serve", "--listen", "tls://127.0.0.1:0", "--tls-cert", cls.certificate, "--tls-key", cls.key)
+        cls.addClassCleanup(cls.server.__exit__)
+        cls.port = cls.server.wait_for(r"listening on tls://127\.0\.0\.1:(\d+)$").group(1)
+
+    @staticmethod
+    def certified(folder, name):
+        """A certificate for 127.0.0.1 alone, and its key."""
+        paths = f"{folder}/{name}.pem", f"{folder}/{name}.key"
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2",
+                        "-subj", f"/CN={name}", "-addext", "subjectAltName=IP:127.0.0.1", "-out", paths[0], "-keyout", paths[1]],
+                       check=True, capture_output=True)
+        return paths
+
+    def refused(self, host, *options, scheme="tls", port=None):
+        """What a run that gets no session says."""
+        done = connect(f"{scheme}://{host}:{port or self.port}", "hello\n", *options)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertRegex(done.stderr, "^racebeam: .*\n$")
+        return done.stderr
+
+    def test_a_session_is_encrypted(self):
+        requests = "load beamfall seed=7 sticky=0\nact FIRE*60\n:screen\n"
+        done = connect(f"tls://127.0.0.1:{self.port}", requests, "--authorities", self.certificate)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout.splitlines()[1], "ok reward=21 terminated=0 truncated=0 lives=4")
+        self.assertEqual(len(done.stdout.splitlines()), 2 + 26)
+
+    def test_a_certificate_that_is_not_trusted_is_refused(self):
+        self.assertIn("certificate verify failed", self.refused("127.0.0.1"))
+        self.assertIn("certificate verify failed", self.refused("127.0.0.1", "--authorities", self.stranger))
+
+    def test_a_certificate_of_another_host_is_refused(self):
+        self.assertIn("certificate verify failed", self.refused("localhost", "--authorities", self.certificate))
+
+    def test_authorities_that_cannot_be_read_are_refused(self):
+        for path in ("/nonexistent/authorities.pem", self.key):
+            with self.subTest(path):
+                self.assertIn(path, self.refused("127.0.0.1", "--authorities", path))
+
+    def test_only_one_side_with_tls_is_an_error(self):
+        with Server("serve", "--listen", "tcp://127.0.0.1:0") as plain:
+            self.refused("127.0.0.1", "--timeout", "5", port=plain.port())
+        self.refused("127.0.0.1", "--timeout", "5", scheme="tcp")
+
+
 class Typed(unittest.TestCase):
     """On a terminal."""
 

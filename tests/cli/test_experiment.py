@@ -14,6 +14,8 @@ from harness import BINARY, PATIENCE, main
 
 os.environ.pop("RACEBEAM_ROMS", None)
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
 PLAN = """games = ["beamfall"]
 agents = ["random", "const", "basic", "disco", "lsh", "uct"]
 trials = 1
@@ -113,10 +115,11 @@ class Experiment(unittest.TestCase):
 
     def test_bad_input_is_named_and_nothing_is_written(self):
         for words, status, sentence in (
-                (["no"], 1, "there is no plan 'no'; shipped are paper, hour, smoke; a file's name contains . or /"),
+                (["no"], 1, "there is no plan 'no'; shipped are paper, hour, smoke, baselines, "),
                 (["./none.toml"], 1, "plan ./none.toml: there is no such file"),
                 (["paper"], 1, "no image is here of: asterix, beam_rider, freeway, seaquest, space_invaders, alien, "),
                 (["smoke", "--shard", "3/2"], 1, "--shard is '3/2'; it takes K/N, with K from 1 to N"),
+                (["smoke", "--shard", "0/2"], 1, "--shard is '0/2'; it takes K/N, with K from 1 to N"),
                 (["smoke", "--shard", "x"], 1, "--shard is 'x'; it takes K/N, with K from 1 to N"),
                 (["smoke", "--threads", "-1"], 2, "--threads: '-1' is not a whole number from 0 to 1024")):
             found = run("experiment", *words, "--into", str(self.place / "bad"))
@@ -127,6 +130,15 @@ class Experiment(unittest.TestCase):
         status, _, errors = run("verify", str(self.place / "none"))
         self.assertEqual(status, 1)
         self.assertRegex(errors, "^racebeam: plan .*/none/plan.toml: there is no such file\n$")
+
+    def test_the_results_in_the_tree_are_confirmed(self):
+        kept = [plan.parent for plan in sorted((ROOT / "docs/results").glob("*/plan.toml"))]
+        self.assertIn(ROOT / "docs/results/own-games", kept)
+        self.assertLess(sum(path.stat().st_size for path in (ROOT / "docs/results").rglob("*") if path.is_file()), 1 << 20)
+        for folder in kept:
+            status, printed, _ = run("verify", str(folder))
+            self.assertEqual(status, 0 if folder.name == "own-games" else 2, printed)  # 2: the image is not here
+            self.assertIn(" rows confirmed, 0 wrong, ", printed)
 
     def test_a_dry_run_lists_cost_and_missing_images(self):
         status, printed, _ = run("experiment", "paper", "--dry-run")

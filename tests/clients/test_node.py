@@ -28,7 +28,7 @@ class Node(unittest.TestCase):
     def test_the_package_needs_nothing(self):
         package = json.loads((CLIENT / "package.json").read_text())
         self.assertFalse({"dependencies", "devDependencies", "peerDependencies"} & set(package))
-        for path in (package["types"], *package["files"], *package["exports"]["."].values()):
+        for path in (package["types"], *package["files"], *package["exports"]["."].values(), *package["imports"]["#platform"].values()):
             self.assertTrue((CLIENT / path).exists(), path)
 
 

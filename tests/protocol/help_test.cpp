@@ -56,7 +56,8 @@ std::multimap<std::string, std::string> all_names() {
     add("errors", row.meaning);
   }
   for (const Command& row : commands()) {
-    if (row.arguments.starts_with("NAME")) add("states", row.summary);
+    const bool shares = row.name == "share" || row.name == "watch";  // NAME of a session
+    if (row.arguments.starts_with("NAME") && !shares) add("states", row.summary);
   }
   return names;
 }
@@ -124,7 +125,7 @@ TEST_CASE("Similar names are suggested, for every kind of name") {
   LineClient client;
   client.say(kLoad + "\nsave start\nopen 2\n");
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"atc RIGHT", "; did you mean act? There are hello"},
+      {"atc RIGHT", "; did you mean act or watch? There are hello"},
       {"LOAD beamfall", "; did you mean load?"},
       {"load beamfal", "; did you mean beamfall?"},
       {"load beamfall as=pogn", "; did you mean pong?"},

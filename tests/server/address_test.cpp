@@ -6,11 +6,26 @@
 using namespace racebeam;
 
 TEST_CASE("An endpoint is written as it is read") {
-  for (const std::string text :
-       {"tcp://127.0.0.1:0", "tcp://[::1]:65535", "tls://10.0.0.1:443", "tcp://node-1.cluster:0",
-        "tls://4you.org:1", "tcp://node_1:1", "unix:s", "unix:/run/s", "systemd", "systemd:name", "stdio",
-        "pipes:/tmp/p", "classic+tcp://127.0.0.1:1", "classic+tls://127.0.0.1:1", "classic+tls+unix:s",
-        "tls+systemd:name", "classic+stdio"}) {
+  for (const std::string text : {"tcp://127.0.0.1:0",
+                                 "tcp://[::1]:65535",
+                                 "tls://10.0.0.1:443",
+                                 "tcp://node-1.cluster:0",
+                                 "tls://4you.org:1",
+                                 "tcp://node_1:1",
+                                 "unix:s",
+                                 "unix:/run/s",
+                                 "systemd",
+                                 "systemd:name",
+                                 "stdio",
+                                 "pipes:/tmp/p",
+                                 "classic+tcp://127.0.0.1:1",
+                                 "classic+tls://127.0.0.1:1",
+                                 "classic+tls+unix:s",
+                                 "tls+systemd:name",
+                                 "classic+stdio",
+                                 "ws://127.0.0.1:0",
+                                 "wss://[::1]:443",
+                                 "ws://node-1:80"}) {
     CHECK(to_string(parse_endpoint(text)) == text);
   }
 }
@@ -47,6 +62,11 @@ TEST_CASE("An invalid endpoint is refused with the valid forms") {
                                  "classic+",
                                  "classic+classic+stdio",
                                  "http://127.0.0.1:1",
+                                 "ws://",
+                                 "wss://1.2.3.4",
+                                 "ws:s",
+                                 "classic+ws://127.0.0.1:1",
+                                 "tls+ws://127.0.0.1:1",
                                  "a"}) {
     INFO(text);
     CHECK_THROWS_AS(parse_endpoint(text), std::invalid_argument);

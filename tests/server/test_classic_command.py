@@ -155,7 +155,6 @@ class Classic(unittest.TestCase):
     def test_a_controller_is_required(self):
         self.refuse(GAME, hint="-game_controller")
         self.refuse("-game_controller", "telepathy", GAME, hint="telepathy")
-        self.refuse("-game_controller", "rlglue", GAME, hint="rlglue")
 
     def test_an_image_is_required(self):
         self.refuse(hint="the image is missing")

@@ -132,7 +132,8 @@ class Log(unittest.TestCase):
             wire.close()
             server.wait_for("1 requests")
             events = [json.loads(line) for line in server.log()]
-            self.assertEqual([event["event"] for event in events], ["threads", "memory", "listening", "came", "left"])
+            self.assertEqual([event["event"] for event in events], ["threads", "memory", "caches", "listening", "came",
+                                                                    "left"])
             for event in events:
                 self.assertRegex(event["time"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$")
                 self.assertEqual(event["level"], "info")
@@ -196,11 +197,11 @@ class Log(unittest.TestCase):
         return text
 
     def check_order(self, lines, lost):
-        """The log has threads, memory and two addresses, then clients that connect and leave, in order. If lines are missing, it says
-        how many."""
+        """The log has threads, memory, caches and two addresses, then clients that come and leave, in order. If lines are missing, it
+        says how many."""
         notes = [match for match in (re.search(rb"(\d+) lines of the log are lost", line) for line in lines) if match]
         self.assertEqual(sum(int(note.group(1)) for note in notes), lost)
-        self.assertEqual(len(lines) - len(notes), 4 + 2 * 700 - lost)
+        self.assertEqual(len(lines) - len(notes), 5 + 2 * 700 - lost)
         events = [int(match.group(1)) for match in (re.search(rb"client (\d+): ", line) for line in lines) if match]
         self.assertEqual(events, sorted(events))
 

@@ -9,7 +9,7 @@ import time
 import unittest
 
 from harness import BINARY, GAME, LOAD, PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, run, \
-    serve, thread_sanitized
+    sanitized, serve, thread_sanitized
 
 FRAMES = 100 if thread_sanitized() else 1000
 LONG = b"branch root " + b"NOOP*%d " % FRAMES * 100 + b"\n"  # 100,000 frames, or fewer where they take longer: a second
@@ -328,12 +328,69 @@ class Limits(unittest.TestCase):
             server.wait_for("memory: [0-9]+ bytes, limited by the (machine|control group)$")
 
 
+    def test_a_server_with_little_memory_has_small_caches(self):
+        for memory, caches in (("64M", "28 resets, 699050 bytes"), ("512M", "128 resets, 4194304 bytes"),
+                               ("16M", "7 resets, 174762 bytes")):
+            with self.subTest(memory=memory), serve("--max-memory", memory) as server:
+                server.wait_for(f"caches: {caches} of code for an image$")
+                wire = connect_tcp(server.port())
+                self.assertTrue(ask(wire, b"load beamfall").startswith(b"ok "))
+                wire.close()
+
+
 class Threads(unittest.TestCase):
     def test_the_log_says_how_many_and_what_limits_them(self):
         with serve("--threads", "3") as server:
             server.wait_for("threads: 3, limited by --threads$")
         with serve() as server:
             server.wait_for("threads: [0-9]+, limited by the (machine|affinity|control group)$")
+
+
+@unittest.skipIf(len(os.sched_getaffinity(0)) < 2, "there is one processor")
+class Allowance(unittest.TestCase):
+    """What the system allows to a process."""
+
+    def log_of(self, join):
+        """The log of a server whose process calls `join` first."""
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([BINARY, "serve", "--listen", "unix:s", "--until-idle", "1"], cwd=folder, capture_output=True, text=True,
+                                  timeout=PATIENCE, preexec_fn=join)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stderr
+
+    def group(self, controller, limits):
+        """A new control group with a limit, of the version that this machine has. limits: a file's name and text for either."""
+        for folder, (name, text) in zip((f"/sys/fs/cgroup/{controller}", "/sys/fs/cgroup"), limits):
+            group = os.path.join(folder, f"racebeam-test-{os.getpid()}")
+            try:
+                os.mkdir(group)
+            except OSError:
+                continue
+            self.addCleanup(os.rmdir, group)
+            if os.path.exists(os.path.join(group, name)):
+                with open(os.path.join(group, name), "w") as file:
+                    file.write(text)
+                return os.path.join(group, "cgroup.procs")
+        self.skipTest(f"there can be no control group for {controller} here")
+
+    def join(self, processes):
+        with open(processes, "w") as file:
+            file.write("0")
+
+    def test_the_affinity_limits_the_threads(self):
+        processor = min(os.sched_getaffinity(0))
+        self.assertIn("threads: 1, limited by the affinity\n", self.log_of(lambda: os.sched_setaffinity(0, {processor})))
+
+    def test_a_control_group_limits_the_threads(self):
+        processes = self.group("cpu", (("cpu.cfs_quota_us", "100000"), ("cpu.max", "100000 100000")))
+        self.assertIn("threads: 1, limited by the control group\n", self.log_of(lambda: self.join(processes)))
+
+    @unittest.skipIf(sanitized() or thread_sanitized(), "a sanitizer needs more memory")
+    def test_a_control_group_limits_memory_and_caches(self):
+        processes = self.group("memory", (("memory.limit_in_bytes", str(200 << 20)), ("memory.max", str(200 << 20))))
+        log = self.log_of(lambda: self.join(processes))
+        self.assertIn(f"memory: {150 << 20} bytes, limited by the control group\n", log)
+        self.assertIn("caches: 66 resets, 1638400 bytes of code for an image\n", log)
 
 
 class Systemd(unittest.TestCase):

@@ -130,7 +130,7 @@ class CommandLine(Refusals):
         self.check(["serve", "--classic", "--stdio"], 2, "--rom is required")
 
     def test_an_unknown_subcommand_is_answered_by_those_there_are(self):
-        self.check(["play"], 2, "'play' is not a subcommand", "serve, with, config, classic, connect")
+        self.check(["emulate"], 2, "'emulate' is not a subcommand", "serve, with, config, classic, connect, play, watch")
         self.check([], 2, "serve, with, config, classic, connect")
 
 

@@ -1,7 +1,7 @@
 // The encodings of fields that are bytes. Each function takes a text, and returns a Uint8Array. It throws a RangeError if the text
 // has another form.
 
-import { inflateSync } from "node:zlib";
+import { fromBase64, inflate } from "#platform";
 
 const DIGITS = new Int16Array(256).fill(-1);
 for (const digit of "0123456789ABCDEFabcdef") {
@@ -46,14 +46,20 @@ export function base64(text) {
   if (text.length % 4 || !/^[A-Za-z0-9+/]*={0,2}$/.test(text)) {
     throw new RangeError("no base64");
   }
-  return new Uint8Array(Buffer.from(text, "base64"));
+  return fromBase64(text);
 }
 
+function damaged(error) {
+  throw new RangeError(`the zlib stream is damaged: ${error.message}`, { cause: error });
+}
+
+/** In a browser it returns a promise. */
 export function zlib(text) {
   try {
-    return new Uint8Array(inflateSync(base64(text)));
+    const inflated = inflate(base64(text));
+    return inflated instanceof Promise ? inflated.catch(damaged) : inflated;
   } catch (error) {
-    throw new RangeError(`the zlib stream is damaged: ${error.message}`, { cause: error });
+    return damaged(error);
   }
 }
 

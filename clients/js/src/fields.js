@@ -28,28 +28,58 @@ function encodings(fields) {
   return found;
 }
 
+/** The bytes of a field of screens of this height. */
+function sizeOf(field, height) {
+  return sizeOfSmall(field) ?? SIZES[field] ?? height * WIDTH * (field === "rgb" ? 3 : 1);
+}
+
+/** What a delta makes of the array that the last ones have made. */
+function changed({ arrays, height }, field, text) {
+  const array = arrays.get(field) ?? new Uint8Array(sizeOf(field, height));
+  arrays.set(field, array);
+  applyDelta(array, text);
+  return array.slice();
+}
+
 /** Decodes the fields of replies. It follows what requests that were granted change about later replies. */
 export class Fields {
   #chosen = new Map();
   #arrays = new Map(); // what deltas have made, by machine and field; machine 0 is that of load
+  #watched = new Map(); // the same of sessions that are watched, by name: { fields, height, arrays }
   #height = 0;
+  #raw; // bytes that followed the line, and belong to fields that are still to come
 
-  /** The groups of a reply. `request`: its line. */
-  groups(request, line) {
+  /**
+   * The groups of a reply. `request`: its line; `bytes`: what followed the reply's line. A value that needs time to be decoded is
+   * a promise.
+   */
+  groups(request, line, bytes) {
+    this.#raw = bytes;
     const words = request.split(" ").filter(Boolean);
     this.#follow(words, line);
-    const chosen = words[0] === "look" && words.length > 1 ? encodings(words.slice(1)) : this.#chosen;
+    const chosen = this.#chosenBy(words);
+    const watched = words[0] === "watch" ? this.#watch(words, line) : undefined;
     const groups = [{}];
+    let source = watched ?? this.#machine(0);
     for (const word of line.split(" ").slice(1)) {
       const equals = word.indexOf("=");
       if (word === "|") {
+        source = watched ?? this.#machine(groups.length);
         groups.push({});
-      } else if (equals >= 0) {
+      } else if (equals >= 0 && !word.startsWith("raw=")) {
         const key = word.slice(0, equals);
-        groups.at(-1)[key] = this.#value(groups.length - 1, key.replace(/^final_/, ""), word.slice(equals + 1), chosen);
+        groups.at(-1)[key] = this.#value(source, key.replace(/^final_/, ""), word.slice(equals + 1), chosen);
       }
     }
     return groups;
+  }
+
+  /** The encodings of the fields that a request asks for itself, or else of those that `observe` selected. */
+  #chosenBy([command, ...rest]) {
+    if (command === "watch") {
+      return encodings(rest.slice(1));
+    }
+    return command === "look" && rest.length ? encodings(rest) : this.#chosen;
   }
 
   #follow([command, ...fields], line) {
@@ -64,24 +94,45 @@ export class Fields {
     }
   }
 
-  #value(machine, field, text, chosen) {
+  /** The arrays of a machine, and the height of its screen. */
+  #machine(number) {
+    const arrays = this.#arrays.get(number) ?? new Map();
+    this.#arrays.set(number, arrays);
+    return { arrays, height: this.#height };
+  }
+
+  /** The arrays of a watched session, and the height of its screen. They begin anew with other fields. */
+  #watch([, name, ...words], line) {
+    const fields = words.filter((word) => !word.includes("=")).join(" ");
+    const height = Number(/ height=(\d+)/.exec(line)?.[1] ?? this.#height);
+    const kept = this.#watched.get(name);
+    const watched = kept?.fields === fields && kept.height === height ? kept : { fields, height, arrays: new Map() };
+    this.#watched.set(name, watched);
+    return watched;
+  }
+
+  #value(source, field, text, chosen) {
     const encoding = chosen.get(field);
     if (encoding === undefined) {
       return NUMBER.test(text) ? Number(text) : text; // an MD5 is no number, nor are bytes such as 0046
     }
-    return encoding === "delta" ? this.#changed(machine, field, text) : DECODERS[encoding](text);
+    switch (encoding) {
+      case "delta":
+        return changed(source, field, text);
+      case "raw":
+        return this.#followed(Number(text));
+      default:
+        return DECODERS[encoding](text);
+    }
   }
 
-  #changed(machine, field, text) {
-    const kept = this.#arrays.get(machine) ?? new Map();
-    this.#arrays.set(machine, kept);
-    const array = kept.get(field) ?? new Uint8Array(this.#size(field));
-    kept.set(field, array);
-    applyDelta(array, text);
-    return array.slice();
-  }
-
-  #size(field) {
-    return sizeOfSmall(field) ?? SIZES[field] ?? this.#height * WIDTH * (field === "rgb" ? 3 : 1);
+  /** The next bytes of those that followed the line. */
+  #followed(size) {
+    if (!(size <= this.#raw.length)) {
+      throw new RangeError(`${size} bytes do not follow the line`);
+    }
+    const bytes = new Uint8Array(this.#raw.subarray(0, size)); // their own memory
+    this.#raw = this.#raw.subarray(size);
+    return bytes;
   }
 }

@@ -25,18 +25,22 @@ export interface Options {
   timeout?: number;
   /** Options of node:tls, such as { ca }. */
   tls?: import("node:tls").ConnectionOptions;
+  /** The class WebSocket for ws:// and wss:// addresses, where the platform has none (Node before 22). */
+  WebSocket?: unknown;
   /** Bytes. A server that sends a longer line is taken for broken. */
   longestReply?: number;
 }
 
 /**
- * A session of the server at an address: tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX (named pipes), stdio (the
- * streams of this process) or file:PATH (the first address in the server's ready file or announce file, with the token of the
- * latter; file:PATH?wait=SECONDS waits for the server). Without one, the variable RACEBEAM_ADDRESS has it.
+ * A session of the server at an address: tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT, wss://HOST:PORT, unix:PATH, pipes:PREFIX
+ * (named pipes), stdio (the streams of this process) or file:PATH (the first address in the server's ready file or announce file,
+ * with the token of the latter; file:PATH?wait=SECONDS waits for the server). Without one, the variable RACEBEAM_ADDRESS has it.
+ *
+ * In a browser: ws://HOST:PORT or wss://HOST:PORT; without an address, the server that the page came from.
  */
 export function connect(address?: string, options?: Options): Promise<Session>;
 
-/** A session of a server of its own, which ends with the session. */
+/** A session of a server of its own, which ends with the session. Not in a browser. */
 export function launch(settings?: {
   /** The program racebeam. Without it, that of RACEBEAM_PROGRAM, or of the PATH. */
   program?: string;
@@ -51,6 +55,8 @@ export function launch(settings?: {
  * its own reply. It is rejected with a RefusedError, and the session continues; or with a LostError, and the session has ended.
  */
 export class Session {
+  /** Resolves with the reason once the session has ended, whether or not a request waits. */
+  readonly ended: Promise<LostError>;
   /** Ends the session. More than once does nothing. */
   disconnect(): Promise<void>;
   [Symbol.asyncDispose](): Promise<void>;
@@ -94,6 +100,13 @@ export class Session {
   closeMachines(): Promise<void>;
   record(kinds: string, name: string, settings?: { machine?: number }): Promise<Group>;
   stopRecording(): Promise<Group>;
+  /** Lets other sessions watch this one under a name. */
+  share(name: string, settings?: { watchers?: number }): Promise<Group>;
+  unshare(): Promise<void>;
+  /** The sessions that can be watched. */
+  shared(): Promise<Group[]>;
+  /** A shared session as it was lately, with fields such as "screen:rle"; since: the frame of the last reply. */
+  watch(name: string, settings?: { since?: number }, ...fields: string[]): Promise<Group>;
   stats(): Promise<Group>;
   quit(): Promise<void>;
 }
@@ -123,6 +136,7 @@ export class TimeoutError extends LostError {}
 export function hex(text: string): Uint8Array;
 export function rle(text: string): Uint8Array;
 export function base64(text: string): Uint8Array;
+/** Not in a browser, where inflating takes a promise. */
 export function zlib(text: string): Uint8Array;
 /** Changes an array by a delta. */
 export function applyDelta(array: Uint8Array, text: string): void;

@@ -1,32 +1,26 @@
 import { LostError, TimeoutError } from "./errors.js";
 
-const NEWLINE = 10;
-
 /** Requests and replies over a connection: the replies come in the order of the requests. */
 export class Lines {
   #connection;
   #timeout;
-  #longest;
   #waiting = []; // { resolve, reject } of requests without a reply
-  #pieces = []; // of a line that has begun
-  #length = 0;
-  #farewell; // a line without a request: the server says why it ends
+  #farewell; // a reply without a request: the server says why it ends
   #ended; // an error
   #timer;
   #closed;
+  #tellEnd;
+
+  /** Resolves with the reason, once the connection has ended. */
+  lost = new Promise((resolve) => (this.#tellEnd = resolve));
 
   constructor(connection, { timeout, longestReply }) {
     this.#connection = connection;
     this.#timeout = timeout;
-    this.#longest = longestReply;
-    connection.input.on("data", (data) => this.#read(data));
-    for (const event of ["end", "close", "error"]) {
-      connection.input.on(event, (error) => this.#lose(new LostError("the server has closed the connection", { cause: error })));
-    }
-    connection.output.on("error", () => {}); // the end of the input tells more
+    connection.listen({ reply: (line, bytes) => this.#answer({ line, bytes }), lost: (error) => this.#lose(error) }, longestReply);
   }
 
-  /** Sends a line, and returns a promise of its reply. */
+  /** Sends a line, and returns a promise of its reply: { line, bytes }. */
   ask(line) {
     return new Promise((resolve, reject) => {
       if (this.#farewell !== undefined) {
@@ -42,7 +36,7 @@ export class Lines {
       if (this.#waiting.length === 1) {
         this.#watch();
       }
-      this.#connection.output.write(`${line}\n`, "latin1");
+      this.#connection.send(line);
     });
   }
 
@@ -53,29 +47,13 @@ export class Lines {
     return this.#closed;
   }
 
-  #read(data) {
-    let begin = 0;
-    for (let end; (end = data.indexOf(NEWLINE, begin)) >= 0; begin = end + 1) {
-      this.#pieces.push(data.subarray(begin, end));
-      const line = Buffer.concat(this.#pieces).toString("latin1");
-      this.#pieces = [];
-      this.#length = 0;
-      this.#answer(line);
-    }
-    this.#pieces.push(data.subarray(begin));
-    this.#length += data.length - begin;
-    if (this.#length > this.#longest) {
-      this.#lose(new LostError(`the server's reply is longer than ${this.#longest} bytes`));
-    }
-  }
-
-  #answer(line) {
+  #answer(reply) {
     const next = this.#waiting.shift();
     this.#watch();
     if (next) {
-      next.resolve(line);
+      next.resolve(reply);
     } else if (!this.#ended) {
-      this.#farewell = line;
+      this.#farewell = reply;
     }
   }
 
@@ -92,8 +70,8 @@ export class Lines {
       return;
     }
     this.#ended = error;
+    this.#tellEnd(error);
     clearTimeout(this.#timer);
-    this.#pieces = [];
     this.#closed = Promise.resolve(this.#connection.end());
     for (const { reject } of this.#waiting.splice(0)) {
       reject(error);

@@ -1,3 +1,4 @@
+import { toBase64 } from "#platform";
 import { base64, hex, rewards } from "./decode.js";
 import { LostError, RefusedError } from "./errors.js";
 import { Fields } from "./fields.js";
@@ -15,8 +16,21 @@ function list(value) {
   return value === "" ? [] : String(value).split(",");
 }
 
-function toBase64(bytes) {
-  return Buffer.from(bytes).toString("base64");
+function toHex(bytes) {
+  return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("").toUpperCase();
+}
+
+/** The groups, or a promise of them if values are still to be decoded. */
+function settled(groups) {
+  const waiting = [];
+  for (const group of groups) {
+    for (const key in group) {
+      if (group[key] instanceof Promise) {
+        waiting.push(group[key].then((value) => (group[key] = value)));
+      }
+    }
+  }
+  return waiting.length ? Promise.all(waiting).then(() => groups) : groups;
 }
 
 /** The value of a key as it was sent. */
@@ -31,6 +45,10 @@ export class Session {
 
   constructor(connection, { timeout, longestReply = 2 ** 28 } = {}) {
     this.#lines = new Lines(connection, { timeout, longestReply });
+  }
+
+  get ended() {
+    return this.#lines.lost;
   }
 
   async disconnect() {
@@ -52,7 +70,7 @@ export class Session {
     return this.#understood(line, await this.#lines.ask(line));
   }
 
-  #understood(request, line) {
+  async #understood(request, { line, bytes }) {
     const refused = /^error (\S+) ?(.*)$/.exec(line);
     if (refused) {
       throw new RefusedError(refused[1], refused[2]);
@@ -61,7 +79,7 @@ export class Session {
       if (line !== "ok" && !line.startsWith("ok ")) {
         throw new RangeError(`'${line.slice(0, 60)}' is no reply`);
       }
-      return { groups: this.#fields.groups(request, line), line };
+      return { groups: await settled(this.#fields.groups(request, line, bytes)), line };
     } catch (cause) {
       const error = new LostError(`the server sent what is no reply: ${cause.message}`, { cause });
       this.#lines.end(error);
@@ -155,7 +173,7 @@ export class Session {
   }
 
   async poke(index, bytes) {
-    await this.request("poke", index, Buffer.from(bytes).toString("hex").toUpperCase());
+    await this.request("poke", index, toHex(bytes));
   }
 
   async save(name, settings = {}) {
@@ -215,6 +233,22 @@ export class Session {
 
   stopRecording() {
     return this.#first("record", "stop");
+  }
+
+  share(name, settings = {}) {
+    return this.#first("share", name, settings);
+  }
+
+  async unshare() {
+    await this.request("unshare");
+  }
+
+  shared() {
+    return this.#rest("shared");
+  }
+
+  watch(name, settings = {}, ...fields) {
+    return this.#first("watch", name, settings, ...fields);
   }
 
   stats() {

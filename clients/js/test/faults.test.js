@@ -82,6 +82,29 @@ test("why a server ends is told to the next request", async (context) => {
   await assert.rejects(session.act("FIRE"), LostError);
 });
 
+test("a watched session has arrays of its own", async (context) => {
+  const replies = { load: "height=9", observe: "fields=grey84", act: "grey84=000001" + "0503", watch: "height=10 screen=000001" + "0701" };
+  const { session } = await served(context, (line) => `ok ${replies[line.split(" ")[0]] ?? ""}\n`);
+  await session.load("beamfall");
+  await session.observe("grey84:delta");
+  await session.act("FIRE");
+  const watched = async (...fields) => (await session.request("watch", "room", ...fields))[0].screen;
+  assert.equal((await watched("screen:delta")).length, 1600);
+  replies.watch = "height=10 screen=000101" + "0801";
+  assert.deepEqual((await watched("since=3", "screen:delta")).slice(0, 3), Uint8Array.of(7, 8, 0));
+  assert.deepEqual((await watched("screen:delta", "lives")).slice(0, 3), Uint8Array.of(0, 8, 0));
+  assert.deepEqual((await session.act("FIRE")).grey84.slice(0, 4), Uint8Array.of(5, 5, 5, 0));
+});
+
+test("the end of a session is told without a request", async (context) => {
+  const { session, sockets } = await served(context, () => "ok\n");
+  sockets.forEach((socket) => socket.end());
+  assert.ok(await session.ended instanceof LostError);
+  const { session: other } = await served(context, () => "ok\n");
+  await other.disconnect();
+  assert.match((await other.ended).message, /has ended/);
+});
+
 test("use after disconnect() is refused", async (context) => {
   const { session } = await served(context, () => "");
   const waiting = session.act("FIRE");
@@ -117,3 +140,23 @@ test("the caller's words are checked", async (context) => {
   await assert.rejects(session.request("# a comment"), TypeError);
   await session.act("FIRE");
 });
+
+test("bytes after a line may come in any pieces", async (context) => {
+  const pieces = ["ok reward=1 ram=", "4 raw=4", "\n\x01\n", "\x02", "\xffok reward=2 ram=1 raw=1\n", "\x07"];
+  const { session, sockets } = await served(context, (line) => (line.startsWith("observe") ? "ok fields=reward,ram\n" : ""));
+  await session.observe("reward", "ram:raw");
+  const replies = [session.act("FIRE"), session.act("FIRE")];
+  for (const piece of pieces) {
+    await new Promise((resolve) => setTimeout(resolve, 5));
+    sockets.forEach((socket) => socket.write(piece, "latin1"));
+  }
+  assert.deepEqual(await Promise.all(replies), [{ reward: 1, ram: Uint8Array.of(1, 10, 2, 255) }, { reward: 2, ram: Uint8Array.of(7) }]);
+});
+
+for (const [name, answer] of [["announced", "ok ram=99999 raw=99999\n"], ["of another size", "ok ram=3 raw=2\n\x01\x02"]]) {
+  test(`too many bytes, ${name}, end the session`, async (context) => {
+    const { session } = await served(context, (line) => (line.startsWith("observe") ? "ok fields=ram\n" : answer));
+    await session.observe("ram:raw");
+    await assert.rejects(session.act("FIRE"), LostError);
+  });
+}

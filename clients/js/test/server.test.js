@@ -50,6 +50,11 @@ test("each command has a method", { skip }, async (context) => {
   await game.closeMachines();
   assert.equal((await game.reset()).reward, 0);
   assert.equal((await game.reset(9)).reward, 0);
+  assert.equal((await game.share("room", { watchers: 2 })).share, "room");
+  assert.deepEqual((await game.shared()).map(({ name }) => name), ["room"]);
+  assert.equal((await game.watch("room", {}, "screen:rle")).screen.length, 33600);
+  assert.equal((await game.watch("room", { since: (await game.watch("room")).frame }, "screen")).screen, undefined);
+  await game.unshare();
   assert.ok((await game.stats()).requests > 20);
   await game.quit();
   await assert.rejects(game.act("FIRE"), LostError);

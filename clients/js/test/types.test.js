@@ -16,7 +16,7 @@ test("the exports are declared", () => {
 test("the methods are declared", () => {
   for (const name of ["Session", "ScreenStack"]) {
     const body = new RegExp(`^export class ${name} \\{(.*?)^\\}`, "ms").exec(declared)[1];
-    const methods = names(/^ {2}(\w+)\(/gm, body);
+    const methods = names(/^ {2}(?:readonly )?(\w+)[(:]/gm, body);
     const own = Object.getOwnPropertyNames(racebeam[name].prototype);
     assert.deepEqual(methods.filter((method) => method !== "constructor"), own.filter((method) => method !== "constructor").sort());
   }

@@ -84,15 +84,26 @@ function Fields:follow(words, line)
   end
 end
 
--- The groups of a reply, the first of them at 1. `words`: those of the request.
-function Fields:groups(words, line)
+-- The next `count` bytes of those that followed the line.
+function Fields:followed(count)
+  local begin = self.taken
+  if not count or begin + count > #self.raw then
+    error("fewer bytes follow the line than it says", 0)
+  end
+  self.taken = begin + count
+  return self.raw:sub(begin + 1, self.taken)
+end
+
+-- The groups of a reply, the first of them at 1. `words`: those of the request; `raw`: the bytes that followed the line.
+function Fields:groups(words, line, raw)
   self:follow(words, line)
+  self.raw, self.taken = raw, 0
   local chosen = words[1] == "look" and words[2] and encodings(words) or self.encodings
   local groups, at = { {} }, 3
   while true do
     local from, to = line:find("[^ ]+", at)
     if not from then
-      return groups
+      break
     end
     local equals = line:find("=", from, true)
     if equals and equals <= to then
@@ -101,7 +112,9 @@ function Fields:groups(words, line)
       local encoding = chosen[field]
       if encoding == "delta" then
         groups[#groups][key] = self:changed(#groups - 1, field, line, equals + 1, to)
-      else
+      elseif encoding == "raw" then
+        groups[#groups][key] = self:followed(tonumber(line:sub(equals + 1, to)))
+      elseif key ~= "raw" then
         local text = line:sub(equals + 1, to)
         groups[#groups][key] = encoding and decode[encoding](text) or not encoding and value(text)
       end
@@ -110,6 +123,11 @@ function Fields:groups(words, line)
     end
     at = to + 2
   end
+  if self.taken < #raw then
+    error("bytes follow the line that belong to no field", 0)
+  end
+  self.raw = nil
+  return groups
 end
 
 return function(live)

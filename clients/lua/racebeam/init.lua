@@ -17,6 +17,7 @@ local transport = require("racebeam.transport")
 local racebeam = { _VERSION = "0.1.0", PROTOCOL = 1, decode = decode }
 
 local LONGEST_REPLY = 2 ^ 28 -- bytes; a server that sends a longer line is taken for broken
+local LONGEST_RAW = 20 -- characters of " raw=N" at the end of a line; of more bytes a session ends
 local MOST_AHEAD = 2 ^ 15 -- bytes of requests without a reply; a server that cannot send its replies stops reading
 
 local Session = {}
@@ -115,6 +116,18 @@ local function lost(self, kind, sentence)
   fault(kind, "the session has ended: " .. sentence)
 end
 
+-- The bytes that follow a reply's line, which then ends in raw=N.
+local function bytes_behind(self, line)
+  local count = tonumber(line:match(" raw=(%d+)$", -LONGEST_RAW)) or 0
+  if count == 0 then
+    return ""
+  elseif count > self.longest then
+    lost(self, "lost", ("%d bytes follow its reply, which is longer than %d bytes"):format(count, self.longest))
+  end
+  local bytes, problem = self.connection:receive_bytes(count)
+  return bytes or lost(self, problem == "timeout" and "timeout" or "lost", problem)
+end
+
 -- The next reply that arrives: its groups and its line, or the code and the sentence of a refusal.
 function Session:outcome()
   if self.closed then
@@ -138,7 +151,7 @@ function Session:outcome()
   for word in request:gmatch("%S+") do
     words[#words + 1] = word
   end
-  local done, groups = pcall(self.fields.groups, self.fields, words, line)
+  local done, groups = pcall(self.fields.groups, self.fields, words, line, bytes_behind(self, line))
   if not done then
     lost(self, "lost", "a reply is damaged: " .. tostring(groups))
   end

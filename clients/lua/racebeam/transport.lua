@@ -1,5 +1,6 @@
--- Connections: tables with send(line), which returns nothing, receive(timeout, longest), which returns a line without its
--- end, or nil and "timeout" or another sentence, and close().
+-- Connections: tables with send(line), which returns nothing; receive(timeout, longest), which returns a line without its
+-- end, or nil and "timeout" or another sentence; receive_bytes(count), which does so with the bytes that follow the line, in
+-- the time that it left; and close().
 
 local fault = require("racebeam.fault")
 
@@ -15,10 +16,27 @@ function Socket:send(line)
   self.socket:send(line .. "\n") -- if this fails, receive() tells why
 end
 
+-- What arrives next: not empty; or nil and "timeout" or another sentence.
+function Socket:piece()
+  while true do
+    local left = self.until_ and self.until_ - self.clock()
+    if left and left <= 0 then
+      return nil, "timeout"
+    end
+    local all, problem, some = self.socket:receive(65536)
+    local piece = all or some
+    if piece and #piece > 0 then
+      return piece
+    elseif problem ~= "timeout" and problem ~= "wantread" then
+      return nil, problem
+    end
+    self.select({ self.socket }, nil, left)
+  end
+end
+
 function Socket:receive(timeout, longest)
-  local socket = self.socket
-  local until_ = timeout and self.clock() + timeout
-  socket:settimeout(0)
+  self.until_ = timeout and self.clock() + timeout
+  self.socket:settimeout(0)
   local pieces, length = { self.held }, #self.held
   while true do
     local last = pieces[#pieces]
@@ -31,22 +49,28 @@ function Socket:receive(timeout, longest)
     if length > longest then
       return nil, ("its reply is longer than %d bytes"):format(longest)
     end
-    local all, problem, some = socket:receive(65536)
-    local piece = all or some
-    if piece and #piece > 0 then
-      pieces[#pieces + 1] = piece
-      length = length + #piece
-    elseif problem ~= "timeout" and problem ~= "wantread" then
+    local piece, problem = self:piece()
+    if not piece then
       return nil, problem
     end
-    local left = until_ and until_ - self.clock()
-    if left and left <= 0 then
-      return nil, "timeout"
-    end
-    if not piece or #piece == 0 then
-      self.select({ socket }, nil, left)
-    end
+    pieces[#pieces + 1] = piece
+    length = length + #piece
   end
+end
+
+function Socket:receive_bytes(count)
+  local pieces, length = { self.held }, #self.held
+  while length < count do
+    local piece, problem = self:piece()
+    if not piece then
+      return nil, problem
+    end
+    pieces[#pieces + 1] = piece
+    length = length + #piece
+  end
+  local all = table.concat(pieces)
+  self.held = all:sub(count + 1)
+  return all:sub(1, count)
 end
 
 function Socket:close()
@@ -135,6 +159,8 @@ end
 
 -- Streams, with plain Lua. There are no time limits.
 
+local CLOSED = "it has closed the connection"
+
 local Streams = {}
 Streams.__index = Streams
 
@@ -148,14 +174,22 @@ function Streams:receive()
   if line and line:sub(-1) == "\n" then
     return line:sub(1, -2)
   end
-  return nil, "it has closed the connection"
+  return nil, CLOSED
+end
+
+function Streams:receive_bytes(count)
+  local bytes = self.input:read(count)
+  if bytes and #bytes == count then
+    return bytes
+  end
+  return nil, CLOSED
 end
 
 -- Lua 5.1 has no "*L".
 if _VERSION == "Lua 5.1" and not rawget(_G, "jit") then
   function Streams:receive()
     local line = self.input:read("*l")
-    return line, "it has closed the connection"
+    return line, CLOSED
   end
 end
 

@@ -49,9 +49,17 @@ describe("a session", function()
     ["that is sent an endless line"] = { "ok a=" .. ("0"):rep(131072), "lost" },
     ["that gets half a reply"] = { "ok rew", "timeout" },
     ["that gets none"] = { "", "timeout" },
+    ["that gets half of the bytes after a line"] = { "ok ram=4 raw=4\nab", "timeout" },
+    ["that is promised too many bytes"] = { "ok ram=65537 raw=65537\n", "lost" },
+    ["whose fields have more bytes than follow the line"] = { "ok ram=3 raw=2\nab", "lost", "observe ram:raw" },
+    ["whose fields have less"] = { "ok ram=1 raw=2\nab", "lost", "observe ram:raw" },
+    ["whose field has no number of bytes"] = { "ok ram=x raw=2\nab", "lost", "observe ram:raw" },
   }) do
     it(name .. " ends", function()
-      local game = prepared(case[1])
+      local game = prepared((case[3] and "ok\n" or "") .. case[1])
+      if case[3] then
+        game:request(case[3])
+      end
       assert.equal(case[2], raised(game.request, game, "act FIRE").kind)
       assert.equal("lost", raised(game.request, game, "act FIRE").kind)
       assert.equal("lost", raised(game.send, game, "act FIRE").kind)
@@ -76,6 +84,21 @@ describe("a session", function()
     assert.equal("bad-action", refused.code)
     assert.equal("bad-action: it is", tostring(refused))
     assert.equal(2, game:receive()[1].n)
+  end)
+
+  it("takes the bytes after a line in any pieces", function()
+    local game, peer = prepared("ok\nok ram=4 raw=4\n\n\1")
+    game:observe("ram:raw")
+    game:send("act FIRE")
+    game:send("act FIRE")
+    local receive = game.connection.receive_bytes
+    function game.connection.receive_bytes(...)
+      peer:send("\n\255ok ram=1 raw=1\n\7")
+      game.connection.receive_bytes = receive
+      return receive(...)
+    end
+    assert.same({ ram = "\n\1\n\255" }, game:receive()[1])
+    assert.same({ ram = "\7" }, game:receive()[1])
   end)
 
   it("reads replies before it would block the server", function()

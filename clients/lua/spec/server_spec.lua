@@ -81,7 +81,7 @@ describe("a server of one's own", function()
   it("shows colours", function()
     local game = launched()
     game:load("beamfall")
-    local shown, palette = game:look("screen:zlib", "rgb"), game:palette()
+    local shown, palette = game:look("screen:raw", "rgb"), game:palette()
     for at = 1, #shown.screen do
       assert.same(palette[shown.screen:byte(at)], { shown.rgb:byte(3 * at - 2, 3 * at) })
     end

@@ -181,6 +181,10 @@ void run_load(Session& session, Words arguments) {
   session.cartridge = std::move(cartridge);
   session.has_own_image = arguments[0] == kInline;
   session.settings = settings;
+  if (session.service.share_all && !session.sharing) {
+    const auto& shares = session.service.shares;
+    session.sharing = std::make_unique<Sharing>(shares, shares->open_next(kUsualWatchers));
+  }
   append_loaded(session);
 }
 

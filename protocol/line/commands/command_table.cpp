@@ -45,6 +45,12 @@ void run_close(Session&, Words);
 // command_record.cpp
 void run_record(Session&, Words);
 
+// command_share.cpp
+void run_share(Session&, Words);
+void run_unshare(Session&, Words);
+void run_shared(Session&, Words);
+void run_watch(Session&, Words);
+
 namespace {
 
 // name, arguments, summary, hint, example, least and most arguments, what it needs, handler
@@ -110,6 +116,13 @@ constexpr std::array kCommands = {
     Command{"record", "png|gif|y4m|wav[,...] NAME [machine=N] | stop",
             "record frames, sound or both into the server's folder",
             "machine= takes one of open, 0 the first", "record gif first", 1, 3, Needs::kGame, run_record},
+    Command{"share", "NAME [watchers=N]", "let other sessions watch the game under this name",
+            "names are one word; unshare ends it", "share room", 1, 2, Needs::kGame, run_share},
+    Command{"unshare", "", "end what share has begun", "", "", 0, 0, Needs::kAdmission, run_unshare},
+    Command{"shared", "", "list the shared sessions", "", "", 0, 0, Needs::kAdmission, run_shared},
+    Command{"watch", "NAME [since=FRAME] [FIELD[:ENCODING]...]", "show a shared session as it was lately",
+            "the fields are screen, ram and palette; a picture comes only if its frame is not FRAME",
+            "watch room since=7 screen:delta", 1, 5, Needs::kAdmission, run_watch},
     Command{"stats", "", "counters of this session", "", "", 0, 0, Needs::kAdmission, run_stats},
     Command{"quit", "", "end the session", "", "", 0, 0, Needs::kNothing, run_quit},
 };

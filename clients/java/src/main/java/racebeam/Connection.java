@@ -9,7 +9,7 @@ import java.nio.charset.StandardCharsets;
 import java.time.Duration;
 import java.util.Arrays;
 
-/** Lines to and from a server. */
+/** Lines to and from a server, and bytes that follow a line. */
 final class Connection implements Closeable {
   /** A stream of bytes whose reads can be limited in time. */
   interface Source {
@@ -26,6 +26,7 @@ final class Connection implements Closeable {
   private byte[] data = new byte[1 << 16];
   private int begin;
   private int filled;
+  private long start; // of the wait for a reply, by System.nanoTime()
 
   Connection(Source source, OutputStream output, Closeable end, Options options) {
     this.source = source;
@@ -48,7 +49,7 @@ final class Connection implements Closeable {
 
   /** The next line, without its end. */
   String readLine() throws IOException {
-    long start = System.nanoTime();
+    start = System.nanoTime();
     int searched = begin;
     while (true) {
       for (; searched < filled; ++searched) {
@@ -58,20 +59,43 @@ final class Connection implements Closeable {
           return line;
         }
       }
-      searched -= makeRoom();
-      int read = source.read(data, filled, data.length - filled, remaining(start));
-      if (read < 0) {
-        throw new IOException("the server has closed the connection");
-      }
-      filled += read;
+      searched -= readMore();
     }
+  }
+
+  /** The next bytes, which follow a line. The time limit is that of the line. */
+  byte[] readBytes(int count) throws IOException {
+    if (count > longest) {
+      throw tooLong();
+    }
+    while (filled - begin < count) {
+      readMore();
+    }
+    byte[] bytes = Arrays.copyOfRange(data, begin, begin + count);
+    begin += count;
+    return bytes;
+  }
+
+  /** Returns how far it moved to the front what was read before. */
+  private int readMore() throws IOException {
+    int moved = makeRoom();
+    int read = source.read(data, filled, data.length - filled, remaining());
+    if (read < 0) {
+      throw new IOException("the server has closed the connection");
+    }
+    filled += read;
+    return moved;
+  }
+
+  private IOException tooLong() {
+    return new IOException("the reply of the server is longer than " + longest + " bytes");
   }
 
   /** Makes room behind what was read. Returns how far it moved to the front. */
   private int makeRoom() throws IOException {
     int moved = begin;
     if (filled - begin > longest) {
-      throw new IOException("the reply of the server is longer than " + longest + " bytes");
+      throw tooLong();
     }
     if (begin > 0) {
       System.arraycopy(data, begin, data, 0, filled - begin);
@@ -84,7 +108,7 @@ final class Connection implements Closeable {
     return moved;
   }
 
-  private int remaining(long start) throws SocketTimeoutException {
+  private int remaining() throws SocketTimeoutException {
     if (timeout == null) {
       return 0;
     }

@@ -62,6 +62,13 @@ public enum Encoding {
         throw new IllegalArgumentException("the zlib stream is damaged: " + failure.getMessage(), failure);
       }
     }
+  },
+  /** As they are, after the line of the reply, which has only their number. */
+  RAW {
+    @Override
+    public byte[] decode(String text) {
+      throw new UnsupportedOperationException("raw bytes follow the line of a reply; the line has only their number, " + text);
+    }
   };
 
   private static final byte[] DIGITS = new byte[256];

@@ -1,5 +1,6 @@
 package racebeam;
 
+import java.nio.ByteBuffer;
 import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
@@ -19,8 +20,8 @@ final class Fields {
   private Map<Integer, Map<String, byte[]>> arrays = new HashMap<>(); // by machine; 0 is that of load
   private int height;
 
-  /** The groups of a reply, decoded. `words`: those of the request. */
-  List<Group> follow(List<String> words, List<Map<String, String>> groups) {
+  /** The groups of a reply, decoded. `words`: those of the request; `raw`: the bytes that followed the reply's line. */
+  List<Group> follow(List<String> words, List<Map<String, String>> groups, ByteBuffer raw) {
     String command = words.get(0);
     List<String> fields = words.subList(1, words.size());
     switch (command) {
@@ -40,22 +41,38 @@ final class Fields {
     Map<String, Encoding> encodings = command.equals("look") && !fields.isEmpty() ? encodings(fields) : chosen;
     Group[] decoded = new Group[groups.size()];
     for (int machine = 0; machine < decoded.length; ++machine) {
-      decoded[machine] = decode(machine, groups.get(machine), encodings);
+      decoded[machine] = decode(machine, groups.get(machine), encodings, raw);
+    }
+    if (raw.hasRemaining()) {
+      throw new IllegalArgumentException(raw.remaining() + " bytes follow the line that belong to no field");
     }
     return List.of(decoded);
   }
 
-  private Group decode(int machine, Map<String, String> texts, Map<String, Encoding> encodings) {
+  private Group decode(int machine, Map<String, String> texts, Map<String, Encoding> encodings, ByteBuffer raw) {
     Map<String, byte[]> bytes = new LinkedHashMap<>();
     texts.entrySet().removeIf(entry -> {
       String field = entry.getKey().startsWith("final_") ? entry.getKey().substring(6) : entry.getKey();
       Encoding encoding = encodings.get(field);
       if (encoding != null) {
-        bytes.put(entry.getKey(), encoding == Encoding.DELTA ? changed(machine, field, entry.getValue()) : encoding.decode(entry.getValue()));
+        bytes.put(entry.getKey(), switch (encoding) {
+          case DELTA -> changed(machine, field, entry.getValue());
+          case RAW -> taken(raw, Integer.parseInt(entry.getValue()));
+          default -> encoding.decode(entry.getValue());
+        });
       }
       return encoding != null;
     });
     return new Group(texts, bytes);
+  }
+
+  private static byte[] taken(ByteBuffer raw, int count) {
+    if (count < 0 || count > raw.remaining()) {
+      throw new IllegalArgumentException("a field has " + count + " bytes, but " + raw.remaining() + " are left behind the line");
+    }
+    byte[] bytes = new byte[count];
+    raw.get(bytes);
+    return bytes;
   }
 
   private byte[] changed(int machine, String field, String delta) {

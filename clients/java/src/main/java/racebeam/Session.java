@@ -1,6 +1,7 @@
 package racebeam;
 
 import java.io.IOException;
+import java.nio.ByteBuffer;
 import java.util.ArrayDeque;
 import java.util.ArrayList;
 import java.util.Arrays;
@@ -122,7 +123,9 @@ public final class Session implements AutoCloseable {
       if (!line.equals("ok") && !line.startsWith("ok ")) {
         throw new IOException("the server sent what is no reply: '" + line.substring(0, Math.min(60, line.length())) + "'");
       }
-      return new Outcome(new Reply(fields.follow(List.of(request.strip().split(" +")), groups(line)), line), null);
+      List<Map<String, String>> groups = groups(line);
+      ByteBuffer raw = ByteBuffer.wrap(connection.readBytes(takeRaw(groups)));
+      return new Outcome(new Reply(fields.follow(List.of(request.strip().split(" +")), groups, raw), line), null);
     } catch (IOException failure) {
       close(); // half a reply may have been read
       throw failure;
@@ -147,6 +150,16 @@ public final class Session implements AutoCloseable {
       at = end < 0 ? line.length() : end;
     }
     return groups;
+  }
+
+  /** How many bytes follow the line. Removes the pair that says so. */
+  private static int takeRaw(List<Map<String, String>> groups) {
+    String raw = groups.get(groups.size() - 1).remove("raw");
+    int count = raw == null ? 0 : Integer.parseInt(raw);
+    if (count < 0) {
+      throw new IllegalArgumentException(count + " bytes follow its line");
+    }
+    return count;
   }
 
   private Group first(String line) throws IOException {

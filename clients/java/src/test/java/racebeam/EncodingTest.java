@@ -41,6 +41,9 @@ class EncodingTest {
     for (String delta : new String[] {"00", "000001", "00000101", "0006010101", "FFFF01AAFF"}) {
       assertThrows(IllegalArgumentException.class, () -> Encoding.applyDelta(new byte[6], delta), delta);
     }
+    for (Encoding without : new Encoding[] {Encoding.DELTA, Encoding.RAW}) {
+      assertThrows(UnsupportedOperationException.class, () -> without.decode("00"));
+    }
   }
 
   @Test

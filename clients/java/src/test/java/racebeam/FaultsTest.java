@@ -1,6 +1,8 @@
 package racebeam;
 
+import static org.junit.jupiter.api.Assertions.assertArrayEquals;
 import static org.junit.jupiter.api.Assertions.assertEquals;
+import static org.junit.jupiter.api.Assertions.assertFalse;
 import static org.junit.jupiter.api.Assertions.assertThrows;
 import static org.junit.jupiter.api.Assertions.assertTimeoutPreemptively;
 import static org.junit.jupiter.api.Assertions.assertTrue;
@@ -19,6 +21,7 @@ import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
+import java.util.Map;
 import java.util.NoSuchElementException;
 import java.util.concurrent.CompletableFuture;
 import java.util.function.Function;
@@ -99,6 +102,35 @@ class FaultsTest {
       RefusedException refused = assertThrows(RefusedException.class, session::receive);
       assertEquals("bad-action", refused.code());
       assertEquals(2, session.receive().first().number("n"));
+    }
+  }
+
+  @Test
+  void bytesAfterALineMayComeInAnyPieces() throws IOException {
+    Map<String, String> pieces = Map.of("1", "ok ram=4 ra", "2", "w=4\n\n\u0001", "3", "\n\u00ffok ram=1 raw=1\n", "4", "\u0007ok\n");
+    try (Server server = new Server(line -> pieces.getOrDefault(line, "ok fields=ram\n"));
+        Session session = server.connect(Options.DEFAULT)) {
+      session.observe("ram:raw");
+      for (String line : new String[] {"1", "2", "3", "4"}) {
+        session.send(line);
+      }
+      Group first = session.receive().first();
+      assertArrayEquals(new byte[] {10, 1, 10, -1}, first.bytes("ram"));
+      assertFalse(first.has("raw"));
+      assertArrayEquals(new byte[] {7}, session.receive().first().bytes("ram"));
+      assertEquals("ok", session.receive().line());
+    }
+  }
+
+  @Test
+  void bytesThatDoNotFitTheirFieldsEndTheSession() throws IOException {
+    for (String answer : new String[] {"ok ram=3 raw=2\n12", "ok ram=1 raw=2\n12", "ok ram=-1 raw=1\n1", "ok ram=x raw=1\n1", "ok raw=-1\n"}) {
+      try (Server server = new Server(line -> line.equals("act FIRE") ? answer : "ok fields=ram\n");
+          Session session = server.connect(Options.DEFAULT)) {
+        session.observe("ram:raw");
+        assertThrows(IOException.class, () -> session.act("FIRE"), answer);
+        assertThrows(IOException.class, () -> session.act("FIRE"), "the session has ended");
+      }
     }
   }
 

@@ -79,7 +79,7 @@ class ServerTest {
   @Test
   void screensHaveColours() throws IOException {
     session.load("beamfall");
-    Group shown = session.look("screen:zlib", "rgb:zlib", "lives");
+    Group shown = session.look("screen:raw", "rgb:zlib", "lives");
     int[] pixels = session.palette().colours(shown.bytes("screen"));
     byte[] rgb = shown.bytes("rgb");
     for (int at = 0; at < pixels.length; ++at) {

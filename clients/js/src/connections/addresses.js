@@ -1,18 +1,20 @@
-// Connections: { input, output, end() }, two streams of Node and what ends them.
+// Addresses, and the connections to what they name.
 
 import { spawn } from "node:child_process";
-import { open } from "node:fs";
+import { open as openPath } from "node:fs";
 import { readFile } from "node:fs/promises";
 import net from "node:net";
 import { setTimeout as sleep } from "node:timers/promises";
 import tls from "node:tls";
 import { promisify } from "node:util";
-import { LostError, TimeoutError } from "./errors.js";
+import { LostError, TimeoutError } from "../errors.js";
+import { Streams } from "./streams.js";
+import { openWebSocket } from "./websocket.js";
 
-const USABLE = /^(tcp|tls|unix|pipes):/;
+const USABLE = /^(tcp|tls|unix|pipes):/; // TCP is cheaper than WebSocket
 const ANNOUNCEMENT = 1; // the version of announce files that this client reads
 const BETWEEN_TRIES = 50; // milliseconds
-const openFile = promisify(open); // a plain descriptor, which a socket then owns
+const openFile = promisify(openPath); // a plain descriptor, which a socket then owns
 
 /** Waits for a socket to connect; `event` says that it has. */
 function connected(socket, event, address, timeout) {
@@ -26,7 +28,7 @@ function connected(socket, event, address, timeout) {
     socket.once("error", (error) => fail(new LostError(`no server answers at ${address}: ${error.message}`, { cause: error })));
     socket.once(event, () => {
       clearTimeout(timer);
-      resolve({ input: socket, output: socket, end: () => socket.destroy() });
+      resolve(new Streams({ input: socket, output: socket, end: () => socket.destroy() }));
     });
   });
 }
@@ -35,14 +37,8 @@ async function pipes(prefix) {
   try {
     const input = new net.Socket({ fd: await openFile(`${prefix}_out`, "r"), readable: true, writable: false }); // in this order
     const output = new net.Socket({ fd: await openFile(`${prefix}_in`, "w"), readable: false, writable: true });
-    return {
-      input,
-      output,
-      end() {
-        output.destroy();
-        input.destroy();
-      },
-    };
+    const end = () => [output, input].forEach((stream) => stream.destroy());
+    return new Streams({ input, output, end });
   } catch (error) {
     throw new LostError(error.message, { cause: error });
   }
@@ -53,14 +49,11 @@ export function processOf(program, options) {
   const child = spawn(program, ["serve", "--stdio", "--log-level", "warning", ...options], { stdio: ["pipe", "pipe", "inherit"] });
   const ended = new Promise((resolve) => child.once("close", resolve).once("error", resolve));
   child.once("error", (error) => child.stdout.destroy(error));
-  return {
-    input: child.stdout,
-    output: child.stdin,
-    end() {
-      child.stdin.destroy();
-      return ended;
-    },
+  const end = () => {
+    child.stdin.destroy();
+    return ended;
   };
+  return new Streams({ input: child.stdout, output: child.stdin, end });
 }
 
 function announcement(path, text) {
@@ -99,7 +92,7 @@ async function openFileAddress(path, seconds, options) {
   for (;;) {
     try {
       const { address, token } = await inFile(path);
-      return { ...await openAddress(address, options), token };
+      return { connection: await openDirectly(address, options), token };
     } catch (error) {
       if (!(error instanceof LostError) || performance.now() >= until) {
         throw error;
@@ -109,33 +102,41 @@ async function openFileAddress(path, seconds, options) {
   }
 }
 
-/** A connection to the server at an address, with the token of its announce file, if there is one. */
-export async function openAddress(address, { timeout, tls: trust = {} }) {
+function openNetwork(address, [, kind, host, port], { timeout, tls: trust = {} }) {
+  const where = { host, port: Number(port), noDelay: true };
+  if (kind === "tcp") {
+    return connected(net.connect(where), "connect", address, timeout);
+  }
+  const servername = net.isIP(host) ? "" : host;
+  return connected(tls.connect({ ...where, servername, minVersion: "TLSv1.2", ...trust }), "secureConnect", address, timeout);
+}
+
+/** A connection to the server at an address that no file names. */
+async function openDirectly(address, options) {
   const network = /^(tcp|tls):\/\/\[?(.+?)\]?:(\d{1,5})$/.exec(address);
   if (network && network[3] < 65536) {
-    const [, kind, host, port] = network;
-    const where = { host, port: Number(port), noDelay: true };
-    if (kind === "tcp") {
-      return connected(net.connect(where), "connect", address, timeout);
-    }
-    const servername = net.isIP(host) ? "" : host;
-    return connected(tls.connect({ ...where, servername, minVersion: "TLSv1.2", ...trust }), "secureConnect", address, timeout);
+    return openNetwork(address, network, options);
+  }
+  if (/^wss?:\/\/./.test(address) && URL.canParse(address)) {
+    return openWebSocket(address, options);
   }
   if (address === "stdio") {
-    return { input: process.stdin, output: process.stdout, end: () => process.stdin.destroy() };
+    return new Streams({ input: process.stdin, output: process.stdout, end: () => process.stdin.destroy() });
   }
-  const [, kind, rest] = /^(unix|pipes|file):(.+)$/.exec(address) ?? [];
+  const [, kind, path] = /^(unix|pipes):(.+)$/.exec(address) ?? [];
   switch (kind) {
     case "unix":
-      return connected(net.connect({ path: rest }), "connect", address, timeout);
+      return connected(net.connect({ path }), "connect", address, options.timeout);
     case "pipes":
-      return pipes(rest);
-    case "file": {
-      const [, path, seconds] = /^(.+?)(?:\?wait=(\d+(?:\.\d+)?))?$/.exec(rest);
-      return openFileAddress(path, Number(seconds ?? 0), { timeout, tls: trust });
-    }
+      return pipes(path);
     default:
-      throw new TypeError(`the address is '${address}'; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio `
-        + "or file:PATH, also in RACEBEAM_ADDRESS");
+      throw new TypeError(`the address is '${address}'; it takes tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT, wss://HOST:PORT, `
+        + "unix:PATH, pipes:PREFIX, stdio or file:PATH, also in RACEBEAM_ADDRESS");
   }
+}
+
+/** { connection, token }: a connection to the server at an address, and the token of its announce file, if there is one. */
+export async function openAddress(address, options) {
+  const [, path, seconds] = /^file:(.+?)(?:\?wait=(\d+(?:\.\d+)?))?$/.exec(address) ?? [];
+  return path ? openFileAddress(path, Number(seconds ?? 0), options) : { connection: await openDirectly(address, options) };
 }

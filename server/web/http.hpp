@@ -1,5 +1,4 @@
-// Health and metrics over HTTP. /healthz: 200 while the process lives. /readyz: 200, or 503 after the server
-// was told to stop. /metrics: for Prometheus.
+// The site of a server on a port of its own (--http).
 #pragma once
 
 #include <functional>
@@ -14,21 +13,23 @@
 #include <boost/beast/core/tcp_stream.hpp>
 
 #include "server/access/address.hpp"
+#include "server/web/site.hpp"
 
 namespace racebeam {
 
-struct HttpPages {
-  std::function<bool()> ready;
-  std::function<std::string()> metrics;
-};
-
 class Http {
  public:
-  // Listens from now on, and serves while the loop runs. Throws std::runtime_error if the address cannot be
-  // used.
-  Http(boost::asio::io_context& loop, const TcpAddress& address, HttpPages pages);
+  // Takes over a connection whose request opens a session. Its descriptor is the callee's.
+  using OnSession = std::function<void(int descriptor, HttpRequest request)>;
+
+  // Listens from now on. Throws std::runtime_error if the address cannot be used.
+  Http(boost::asio::io_context& loop, const TcpAddress& address);
+
+  // Serves while the loop runs.
+  void open(Site site, OnSession on_session);
 
   const std::string& name() const { return name_; }  // http://HOST:PORT
+  bool is_loopback() const;                          // only this machine can reach it
 
  private:
   using Connection = std::shared_ptr<boost::beast::tcp_stream>;
@@ -38,7 +39,8 @@ class Http {
   boost::asio::awaitable<void> serve(Connection connection);
 
   boost::asio::ip::tcp::acceptor acceptor_;
-  HttpPages pages_;
+  Site site_;
+  OnSession on_session_;
   std::string name_;
   // Ordered by the latest request, or else the connection; the oldest is first.
   std::list<Connection> connections_;

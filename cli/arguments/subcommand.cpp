@@ -1,0 +1,122 @@
+#include "cli/arguments/subcommand.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <optional>
+
+#include "protocol/line/words.hpp"
+
+namespace racebeam {
+namespace {
+
+CLI::Validator validator(const Check& check) { return CLI::Validator(check.refusal, check.accepted); }
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t at = 0; at < words.size(); ++at)
+    text.append(at == 0 ? "" : at + 1 == words.size() ? " and " : ", ").append(words[at]);
+  return text;
+}
+
+}  // namespace
+
+Check whole_number(std::int64_t least, std::int64_t most) {
+  const auto refusal = [least, most](const std::string& text) {
+    const auto number = parse_number<std::int64_t>(text);
+    if (number && *number >= least && *number <= most) return std::string{};
+    return "'" + text + "' is not a whole number from " + std::to_string(least) + " to " +
+           std::to_string(most);
+  };
+  return {refusal, ""};
+}
+
+// CLI::Range accepts "nan".
+Check number(double least, double most, const std::string& accepted) {
+  const auto refusal = [least, most](const std::string& text) {
+    const auto number = parse_number<double>(text);
+    if (number && *number >= least && *number <= most) return std::string{};
+    std::string sentence = "'" + text + "' is not a number from ";
+    append_number(sentence, least);
+    append_number(sentence += " to ", most);
+    return sentence;
+  };
+  return {refusal, accepted};
+}
+
+Check one_of(const std::vector<std::string>& words) {
+  const auto refusal = [words](const std::string& text) {
+    const bool known = std::ranges::find(words, text) != words.end();
+    return known ? std::string{} : "'" + text + "' is not known; accepted are " + joined(words);
+  };
+  return {refusal, ""};
+}
+
+Option& Option::required(bool is) { return option_->required(is), *this; }
+Option& Option::excludes(const Option& other) { return option_->excludes(other.option_), *this; }
+Option& Option::check(const Check& check) { return option_->check(validator(check)), *this; }
+Option& Option::sizes() { return option_->transform(CLI::AsSizeValue(false)), *this; }
+Option& Option::one_a_time() { return option_->allow_extra_args(false), *this; }
+Option& Option::shows_default() { return option_->capture_default_str(), *this; }
+Option& Option::default_text(const std::string& it) { return option_->default_str(it), *this; }
+Option& Option::variable(const std::string& name) { return option_->envname(name), *this; }
+Option& Option::help(const std::string& text) { return option_->description(text), *this; }
+Option& Option::value_name(const std::string& name) { return option_->type_name(name), *this; }
+Option& Option::group(const std::string& name) { return option_->group(name), *this; }
+
+Subcommand Subcommand::add_subcommand(const std::string& name, const std::string& about,
+                                      const std::string& footer) {
+  CLI::App& command = *app_->add_subcommand(name, about);
+  command.footer(footer);
+  return Subcommand(command);
+}
+
+template <typename Value>
+Option Subcommand::option(const std::string& name, Value& value, const std::string& help) {
+  return Option(*app_->add_option(name, value, help));
+}
+
+template Option Subcommand::option(const std::string&, std::string&, const std::string&);
+template Option Subcommand::option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Subcommand::option(const std::string&, std::optional<std::string>&, const std::string&);
+template Option Subcommand::option(const std::string&, int&, const std::string&);
+template Option Subcommand::option(const std::string&, unsigned&, const std::string&);
+template Option Subcommand::option(const std::string&, std::int64_t&, const std::string&);
+template Option Subcommand::option(const std::string&, std::uint64_t&, const std::string&);
+template Option Subcommand::option(const std::string&, float&, const std::string&);
+template Option Subcommand::option(const std::string&, double&, const std::string&);
+template Option Subcommand::option(const std::string&, std::optional<int>&, const std::string&);
+
+Option Subcommand::flag(const std::string& name, bool& value, const std::string& help) {
+  return Option(*app_->add_flag(name, value, help));
+}
+
+Option Subcommand::option(const std::string& name, const std::function<void(const std::string&)>& set,
+                          const std::string& help) {
+  return Option(
+      *(set ? app_->add_option_function<std::string>(name, set, help) : app_->add_option(name, help)));
+}
+
+Option Subcommand::find(const std::string& name) { return Option(*app_->get_option(name)); }
+
+void Subcommand::runs(const std::function<void()>& run) {
+  exits_with([run] { return run(), 0; });
+}
+
+void Subcommand::exits_with(const std::function<int()>& run) {
+  app_->callback([run] {
+    try {
+      if (const int status = run(); status != 0) throw CLI::RuntimeError(status);
+    } catch (const UsageError& error) {
+      throw CLI::ParseError(error.what(), CLI::ExitCodes::ValidationError);
+    }
+  });
+}
+
+void Subcommand::takes_all_words() {
+  app_->set_help_flag();
+  app_->prefix_command();
+}
+
+std::vector<std::string> Subcommand::words() const { return app_->remaining(); }
+
+}  // namespace racebeam

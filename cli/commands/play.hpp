@@ -1,0 +1,10 @@
+// racebeam play: a server on this machine, and its page in a browser.
+#pragma once
+
+namespace racebeam {
+
+class Subcommand;
+
+void add_play(Subcommand& program);
+
+}  // namespace racebeam

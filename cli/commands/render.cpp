@@ -1,0 +1,195 @@
+#include "cli/commands/render.hpp"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "agents/experiment/episode_log.hpp"
+#include "agents/experiment/play.hpp"
+#include "cli/arguments/image_options.hpp"
+#include "cli/arguments/subcommand.hpp"
+#include "cli/commands/supervisor.hpp"
+#include "emulator/tia/sound.hpp"
+#include "recording/footage.hpp"
+#include "recording/media.hpp"
+#include "system/input_file.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto kRenderFooter =
+    R"(Plays the episode of a log again (docs/episodes.md), and writes what the machine shows. The ending of FILE says in
+which form:
+  .gif          an animation of every second frame, without sound
+  .y4m          a video, 4:4:4, uncompressed, without sound
+  .wav          the sound
+  .webm, .mp4   a video with sound, made by ffmpeg, which must be installed
+  none          a folder of PNGs: 000000.png and so on
+
+No file is replaced. If the machine does not give the score of the log, nothing is written; racebeam verify says more.
+
+Examples:
+  racebeam render results/logs/beamfall-random-1/1.episode --to episode.gif
+  racebeam render pong.episode --roms ~/atari --to pong.webm)";
+
+struct RenderOptions {
+  std::string log, to;
+  ImageOptions images;
+};
+
+// Writes the frames of a machine in several forms.
+class Film {
+ public:
+  // `path` is without its ending.
+  Film(const fs::path& path, const std::vector<MediaKind>& kinds, const Environment& machine) {
+    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+    for (const MediaKind kind : kinds)
+      media_.push_back(make_media(kind, folder, path.filename().string(), footage_of(machine), budget_));
+  }
+
+  void add(const Environment& machine) {
+    std::array<std::uint8_t, kSamplesPerBlock> samples;
+    sound_.registers = machine.sound().registers;
+    sound_.generate(samples);
+    for (const auto& medium : media_) {
+      medium->sound(samples);
+      medium->frame(machine.screen());
+    }
+    ++frames_;
+  }
+
+  void commit() {
+    for (const auto& medium : media_) medium->commit();
+  }
+
+  std::int64_t frames() const { return frames_; }
+
+ private:
+  DiskBudget budget_{std::numeric_limits<std::size_t>::max()};
+  std::vector<std::unique_ptr<Media>> media_;
+  Sound sound_;  // a copy, which does not change the machine's
+  std::int64_t frames_ = 0;
+};
+
+Cartridge cartridge_of(const EpisodeLog& log, const Images& images) {
+  const Cartridge* const found = images.find(log.image_md5);
+  if (!found) throw InvalidInput("no image with MD5 " + log.image_md5 + " is here; --roms names its folder");
+  auto game = found->game->name == log.game ? found->game : find_game(log.game);
+  if (!game) throw InvalidInput("the log is of the game '" + log.game + "', which is not in the catalogue");
+  return {found->image, game};
+}
+
+// Plays the log, and writes the frames to `path`. Returns their number.
+std::int64_t film(const EpisodeLog& log, const RenderOptions& options, const fs::path& path,
+                  const std::vector<MediaKind>& kinds) {
+  PlaySettings settings = settings_of(log);
+  settings.machine.cpu = options.images.cpu;
+  Stage stage(cartridge_of(log, images_of(options.images)), settings, Drawing::kEvery);
+  stage.begin(settings.machine.random_seed);
+  Environment& machine = stage.machine();
+  Film film(path, kinds, machine);
+  machine.watch([&] { film.add(machine); });
+  std::int64_t score = 0;
+  for (const int action : log.actions) {
+    if (machine.game_over()) break;
+    machine.act(action);
+    score += machine.raw_rewards().a;
+  }
+  machine.watch({});
+  if (score != log.end.score || machine.state_hash() != log.hashes.back()) {
+    throw InvalidInput("the log has the score " + std::to_string(log.end.score) + ", but the machine gives " +
+                       std::to_string(score) + ", or another state at the end");
+  }
+  film.commit();
+  return film.frames();
+}
+
+// Throws std::runtime_error if ffmpeg is not installed, or fails.
+void encode(const fs::path& raw, const fs::path& to) {
+  const std::string picture = raw.string() + ".y4m", sound = raw.string() + ".wav", file = to.string();
+  const bool webm = to.extension() == ".webm";
+  std::vector<std::string> words = {"ffmpeg",
+                                    "-nostdin",
+                                    "-n",
+                                    "-loglevel",
+                                    "error",
+                                    "-i",
+                                    picture,
+                                    "-i",
+                                    sound,
+                                    "-c:v",
+                                    webm ? "libvpx-vp9" : "libx264",
+                                    "-pix_fmt",
+                                    "yuv420p",
+                                    "-crf",
+                                    "20",
+                                    "-c:a",
+                                    webm ? "libopus" : "aac",
+                                    file};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t process = 0;
+  if (::posix_spawnp(&process, "ffmpeg", nullptr, nullptr, arguments.data(), environ) != 0)
+    throw std::runtime_error("cannot run ffmpeg, which makes " + to.extension().string() +
+                             " files; .gif and .y4m need no other program");
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  if (status != 0) throw std::runtime_error("ffmpeg did not make " + file);
+}
+
+void refuse_existing(const fs::path& path) {
+  if (fs::exists(path)) throw InvalidInput(path.string() + " exists; no file is replaced");
+}
+
+void run(const RenderOptions& options) {
+  const std::string bytes = read_input_file("episode log", options.log, kMostLogBytes);
+  const EpisodeLog log = log_of(fs::path(options.log).filename().string(), bytes);
+  fs::path to = options.to;
+  if (!to.has_filename()) to = to.parent_path();  // NAME/
+  refuse_existing(to);
+  const std::string ending = to.extension();
+  std::int64_t frames = 0;
+  if (ending == ".webm" || ending == ".mp4") {
+    const PrivateFolder folder;
+    frames = film(log, options, folder.path() / "film", {MediaKind::kY4m, MediaKind::kWav});
+    encode(folder.path() / "film", to);
+  } else {
+    const auto kind = ending.empty() ? MediaKind::kPng : media_kind(ending.substr(1));
+    if (!kind || ending == ".png") {
+      throw UsageError(
+          "--to: '" + options.to +
+          "' has an ending that is not known; accepted are .gif, .y4m, .wav, .webm, .mp4, and none "
+          "for a folder of PNGs");
+    }
+    frames = film(log, options, to.replace_extension(), {*kind});
+  }
+  std::cout << options.to << ": " << frames << " frames\n";
+}
+
+}  // namespace
+
+void add_render(Subcommand& program) {
+  const auto options = std::make_shared<RenderOptions>();
+  Subcommand command =
+      program.add_subcommand("render", "Make a film or pictures of a recorded episode", kRenderFooter);
+  command.option("LOG", options->log, "The log of the episode").required();
+  command.option("--to", options->to, "The film, or the folder of pictures").value_name("FILE").required();
+  add_image_options(command, options->images);
+  command.runs([options] { run(*options); });
+}
+
+}  // namespace racebeam

@@ -1,0 +1,82 @@
+#include "protocol/line/share.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace racebeam {
+
+using namespace std::chrono_literals;
+
+constexpr auto kBetweenCopies = 1'000'000us / 60;
+constexpr auto kBetweenCounts = 500ms;  // of frames, for fps
+
+std::shared_ptr<const Snapshot> Share::newest() {
+  wanted_.store(true, std::memory_order_relaxed);
+  const std::lock_guard lock(mutex_);
+  return newest_;
+}
+
+std::unique_ptr<Share::Place> Share::place(const std::shared_ptr<Share>& share) {
+  if (share->watchers_++ < share->most_watchers_) return std::make_unique<Place>(share);
+  --share->watchers_;
+  return nullptr;
+}
+
+void Share::publish(Snapshot snapshot, std::int64_t frames) {
+  const auto now = Snapshot::Clock::now();
+  const std::chrono::duration<double> past = now - counted_;
+  if (past > kBetweenCounts) {
+    if (counted_ != Snapshot::Clock::time_point()) {
+      fps_ = static_cast<double>(frames - counted_frames_) / past.count();
+    }
+    counted_ = now;
+    counted_frames_ = frames;
+  }
+  snapshot.fps = fps_;
+  snapshot.when = now;
+  next_ = now + kBetweenCopies;
+  wanted_.store(false, std::memory_order_relaxed);
+  auto newest = std::make_shared<const Snapshot>(std::move(snapshot));
+  const std::lock_guard lock(mutex_);
+  newest_.swap(newest);
+}
+
+std::shared_ptr<Share> Shares::open(const std::string& name, int most_watchers) {
+  const std::lock_guard lock(mutex_);
+  const auto [found, is_new] = by_name_.try_emplace(name);
+  if (!is_new) return nullptr;
+  return found->second = std::make_shared<Share>(name, most_watchers);
+}
+
+std::shared_ptr<Share> Shares::open_next(int most_watchers) {
+  std::shared_ptr<Share> share;
+  while (!share) {
+    std::int64_t number = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      number = ++opened_;
+    }
+    share = open("session-" + std::to_string(number), most_watchers);
+  }
+  return share;
+}
+
+void Shares::close(const Share& share) {
+  const std::lock_guard lock(mutex_);
+  by_name_.erase(share.name());
+}
+
+std::shared_ptr<Share> Shares::find(std::string_view name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = by_name_.find(name);
+  return found == by_name_.end() ? nullptr : found->second;
+}
+
+std::vector<std::shared_ptr<Share>> Shares::all() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::shared_ptr<Share>> shares;
+  for (const auto& [name, share] : by_name_) shares.push_back(share);
+  return shares;
+}
+
+}  // namespace racebeam

@@ -1,0 +1,128 @@
+// Sessions that watchers may look at. A session never waits for its watchers: it publishes a copy of what its
+// machine shows, if one of them has asked since the last copy.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "environment/vector/slot.hpp"
+
+namespace racebeam {
+
+constexpr int kUsualWatchers = 1000;  // of a shared session at the same time
+
+// What a shared session showed after one of its requests.
+struct Snapshot {
+  using Clock = std::chrono::steady_clock;
+
+  std::string game;
+  Format format;
+  std::int64_t frame = 0;    // since the game was loaded
+  std::int64_t episode = 0;  // of the session, from 1
+  std::int64_t score = 0;    // of the episode
+  std::int64_t reward = 0;   // of the request
+  int lives = 0;
+  int action = 0;     // of player A, the last one
+  bool over = false;  // the episode
+  double fps = 0;     // frames a second that the session ran lately
+  Clock::time_point when;
+  std::vector<std::uint8_t> screen;
+  std::array<std::uint8_t, kRamSize> ram;
+};
+
+// One shared session.
+class Share {
+ public:
+  Share(std::string name, int most_watchers) : name_(std::move(name)), most_watchers_(most_watchers) {}
+
+  const std::string& name() const { return name_; }
+  int most_watchers() const { return most_watchers_; }
+
+  // For watchers. Thread-safe. Null before the first copy; the session then publishes a newer one.
+  std::shared_ptr<const Snapshot> newest();
+  bool ended() const { return ended_; }
+
+  // A watcher's place, as long as it lives.
+  class Place {
+   public:
+    explicit Place(std::shared_ptr<Share> share) : share_(std::move(share)) {}
+    ~Place() { --share_->watchers_; }
+    Place(const Place&) = delete;
+    Place& operator=(const Place&) = delete;
+    Share& share() const { return *share_; }
+
+   private:
+    const std::shared_ptr<Share> share_;
+  };
+  // Null if there are as many watchers as there may be. Thread-safe.
+  static std::unique_ptr<Place> place(const std::shared_ptr<Share>& share);
+
+  // For the session, on its thread.
+  bool is_wanted() const { return wanted_.load(std::memory_order_relaxed); }
+  // Whether the last copy is older than the shortest time between two: a sixtieth of a second.
+  bool is_due(Snapshot::Clock::time_point now) const { return now >= next_; }
+  void publish(Snapshot snapshot, std::int64_t frames);  // frames: that the session has run in all
+  void end() { ended_ = true; }
+
+ private:
+  const std::string name_;
+  const int most_watchers_;
+  std::atomic<bool> wanted_ = true, ended_ = false;
+  std::atomic<int> watchers_ = 0;
+
+  // Of the session:
+  Snapshot::Clock::time_point next_{}, counted_{};  // counted_: when fps was last computed
+  std::int64_t counted_frames_ = 0;
+  double fps_ = 0;
+
+  std::mutex mutex_;
+  std::shared_ptr<const Snapshot> newest_;
+};
+
+// The shared sessions of a server, by name. Thread-safe.
+class Shares {
+ public:
+  // Null if the name is taken.
+  std::shared_ptr<Share> open(const std::string& name, int most_watchers);
+  // Under a name that is free: session-1, session-2 and so on.
+  std::shared_ptr<Share> open_next(int most_watchers);
+  void close(const Share& share);
+
+  std::shared_ptr<Share> find(std::string_view name) const;  // null: there is none
+  std::vector<std::shared_ptr<Share>> all() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<Share>, std::less<>> by_name_;
+  std::int64_t opened_ = 0;  // by open_next()
+};
+
+// A session's share, which ends with it.
+class Sharing {
+ public:
+  Sharing(std::shared_ptr<Shares> all, std::shared_ptr<Share> share)
+      : all_(std::move(all)), share_(std::move(share)) {}
+  ~Sharing() {
+    share_->end();
+    all_->close(*share_);
+  }
+  Sharing(const Sharing&) = delete;
+  Sharing& operator=(const Sharing&) = delete;
+
+  Share& share() const { return *share_; }
+
+ private:
+  const std::shared_ptr<Shares> all_;
+  const std::shared_ptr<Share> share_;
+};
+
+}  // namespace racebeam

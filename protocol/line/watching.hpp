@@ -1,0 +1,44 @@
+// What a session watches: shared sessions, and the fields of each that it was last sent.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "protocol/line/field.hpp"
+#include "protocol/line/share.hpp"
+
+namespace racebeam {
+
+// One shared session, as a watcher asks for it.
+class Watched {
+ public:
+  explicit Watched(std::unique_ptr<Share::Place> place) : place_(std::move(place)) {}
+
+  bool ended() const { return place_->share().ended(); }
+  std::shared_ptr<const Snapshot> newest() { return place_->share().newest(); }
+
+  // Appends " name=value" for each field. The encoding delta tells what has changed since the last reply with
+  // the same fields.
+  void append(std::string& out, std::string& raw, const std::vector<Field>& fields, const Snapshot& snapshot);
+
+  std::size_t footprint() const { return footprint_; }  // estimated bytes of memory
+
+ private:
+  void choose(const std::vector<Field>& fields);
+
+  const std::unique_ptr<Share::Place> place_;
+  std::vector<Field> fields_;
+  std::vector<Encoder> encoders_;  // one for each field
+  std::size_t footprint_ = 1024;
+};
+
+// Fields that a watcher may ask for: screen, ram and palette. Throws RequestError.
+std::vector<Field> parse_watched_fields(Words words);
+
+// By the name of the shared session.
+using Watching = std::map<std::string, Watched, std::less<>>;
+
+}  // namespace racebeam

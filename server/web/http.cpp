@@ -1,0 +1,94 @@
+#include "server/web/http.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include <boost/asio.hpp>
+#include <boost/beast/core.hpp>
+
+#include "server/access/resolve.hpp"
+#include "server/operation/log.hpp"
+#include "server/web/exchange.hpp"
+
+namespace racebeam {
+namespace {
+
+namespace net = boost::asio;
+using boost::system::error_code;
+using net::use_awaitable;
+using net::ip::tcp;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kMostConnections = 64;
+
+}  // namespace
+
+Http::Http(net::io_context& loop, const TcpAddress& address) : acceptor_(loop) {
+  const tcp::endpoint endpoint = resolve(address);
+  error_code error;
+  acceptor_.open(endpoint.protocol());
+  acceptor_.set_option(net::socket_base::reuse_address(true));
+  acceptor_.bind(endpoint, error);
+  if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
+  const auto named = [](const TcpAddress& where) { return "http" + to_string(Address(where)).substr(3); };
+  if (error) throw AddressError("cannot listen on " + named(address) + ": " + error.message());
+  name_ = named({address.host, acceptor_.local_endpoint().port()});
+  if (!endpoint.address().is_loopback())
+    log_warning(name_ + " can be reached from other machines, which can then read the metrics");
+}
+
+bool Http::is_loopback() const { return acceptor_.local_endpoint().address().is_loopback(); }
+
+void Http::open(Site site, OnSession on_session) {
+  site_ = std::move(site);
+  on_session_ = std::move(on_session);
+  net::co_spawn(acceptor_.get_executor(), welcome(), net::detached);
+}
+
+net::awaitable<void> Http::welcome() {
+  for (;;) {
+    error_code error;
+    tcp::socket socket = co_await acceptor_.async_accept(net::redirect_error(use_awaitable, error));
+    if (error) {
+      net::steady_timer pause(acceptor_.get_executor(), 100ms);
+      co_await pause.async_wait(use_awaitable);
+      continue;
+    }
+    make_room();
+    connections_.push_back(std::make_shared<boost::beast::tcp_stream>(std::move(socket)));
+    const Connection connection = connections_.back();
+    net::co_spawn(acceptor_.get_executor(), serve(connection),
+                  [this, connection](const std::exception_ptr&) { connections_.remove(connection); });
+  }
+}
+
+// Closes the oldest connection, so that idle ones do not keep out others.
+void Http::make_room() {
+  if (connections_.size() < kMostConnections) return;
+  connections_.front()->close();  // cancels what it waits for
+  connections_.pop_front();
+}
+
+// Answers requests until the client closes, times out, sends no valid HTTP, or opens a session.
+net::awaitable<void> Http::serve(Connection connection) {
+  boost::beast::tcp_stream& stream = *connection;
+  boost::beast::flat_buffer buffer;
+  Exchange done;
+  done.open = true;
+  while (done.open) {
+    stream.expires_after(30s);
+    done = co_await exchange(stream, buffer, site_);
+    const auto place = std::ranges::find(connections_, connection);
+    if (place == connections_.end()) co_return;
+    connections_.splice(connections_.end(), connections_, place);
+  }
+  if (done.session) {
+    on_session_(stream.release_socket().release(), std::move(*done.session));
+    co_return;
+  }
+  error_code ignored;
+  stream.socket().shutdown(tcp::socket::shutdown_both, ignored);
+}
+
+}  // namespace racebeam

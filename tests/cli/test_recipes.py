@@ -1,0 +1,121 @@
+"""The packages that are not made here: Dockerfile, compose file, Homebrew's formula, Arch's PKGBUILD. Where a linter or a
+packager is installed, it accepts them."""
+
+import importlib.machinery
+import importlib.util
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from harness import BINARY, main, sanitized
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+PACKAGES = SOURCE / "packages"
+BUILD = pathlib.Path(BINARY).parent
+MARKS = {"VERSION": "1.2.3", "HOMEPAGE": "https://example.org/racebeam", "SHA256": "0" * 64}
+UNPRIVILEGED = {"user": "nobody"} if os.geteuid() == 0 else {}  # makepkg refuses root
+
+
+def needs(tool):
+    return unittest.skipUnless(shutil.which(tool), f"there is no {tool}")
+
+
+class Recipes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.folder.chmod(0o777)  # another user may write here
+
+    def written(self, recipe):
+        """A recipe as scripts/release writes it, in a folder of its own."""
+        text = (PACKAGES / recipe).read_text()
+        for mark, value in MARKS.items():
+            text = text.replace(f"@{mark}@", value)
+        path = self.folder / pathlib.Path(recipe).name
+        path.write_text(text)
+        return path
+
+    def output(self, *command, **options):
+        """What a command prints, which must end with status 0."""
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **{"cwd": self.folder, **options})
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return done.stdout
+
+    @needs("hadolint")
+    def test_the_dockerfile(self):
+        self.assertEqual(self.output("hadolint", "--no-color", PACKAGES / "docker/Dockerfile"), "")
+
+    @unittest.skipIf(sanitized(), "the container has no sanitizer")
+    @needs("readelf")
+    @needs("dpkg-query")
+    def test_the_container_has_the_libraries_that_the_program_needs(self):
+        final = (PACKAGES / "docker/Dockerfile").read_text().rpartition("FROM ")[2]
+        listed = set(re.findall(r"\blib[\w.+-]+|\bzlib1g\b", final))
+        has = listed | {"libc6", "libgcc-s1", "libstdc++6"}  # which Debian always has
+        for depends in self.output("dpkg-query", "--show", "--showformat=${Depends}\n", *listed).splitlines():
+            has |= {word.split()[0].partition(":")[0] for word in depends.split(", ")}
+        needed = re.findall(r"\(NEEDED\).*\[(.*)\]", self.output("readelf", "--dynamic", BINARY))
+        paths = dict(re.findall(r"(\S+) => (/\S+)", self.output("ldd", BINARY)))
+        files = [str(pathlib.Path(paths[name]).resolve()).removeprefix("/usr") for name in needed]
+        found = self.output("dpkg-query", "--search", *(f"*{file}" for file in files))
+        self.assertGreater(len(files), 5)
+        self.assertLessEqual({line.partition(":")[0] for line in found.splitlines()}, has)
+
+    def test_the_container_is_the_image_of_the_pods(self):
+        lines = (PACKAGES / "docker/Dockerfile").read_text().splitlines()
+        pods = "".join(path.read_text() for path in (SOURCE / "cluster/kubernetes").glob("*/*.yaml"))
+        user, group = next(line for line in lines if line.startswith("USER ")).split()[1].split(":")
+        self.assertEqual(set(re.findall(r"runAsUser: (\d+)", pods)), {user})
+        self.assertEqual(set(re.findall(r"runAsGroup: (\d+)", pods)), {group})
+        exposed = next(line for line in lines if line.startswith("EXPOSE ")).split()[1:]
+        self.assertEqual(set(re.findall(r"containerPort: (\d+)", pods)), set(exposed))
+        self.assertEqual(set(re.findall(r"image: (.+)", pods)), {re.search(r"docker build .* -t (\S+)", lines[0])[1]})
+        self.assertIn('ENTRYPOINT ["racebeam"]', lines)  # the pods' commands begin with it, too
+
+    def test_the_container_gets_no_image(self):
+        ignored = (SOURCE / ".dockerignore").read_text().splitlines()
+        self.assertLessEqual({".git", ".venv", "build"}, set(ignored))
+
+    @needs("docker-compose")
+    def test_the_compose_file(self):
+        told = self.output("docker-compose", "-f", PACKAGES / "docker/compose.yaml", "config")
+        self.assertIn("dockerfile: packages/docker/Dockerfile", told)
+
+    @needs("ruby")
+    def test_the_formula(self):
+        self.assertEqual(self.output("ruby", "-wc", self.written("homebrew/racebeam.rb")), "Syntax OK\n")
+
+    @needs("shellcheck")
+    def test_the_pkgbuild_as_a_program(self):
+        unused_or_given = "SC2034,SC2154"  # variables that makepkg reads and sets
+        self.assertEqual(self.output("shellcheck", "--shell=bash", f"--exclude={unused_or_given}", self.written("arch/PKGBUILD")), "")
+
+    @needs("makepkg")
+    def test_the_pkgbuild_as_a_package(self):
+        self.written("arch/PKGBUILD")
+        told = self.output("makepkg", "--printsrcinfo", **UNPRIVILEGED)
+        self.assertIn("\tpkgver = 1.2.3\n", told)
+        self.assertIn("/v1.2.3/racebeam-1.2.3-source.tar.gz\n", told)
+
+    @unittest.skipUnless((BUILD / "packages/texts/racebeam.1").exists(), "the build has no man pages")
+    def test_the_package_for_arch_has_the_places_of_arch(self):
+        self.written("arch/PKGBUILD")
+        (self.folder / "racebeam-1.2.3").symlink_to(SOURCE)
+        (self.folder / "build").symlink_to(BUILD)
+        root = self.folder / "root"
+        installed_to_usr = 'cmake() { command cmake "$@" --prefix /usr; }'  # as build() would have configured it
+        self.output("bash", "-euc", f"{installed_to_usr}; . ./PKGBUILD; package", env={**os.environ, "pkgdir": str(root)})
+        self.assertEqual({path.name for path in root.iterdir()}, {"usr", "etc"})
+        for path in ("bin/racebeam", "lib/systemd/system/racebeam.service", "lib/sysusers.d/racebeam.conf",
+                     "share/zsh/site-functions/_racebeam", "share/licenses/racebeam/LICENSE"):
+            self.assertTrue((root / "usr" / path).is_file(), path)
+        self.assertFalse((root / "usr/share/zsh/vendor-completions").exists())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,94 @@
+"""racebeam render: films and pictures of the log of an episode."""
+
+import os
+import pathlib
+import re
+import shutil
+import stat
+import subprocess
+import tempfile
+import unittest
+import wave
+
+from harness import BINARY, PATIENCE, main
+
+PLAN = """games = ["beamfall"]
+agents = ["random"]
+trials = 1
+evaluation_episodes = 1
+environment = "max_episode_frames=60"
+"""
+FAKE_FFMPEG = """#!/bin/sh
+for word; do last=$word; done
+echo "$@" > "$last"
+"""
+
+
+class Render(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.place = pathlib.Path(folder.name)
+        (cls.place / "plan.toml").write_text(PLAN)
+        subprocess.run([BINARY, "experiment", cls.place / "plan.toml", "--into", cls.place / "results"], check=True,
+                       capture_output=True, timeout=PATIENCE)
+        (cls.log,) = (cls.place / "results" / "logs").rglob("*.episode")
+
+    def render(self, to, log=None, **more):
+        done = subprocess.run([BINARY, "render", log or self.log, "--to", self.place / to], capture_output=True, text=True,
+                              timeout=PATIENCE, env=os.environ | more)
+        return done.returncode, done.stdout, done.stderr
+
+    def test_every_frame_of_the_episode_is_there(self):
+        frames = int(re.search(rb" frames=(\d+)", subprocess.run(
+            ["python3", "-c", "import sys, zlib; sys.stdout.buffer.write(zlib.decompress(open(sys.argv[1], 'rb').read()[24:]))",
+             self.log], capture_output=True, check=True).stdout)[1])
+        for name in ("a.y4m", "a.gif", "a.wav", "pictures"):
+            self.assertEqual(self.render(name), (0, f"{self.place / name}: {frames} frames\n", ""))
+        size = (self.place / "a.y4m").read_bytes()
+        head, _, rest = size.partition(b"\n")
+        self.assertEqual(head, b"YUV4MPEG2 W320 H210 F60:1 Ip A1:1 C444")
+        self.assertEqual(len(rest), frames * (len(b"FRAME\n") + 3 * 320 * 210))
+        with wave.open(str(self.place / "a.wav")) as sound:
+            self.assertEqual(sound.getnframes(), frames * 512)
+        self.assertEqual(len(list((self.place / "pictures").iterdir())), frames)
+        self.assertEqual((self.place / "a.gif").read_bytes()[:6], b"GIF89a")
+
+    def test_ffmpeg_makes_films_with_sound(self):
+        tools = self.place / "tools"
+        tools.mkdir()
+        (tools / "ffmpeg").write_text(FAKE_FFMPEG)
+        (tools / "ffmpeg").chmod(stat.S_IRWXU)
+        path = f"{tools}:{os.environ['PATH']}"
+        for name, codecs in (("b.webm", ("libvpx-vp9", "libopus")), ("b.mp4", ("libx264", "aac"))):
+            self.assertEqual(self.render(name, PATH=path)[0], 0)
+            words = (self.place / name).read_text()
+            self.assertRegex(words, rf"-i \S+\.y4m -i \S+\.wav -c:v {codecs[0]} .* -c:a {codecs[1]} ")
+        status, _, errors = self.render("c.webm", PATH="")
+        self.assertEqual(status, 1)
+        self.assertIn("cannot run ffmpeg", errors)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "there is no ffmpeg")
+    def test_a_film_of_the_real_ffmpeg_plays(self):
+        self.assertEqual(self.render("real.webm")[0], 0)
+        self.assertEqual((self.place / "real.webm").read_bytes()[:4], b"\x1aE\xdf\xa3")
+
+    def test_what_cannot_be_made_is_refused_and_leaves_nothing(self):
+        (self.place / "there.gif").write_text("mine")
+        broken = self.place / "broken.episode"
+        data = bytearray(self.log.read_bytes())
+        data[-1] ^= 1
+        broken.write_bytes(data)
+        for to, log, status, hint in (("there.gif", None, 1, "exists; no file is replaced"), ("x.avi", None, 2, "accepted are .gif"),
+                                      ("x.png", None, 2, "none for a folder of PNGs"), ("x.gif", broken, 1, "broken.episode"),
+                                      ("x.gif", self.place / "nothing", 1, "nothing"), ("no/x.gif", None, 1, "x.gif")):
+            found, output, errors = self.render(to, log)
+            self.assertEqual((found, output, len(errors.splitlines())), (status, "", 1), (to, errors))
+            self.assertIn(hint, errors)
+        self.assertEqual((self.place / "there.gif").read_text(), "mine")
+        self.assertFalse((self.place / "x.gif").exists())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,201 @@
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/protocol/line_client.hpp"
+
+using namespace racebeam;
+using namespace racebeam::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// Clients of one server.
+struct Server {
+  LineService service = line_service();
+  LineClient player{service}, watcher{service};
+
+  explicit Server(LineService with = line_service()) : service(std::move(with)) {}
+
+  void share() {
+    player.ask(kLoad);
+    CHECK(player.ask("share room") == "ok share=room watchers=1000");
+  }
+  // What the watcher sees after the player's request, once it has been published.
+  std::string seen_after(const std::string& request, const std::string& fields = "") {
+    watcher.ask("watch room");
+    std::this_thread::sleep_for(20ms);
+    player.ask(request);
+    return watcher.ask("watch room" + fields);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("A watcher sees what the player's machine shows") {
+  Server server;
+  server.share();
+  CHECK(server.watcher.ask("watch room") ==
+        "ok game=beamfall frame=0 score=0 episode=1 over=0 lives=4 reward=0 action=NOOP");
+  const std::string seen = server.seen_after("act FIRE*60", " screen:hex ram palette:zlib");
+  CHECK_THAT(
+      seen, StartsWith("ok game=beamfall frame=60 score=21 episode=1 over=0 lives=4 reward=21 action=FIRE "));
+  const std::string shown = server.player.ask("look screen:hex ram palette:zlib");
+  for (const std::string key : {"screen", "ram", "palette"}) {
+    CHECK(value(shown, key) != "(none)");
+    CHECK(value(seen, key) == value(shown, key));
+  }
+}
+
+TEST_CASE("The score is that of the episode, also after a restore") {
+  Server server;
+  server.share();
+  CHECK(value(server.seen_after("act FIRE*60"), "score") == "21");
+  server.player.ask("save here");
+  CHECK(value(server.seen_after("act FIRE*60"), "score") == "36");
+  CHECK(value(server.seen_after("restore here"), "score") == "21");
+  CHECK(value(server.seen_after("reset"), "score") == "0");
+  server.player.ask("load beamfall seed=7 sticky=0 max_episode_frames=4");
+  const std::string over = server.seen_after("act NOOP*9");
+  CHECK(value(over, "over") == "1");
+  CHECK(value(over, "episode") == "1");
+  CHECK(value(server.seen_after("reset"), "episode") == "2");
+}
+
+TEST_CASE("Without news there is no picture") {
+  Server server;
+  server.share();
+  CHECK_THAT(server.watcher.ask("watch room since=0 screen"), !Contains("screen="));
+  CHECK_THAT(server.watcher.ask("watch room since=1 screen"), Contains("screen="));
+  CHECK_THAT(server.watcher.ask("watch room screen:raw"), Contains(" screen=33600 raw=33600\n"));
+}
+
+TEST_CASE("Delta is relative to the last reply with the same fields") {
+  Server server;
+  server.share();
+  const std::string whole = value(server.watcher.ask("watch room screen:delta"), "screen");
+  CHECK(value(server.watcher.ask("watch room screen:delta"), "screen").empty());
+  CHECK(value(server.watcher.ask("watch room screen:delta ram"), "screen") == whole);
+  CHECK(value(server.watcher.ask("watch room screen:delta"), "screen") == whole);
+}
+
+TEST_CASE("A copy is made only after a watcher has asked") {
+  Server server;
+  server.share();
+  server.player.ask("act UP");
+  std::this_thread::sleep_for(20ms);
+  server.player.ask("act UP");
+  CHECK(value(server.watcher.ask("watch room"), "frame") == "0");
+  server.player.ask("act UP");
+  CHECK(value(server.watcher.ask("watch room"), "frame") == "3");
+}
+
+TEST_CASE("A session that pauses shows where it stopped") {
+  Server server;
+  server.share();
+  server.player.ask("act UP*5");
+  server.player.session.rest();
+  CHECK(value(server.watcher.ask("watch room"), "frame") == "5");
+}
+
+TEST_CASE("Shared sessions are listed until they end") {
+  Server server;
+  CHECK(server.watcher.ask("shared") == "ok count=0");
+  server.share();
+  CHECK(server.watcher.ask("shared") ==
+        "ok count=1 | name=room game=beamfall frame=0 score=0 episode=1 fps=0");
+  CHECK(server.player.ask("unshare") == "ok");
+  CHECK(server.watcher.ask("shared") == "ok count=0");
+  CHECK_THAT(server.watcher.ask("watch room"),
+             StartsWith("error bad-value there is no shared session 'room';"));
+  {
+    LineClient other(server.service);
+    other.ask(kLoad);
+    other.ask("share room");
+    CHECK_THAT(server.watcher.ask("watch rom"), Contains("did you mean room?"));
+    CHECK_THAT(server.watcher.ask("watch room"), StartsWith("ok "));
+  }
+  CHECK_THAT(server.watcher.ask("watch room"), StartsWith("error bad-value "));
+}
+
+TEST_CASE("share and watch refuse what they cannot do") {
+  Server server;
+  CHECK_THAT(server.player.ask("share room"), StartsWith("error no-game "));
+  server.share();
+  LineClient other(server.service);
+  other.ask(kLoad);
+  CHECK(other.ask("share room") == "error bad-value the name 'room' is taken");
+  for (const auto& name : std::vector<std::string>{"a/b", "a=b", "\"", std::string(65, 'a')})
+    CHECK_THAT(other.ask("share " + name), StartsWith("error bad-value the name "));
+  CHECK_THAT(other.ask("share " + std::string(64, 'a') + " watchers=1"), StartsWith("ok "));
+  CHECK_THAT(other.ask("share b watchers=0"), StartsWith("error bad-value watchers "));
+  CHECK_THAT(server.watcher.ask("watch room lives"),
+             StartsWith("error bad-arguments watch does not show lives"));
+  CHECK_THAT(server.watcher.ask("watch room screen screen"), StartsWith("error bad-arguments "));
+  CHECK_THAT(server.watcher.ask("watch room since=x"), StartsWith("error bad-value since "));
+}
+
+TEST_CASE("A shared session has as many watchers as its client allows") {
+  Server server;
+  server.player.ask(kLoad);
+  server.player.ask("share room watchers=1");
+  CHECK_THAT(server.watcher.ask("watch room"), StartsWith("ok "));
+  CHECK_THAT(server.watcher.ask("watch room"), StartsWith("ok "));
+  {
+    LineClient other(server.service);
+    CHECK(other.ask("watch room") == "error limit room has 1 watchers, as many as it may have");
+  }
+  server.player.ask("share room2 watchers=1");
+  LineClient other(server.service);
+  CHECK_THAT(other.ask("watch room2"), StartsWith("ok "));
+}
+
+TEST_CASE("A server can share all sessions") {
+  LineService service = line_service();
+  service.share_all = true;
+  Server server(service);
+  server.player.ask(kLoad);
+  server.watcher.ask(kLoad);
+  CHECK_THAT(server.watcher.ask("shared"),
+             Contains("count=2 | name=session-1 ") && Contains(" name=session-2 "));
+  server.player.ask("share mine");
+  CHECK_THAT(server.watcher.ask("shared"), Contains("name=mine ") && Contains(" name=session-2 "));
+  CHECK_THAT(server.player.ask("unshare"), StartsWith("error bad-value "));
+}
+
+TEST_CASE("Watchers in other threads see whole pictures of a session that plays") {
+  Server server;
+  server.share();
+  const std::string first = value(server.watcher.ask("watch room screen:hex"), "screen");
+  std::atomic<bool> stop = false;
+  std::atomic<int> newer = 0;
+  std::vector<std::thread> threads;
+  for (int n = 0; n < 3; ++n) {
+    threads.emplace_back([&] {
+      LineClient watcher(server.service);
+      std::string frame = "0";
+      while (!stop) {
+        const std::string seen = watcher.ask("watch room since=" + frame + " screen:hex");
+        if (seen.find(" screen=") == std::string::npos) continue;
+        if (value(seen, "screen").size() != first.size()) break;
+        if (value(seen, "frame") != frame) ++newer;
+        frame = value(seen, "frame");
+        watcher.ask("shared");
+      }
+    });
+  }
+  const auto until = std::chrono::steady_clock::now() + 500ms;
+  while (std::chrono::steady_clock::now() < until) {
+    server.player.ask("act RIGHT*5 LEFT*5 FIRE");
+    if (server.player.ask("look terminated") == "ok terminated=1") server.player.ask("reset");
+  }
+  stop = true;
+  for (std::thread& thread : threads) thread.join();
+  CHECK(newer > 10);
+}

@@ -1,0 +1,177 @@
+"""racebeam classic -game_controller rlglue is the environment of an RL-Glue 3.0 core. The core here is written from
+docs/spec/classic-protocol.md, 11."""
+
+import os
+import socket
+import struct
+import subprocess
+import unittest
+
+from harness import BINARY, GAME, PATIENCE, main, run
+
+SETTINGS = ("-random_seed", "1", "-repeat_action_probability", "0.25")
+INIT, START, STEP, CLEANUP, MESSAGE, TERMINATE = 11, 12, 13, 14, 19, 35
+SMALL, SMALL_SET = "builtin:updraft", [0, 1, 3, 4, 11, 12]  # a game with a minimal set
+SCREEN = 160 * 210
+ACTIONS = [1, 3, 3, 4, 0, 11, 12, 3, 99, -1] * 6
+TASK = (b"VERSION RL-Glue-3.0 PROBLEMTYPE episodic DISCOUNTFACTOR 1 OBSERVATIONS INTS (128 0 255)%s ACTIONS INTS (0 %d) "
+        b"REWARDS (UNSPEC UNSPEC) EXTRA Name: Arcade Learning Environment ")
+
+
+class Core:
+    """An RL-Glue core with one environment, which is a process of ours."""
+
+    def __init__(self, test, *options, game=GAME):
+        self.test = test
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.listener.settimeout(PATIENCE)
+        test.addCleanup(self.listener.close)
+        self.environment = subprocess.Popen(
+            [BINARY, "classic", "-game_controller", "rlglue", *SETTINGS, *options, game], stderr=subprocess.PIPE, text=True,
+            env={**os.environ, "RLGLUE_PORT": str(self.listener.getsockname()[1])})
+        test.addCleanup(self.environment.stderr.close)
+        test.addCleanup(self.environment.wait)
+        test.addCleanup(self.environment.kill)
+
+    def accept(self):
+        self.link, _ = self.listener.accept()
+        self.link.settimeout(PATIENCE)
+        self.stream = self.link.makefile("rb")
+        self.test.addCleanup(self.link.close)
+        self.test.addCleanup(self.stream.close)
+        return struct.unpack(">2I", self.stream.read(8))
+
+    def send(self, kind, payload=b""):
+        self.link.sendall(struct.pack(">2I", kind, len(payload)) + payload)
+
+    def ask(self, kind, payload=b""):
+        self.send(kind, payload)
+        answered, size = struct.unpack(">2I", self.stream.read(8))
+        assert answered == kind, (answered, kind)
+        return self.stream.read(size)
+
+    def step(self, index):
+        """Whether the episode is over, the reward, and the observation."""
+        answer = self.ask(STEP, struct.pack(">3Ii", 1, 0, 0, index))
+        return *struct.unpack(">id", answer[:12]), observation(answer[12:])
+
+    def end(self):
+        self.stream.close()
+        self.link.close()
+        return self.environment.wait(PATIENCE), self.environment.stderr.read().splitlines()
+
+
+def observation(structure):
+    """RAM and screen."""
+    count, doubles, chars = struct.unpack(">3I", structure[:12])
+    numbers = struct.unpack(f">{count}i", structure[12:])
+    assert doubles == chars == 0
+    return bytes(numbers[:128]), bytes(numbers[128:])
+
+
+def lines_of_fifo(actions):
+    """What the text protocol answers to a reset and these actions: for each the RAM, the screen, the end, the reward."""
+    requests = b"1,1,0,1\n45,45\n" + b"".join(b"%d,18\n" % action for action in actions)
+    words = ("-game_controller", "fifo", "-run_length_encoding", "false")
+    status, output, errors = run("classic", *words, *SETTINGS, GAME, data=requests)
+    assert status == 0, errors
+    for line in output.splitlines()[2:-1]:
+        ram, screen, episode, _ = line.split(b":")
+        over, reward = episode.split(b",")
+        yield bytes.fromhex(ram.decode()), bytes.fromhex(screen.decode()), int(over), int(reward)
+
+
+class RlGlue(unittest.TestCase):
+    def start(self, *options, **more):
+        core = Core(self, *options, **more)
+        self.assertEqual(core.accept(), (3, 0))
+        return core
+
+    def test_an_experiment_sees_what_a_client_of_the_text_protocol_sees(self):
+        core = self.start()
+        self.assertEqual(core.ask(INIT)[4:], TASK % (b"(33600 0 127)", 18))
+        # An index beyond the set is the first action.
+        expected = list(lines_of_fifo([action if 0 <= action < 18 else 0 for action in ACTIONS]))
+        self.assertEqual(observation(core.ask(START)), expected[0][:2])
+        for action, (ram, screen, over, reward) in zip(ACTIONS, expected[1:], strict=True):
+            self.assertEqual(core.step(action), (over, reward, (ram, screen)))
+        self.assertEqual(core.ask(CLEANUP), b"")
+        self.assertEqual(core.ask(MESSAGE, struct.pack(">I5s", 5, b"hello")), struct.pack(">I5s", 5, b"hello"))
+        core.send(TERMINATE)
+        self.assertEqual(core.end()[0], 0)
+
+    def test_a_start_is_a_reset(self):
+        core = self.start("-repeat_action_probability", "0")
+        first = [core.ask(START), *(core.step(3) for _ in range(20))]
+        self.assertEqual([core.ask(START), *(core.step(3) for _ in range(20))], first)
+
+    def test_colours_and_the_minimal_set(self):
+        plain = self.start(game=SMALL)
+        core = self.start("-send_rgb", "true", "-restricted_action_set", "true", game=SMALL)
+        self.assertEqual(core.ask(INIT)[4:], TASK % (b"(100800 0 255)", len(SMALL_SET)))
+        indices = observation(plain.ask(START))[1]
+        colours = observation(core.ask(START))[1]
+        self.assertEqual(len(colours), 3 * SCREEN)
+        pixels = {(index, colours[3 * at:3 * at + 3]) for at, index in enumerate(indices)}
+        self.assertEqual(len(pixels), len(set(indices)))  # each index has one colour
+        for index, action in [*enumerate(SMALL_SET)] * 5:
+            self.assertEqual(core.step(index)[2][0], plain.step(action)[2][0])
+
+    def test_the_limit_of_frames_ends_the_session(self):
+        core = self.start("-max_num_frames", "5")
+        core.ask(START)
+        for _ in range(5):
+            core.step(0)
+        core.send(STEP, struct.pack(">3Ii", 1, 0, 0, 0))
+        self.assertEqual(core.stream.read(), b"")
+        self.assertEqual(core.end()[0], 0)
+
+    def test_an_episode_at_its_limit_stands_still_and_is_not_over(self):
+        core = self.start("-max_num_frames_per_episode", "3")
+        core.ask(START)
+        steps = [core.step(3) for _ in range(6)]
+        self.assertEqual([over for over, _, _ in steps], [0] * 6)
+        self.assertEqual(steps[3:], steps[2:5])
+
+    def test_a_core_that_comes_late_is_waited_for(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = taken.getsockname()[1]
+        environment = subprocess.Popen([BINARY, "classic", "-game_controller", "rlglue", *SETTINGS, GAME], text=True,
+                                       stderr=subprocess.PIPE, env={**os.environ, "RLGLUE_PORT": str(port)})
+        with environment:
+            self.addCleanup(environment.kill)
+            waiting = next(line for line in environment.stderr if "waiting" in line)
+            self.assertIn(f"127.0.0.1:{port}", waiting)
+            with socket.create_server(("127.0.0.1", port)) as listener:
+                listener.settimeout(PATIENCE)
+                link, _ = listener.accept()
+                with link:
+                    self.assertEqual(link.recv(8, socket.MSG_WAITALL), struct.pack(">2I", 3, 0))
+            self.assertEqual(environment.wait(PATIENCE), 0)
+
+    def refuse(self, hint, kind, payload=b"", size=None):
+        core = self.start()
+        core.link.sendall(struct.pack(">2I", kind, len(payload) if size is None else size) + payload)
+        core.link.shutdown(socket.SHUT_WR)
+        status, errors = core.end()
+        self.assertEqual(status, 1)
+        self.assertIn(hint, errors[-1])
+
+    def test_what_the_protocol_does_not_have_is_refused_with_a_sentence(self):
+        self.refuse("type 77", 77)
+        self.refuse("without a whole number", STEP)
+        self.refuse("without a whole number", STEP, struct.pack(">3I", 0, 0, 0))
+        self.refuse("at most 1048576", STEP, size=0xFFFFFFFF)
+        self.refuse("was lost", STEP, b"abc", size=16)
+
+    def test_a_port_and_a_screen_that_do_not_fit_are_refused(self):
+        for port in ("0", "65536", "x"):
+            environment = {**os.environ, "RLGLUE_PORT": port}
+            refused = subprocess.run([BINARY, "classic", "-game_controller", "rlglue", GAME], env=environment, text=True,
+                                     capture_output=True, timeout=PATIENCE)
+            self.assertEqual(refused.returncode, 1)
+            self.assertIn(f"RLGLUE_PORT is '{port}'", refused.stderr)
+
+
+if __name__ == "__main__":
+    main()

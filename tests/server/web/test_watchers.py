@@ -1,0 +1,142 @@
+"""Watchers that behave badly, or that are many: neither the session that they watch nor the others notice."""
+
+import contextlib
+import os
+import re
+import resource
+import sys
+import threading
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from harness import PATIENCE, Server, ask, connect_tcp, main
+from web_socket import WebSocket
+
+REQUEST = b"watch room screen:raw"
+
+
+def number(reply, key):
+    return int(re.search(rf" {key}=(\d+)".encode(), reply)[1])
+
+
+class Agent:
+    """Plays in a shared session, in a thread, until it is told to stop."""
+
+    def __init__(self, port):
+        self.wire = connect_tcp(port)
+        ask(self.wire, b"load beamfall seed=1 sticky=0 autoreset=1")
+        ask(self.wire, b"share room")
+        self.acts, self.worst, self.stops = 0, 0.0, threading.Event()
+        self.thread = threading.Thread(target=self.play)
+        self.thread.start()
+
+    def play(self):
+        while not self.stops.is_set():
+            begin = time.monotonic()
+            ask(self.wire, b"act FIRE")
+            self.worst = max(self.worst, time.monotonic() - begin)
+            self.acts += 1
+            time.sleep(0.002)
+
+    def rate(self, seconds):
+        """Acts a second from now on; the slowest counts anew."""
+        self.worst, before = 0.0, self.acts
+        time.sleep(seconds)
+        return (self.acts - before) / seconds
+
+    def stop(self):
+        self.stops.set()
+        self.thread.join()
+        self.wire.close()
+
+
+class Watchers(unittest.TestCase):
+    def serve(self, *options):
+        server = Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "ws://127.0.0.1:0", "--grace", "0", *options)
+        self.addCleanup(server.__exit__)
+        self.process = server.process.pid
+        self.port = int(server.wait_for(r"listening on ws://127\.0\.0\.1:(\d+)$")[1])
+        agent = Agent(server.port())
+        self.addCleanup(agent.stop)
+        return agent
+
+    def watcher(self):
+        wire = WebSocket(self.port)
+        self.addCleanup(wire.close)
+        return wire
+
+    def memory(self):
+        with open(f"/proc/{self.process}/status") as status:
+            return int(re.search(r"VmRSS:\s*(\d+)", status.read())[1]) << 10
+
+    def watch(self, wire):
+        """The frame of the newest picture."""
+        reply = wire.ask(REQUEST)
+        self.assertEqual(len(wire.message()[1]), 160 * 210)
+        return number(reply, "frame")
+
+    def test_a_tab_that_sleeps_holds_up_nothing_and_goes_on_when_it_wakes(self):
+        agent, sleeper, other = self.serve(), self.watcher(), self.watcher()
+        self.watch(other)
+        rate = agent.rate(1)
+        sleeper.send(b"hello")
+        sleeper.line()
+        before = self.memory()
+        for _ in range(1000):  # 33 MB of pictures
+            sleeper.send(REQUEST)
+        seen = [self.watch(other)]
+        for _ in range(5):
+            asleep = agent.rate(1)
+            self.assertGreater(asleep, rate / 2)
+            self.assertLess(agent.worst, 1)
+            seen.append(self.watch(other))
+        self.assertEqual(seen, sorted(set(seen)))
+        self.assertLess(self.memory() - before, 8 << 20)
+        frames = []
+        for _ in range(1000):
+            frames.append(number(sleeper.line(), "frame"))
+            self.assertEqual(len(sleeper.message()[1]), 160 * 210)
+        self.assertEqual(frames, sorted(frames))
+        self.assertGreater(frames[-1], seen[-1])  # the last is new, not from before the sleep
+
+    def test_a_tab_that_sleeps_too_long_is_closed(self):
+        agent = self.serve("--idle", "1")
+        ask_again = self.watcher()
+        self.assertTrue(ask_again.ask(b"hello").startswith(b"ok "))
+        sleeper = self.watcher()
+        for _ in range(1000):
+            sleeper.send(REQUEST)
+        end = time.monotonic() + PATIENCE
+        agent.rate(2.5)
+        self.assertLess(agent.worst, 1)
+        with contextlib.suppress(OSError, TypeError):
+            while sleeper.message() is not None:
+                self.assertLess(time.monotonic(), end)
+
+    def test_a_thousand_watchers_of_one_session(self):
+        agent = self.serve("--max-sessions", "1100")
+        alone = agent.rate(1)
+        before = self.memory()
+        crowd = [self.watcher() for _ in range(1000)]
+        seen = set()
+        for _ in range(3):
+            agent.worst = 0.0
+            for wire in crowd:
+                wire.send(b"watch room screen:delta")
+            for wire in crowd:
+                reply = wire.line()
+                self.assertTrue(reply.startswith(b"ok game=beamfall "), reply[:80])
+                seen.add(number(reply, "frame"))
+            self.assertLess(agent.worst, 1)
+        self.assertGreater(len(seen), 3)
+        refused = self.watcher().ask(b"watch room")
+        self.assertTrue(refused.startswith(b"error limit "), refused)
+        grown = (self.memory() - before) / 1000
+        self.assertLess(grown, 150 << 10)
+        self.assertGreater(agent.rate(1), alone / 2)  # those that do not ask cost nothing
+
+
+if __name__ == "__main__":
+    resource.setrlimit(resource.RLIMIT_NOFILE, (4096, resource.getrlimit(resource.RLIMIT_NOFILE)[1]))  # the server inherits it
+    main()

@@ -1,0 +1,33 @@
+// Bundles the page into dist/, or into the folder that is given. `--tests KIND [NAME]`: bundles the tests in test/KIND, or those
+// whose files begin with NAME, for Node, into build/viewer/KIND/all.test.js.
+
+import { copyFileSync, mkdirSync, readdirSync, rmSync, symlinkSync } from "node:fs";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const common = { absWorkingDir: here, bundle: true, format: "esm", target: "es2022", logLevel: "warning", charset: "utf8" };
+
+async function page(folder) {
+  const small = { ...common, outdir: folder, minify: true, legalComments: "none" };
+  await build({ ...small, entryPoints: { viewer: "src/main.ts", sound: "src/sound/worklet.ts" } });
+  await build({ ...small, entryPoints: ["src/viewer.css"] });
+  for (const name of ["index.html", "favicon.svg"]) {
+    copyFileSync(path.join(here, "src", name), path.join(folder, name));
+  }
+}
+
+async function tests(kind, named) {
+  const folder = path.join(here, "../build/viewer", kind);
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  symlinkSync(path.join(here, "node_modules"), path.join(folder, "node_modules"));
+  const files = readdirSync(path.join(here, "test", kind)).filter((name) => name.endsWith(".test.ts") && name.startsWith(named));
+  const contents = files.map((name) => `import "./${name}";`).join("\n");
+  const stdin = { contents, resolveDir: path.join(here, "test", kind) };
+  await build({ ...common, stdin, outfile: path.join(folder, "all.test.js"), platform: "node", packages: "external" });
+}
+
+const [, , option, kind, named = ""] = process.argv;
+await (option === "--tests" ? tests(kind, named) : page(path.resolve(option ?? path.join(here, "dist"))));

@@ -1,0 +1,47 @@
+// What a player presses, as a set of bits, and the actions of the line protocol.
+
+export const UP = 1;
+export const DOWN = 2;
+export const LEFT = 4;
+export const RIGHT = 8;
+export const FIRE = 16;
+
+export const ACTIONS = ["NOOP", "FIRE", "UP", "RIGHT", "LEFT", "DOWN", "UPRIGHT", "UPLEFT", "DOWNRIGHT", "DOWNLEFT", "UPFIRE", "RIGHTFIRE",
+  "LEFTFIRE", "DOWNFIRE", "UPRIGHTFIRE", "UPLEFTFIRE", "DOWNRIGHTFIRE", "DOWNLEFTFIRE"] as const;
+
+/** One of two opposite directions, or neither. */
+function either(pressed: number, one: number, other: number, names: [string, string]): string {
+  const both = pressed & (one | other);
+  return both === one ? names[0] : both === other ? names[1] : "";
+}
+
+/** The number of the action that presses these. Opposite directions cancel each other. */
+export function actionOf(pressed: number): number {
+  const name = either(pressed, UP, DOWN, ["UP", "DOWN"]) + either(pressed, RIGHT, LEFT, ["RIGHT", "LEFT"]) + (pressed & FIRE ? "FIRE" : "");
+  return name ? ACTIONS.indexOf(name as typeof ACTIONS[number]) : 0;
+}
+
+/** A word of the command `act`: what both players press. */
+export function actWord(playerA: number, playerB = 0): string {
+  const [a, b] = [actionOf(playerA), actionOf(playerB)];
+  return b ? `${a}/${b}` : `${a}`;
+}
+
+/** Words of `act`, where equal ones that follow each other become one with its count. */
+export function joined(words: readonly string[]): string[] {
+  const runs: [string, number][] = [];
+  for (const word of words) {
+    const last = runs.at(-1);
+    if (last?.[0] === word) {
+      ++last[1];
+    } else {
+      runs.push([word, 1]);
+    }
+  }
+  return runs.map(([word, times]) => (times === 1 ? word : `${word}*${times}`));
+}
+
+/** A word of `act` for people, such as "UPFIRE" or "LEFT, FIRE". */
+export function spoken(word: string): string {
+  return word.split("/").map((number) => ACTIONS[Number(number)] ?? number).join(", ");
+}

@@ -1,0 +1,81 @@
+import { spoken } from "../input/actions.js";
+import { byId, tell } from "../page/elements.js";
+import type { Shown } from "../play/player.js";
+import { AgentView } from "./agent_view.js";
+import { PaletteView } from "./palette.js";
+import { plot } from "./plot.js";
+import { RamGrid } from "./ram_grid.js";
+import { SearchPanel } from "./search_panel.js";
+
+const KEPT = 1800; // moments of the plots
+const PLOT_EVERY = 4; // pictures
+
+/** What the panels below the game show of the session. */
+export class Inspector {
+  readonly search = new SearchPanel();
+  readonly #element = byId("inspector", HTMLElement);
+  readonly #ram = new RamGrid(byId("ram", HTMLTableElement));
+  readonly #agent = new AgentView(byId("agent", HTMLElement));
+  readonly #palette = new PaletteView(byId("palette", HTMLCanvasElement), byId("used", HTMLElement));
+  readonly #plots = {
+    score: byId("score-plot", HTMLCanvasElement),
+    reward: byId("reward-plot", HTMLCanvasElement),
+    lives: byId("lives-plot", HTMLCanvasElement),
+  };
+  #draws = 0;
+  #moments: Pick<Shown, "moment" | "score" | "reward" | "lives">[] = [];
+
+  constructor() {
+    this.search.changed = (candidates) => this.#ram.mark(candidates);
+  }
+
+  get open(): boolean {
+    return !this.#element.hidden;
+  }
+
+  set open(open: boolean) {
+    this.#element.hidden = !open;
+  }
+
+  /** A game was loaded, or an episode begins. */
+  begin(colours: Uint32Array): void {
+    this.#moments = [];
+    this.#palette.become(colours);
+    this.search.begin();
+  }
+
+  /** Notes a moment, whether or not it is drawn. */
+  add(shown: Shown): void {
+    const { moment, score, reward, lives } = shown;
+    while (this.#moments.length && this.#moments.at(-1)!.moment >= moment) {
+      this.#moments.pop(); // they were taken back
+    }
+    this.#moments.push({ moment, score, reward, lives });
+    this.#moments.splice(0, this.#moments.length - KEPT);
+    if (shown.agent) {
+      this.#agent.add(shown.agent);
+    }
+  }
+
+  draw(shown: Shown): void {
+    this.search.show(shown.ram);
+    if (!this.open) {
+      return;
+    }
+    this.#ram.show(shown.ram);
+    this.#agent.draw();
+    this.#palette.show(shown.screen);
+    tell(byId("action", HTMLElement), spoken(shown.act));
+    if (++this.#draws % PLOT_EVERY === 0) {
+      this.#plot(shown);
+    }
+  }
+
+  #plot(shown: Shown): void {
+    plot(byId("wave", HTMLCanvasElement), Array.from(shown.audio), [0, 255]);
+    for (const kind of ["score", "reward", "lives"] as const) {
+      plot(this.#plots[kind], this.#moments.map((each) => each[kind]), [0, 1]);
+      tell(byId(`${kind}-now`, HTMLOutputElement), String(shown[kind]));
+    }
+  }
+}

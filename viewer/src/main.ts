@@ -1,0 +1,51 @@
+import { byId, tell } from "./page/elements.js";
+import { Server } from "./page/server.js";
+import { PlayView } from "./play/play_view.js";
+import { ReplayView } from "./replay/replay_view.js";
+import { WatchView } from "./watch/watch_view.js";
+
+const VIEWS = ["play", "watch", "replay"] as const;
+type View = typeof VIEWS[number];
+
+let shown: View | undefined;
+
+const server = new Server();
+const play = new PlayView(server);
+const replay = new ReplayView(server);
+const watch = new WatchView(server);
+
+play.replay = (episode) => {
+  location.hash = "#replay";
+  void replay.open(episode);
+};
+
+play.told = watch.told = (sentence) => {
+  const status = byId("status", HTMLElement);
+  tell(status, sentence);
+  status.classList.toggle("lost", sentence !== "");
+};
+
+/** Shows the view that the address names after #. Other names there, such as that of the link that skips, change no view. */
+function navigate(): void {
+  const named = /^#(\w+)/.exec(location.hash)?.[1];
+  show(VIEWS.find((each) => each === named) ?? shown ?? "play");
+}
+
+function show(view: View): void {
+  if (view === shown) {
+    return;
+  }
+  shown = view;
+  for (const each of VIEWS) {
+    byId(`${each}-view`, HTMLElement).hidden = each !== view;
+    const link = document.querySelector(`nav a[href="#${each}"]`);
+    each === view ? link?.setAttribute("aria-current", "page") : link?.removeAttribute("aria-current");
+  }
+  play.active = view === "play";
+  replay.active = view === "replay";
+  watch.active = view === "watch";
+}
+
+addEventListener("hashchange", navigate);
+navigate();
+await Promise.all([play.begin(), replay.follow(location.hash)]);

@@ -1,0 +1,284 @@
+import { RefusedError, type Group, type Session } from "racebeam";
+import { actWord } from "../input/actions.js";
+import { gamepad } from "../input/gamepad.js";
+import { Keyboard } from "../input/keyboard.js";
+import { Touch } from "../input/touch.js";
+import { Inspector } from "../inspect/inspector.js";
+import { byId, tell } from "../page/elements.js";
+import type { Server } from "../page/server.js";
+import { Screen } from "../picture/screen.js";
+import { soundRate } from "../picture/shape.js";
+import type { Episode } from "../replay/log.js";
+import { Speaker } from "../sound/speaker.js";
+import { Figures } from "./figures.js";
+import { GameChoice } from "./game_choice.js";
+import { Player, type Choice, type Motion, type Shown } from "./player.js";
+
+/** The view in which a game is played. */
+export class PlayView {
+  /** Called with the episode that the user wants to see again. */
+  replay: (episode: Episode) => void = () => {};
+  /** Called with a sentence about the connection; an empty one if all is well. */
+  told: (sentence: string) => void = () => {};
+
+  readonly #server: Server;
+  readonly #stage = byId("stage", HTMLElement);
+  readonly #start = byId("start", HTMLButtonElement);
+  readonly #screen = new Screen(byId("screen", HTMLCanvasElement));
+  readonly #speaker = new Speaker();
+  readonly #inspector = new Inspector();
+  readonly #figures = new Figures(byId("figures", HTMLElement));
+  readonly #choice = new GameChoice();
+  readonly #keyboard: Keyboard;
+  readonly #touch: Touch;
+  #player: Player | undefined;
+  #session: Session | undefined;
+  #lost = false;
+  #active = false;
+  #minimal: number[] = [0]; // actions of the game
+
+  constructor(server: Server) {
+    this.#server = server;
+    const press = (time: number) => this.#player?.latency.press(time);
+    this.#keyboard = new Keyboard(this.#stage, press);
+    this.#touch = new Touch(byId("pad", HTMLElement), byId("fire", HTMLElement), press);
+    byId("touch", HTMLElement).hidden = !matchMedia("(pointer: coarse)").matches;
+    this.#listen();
+    this.#inspector.search.about = () => {
+      const { name: title = "", md5 = "" } = this.#player?.game ?? {};
+      return { title, md5, minimal: this.#minimal };
+    };
+  }
+
+  /** Opens the session, if there is none, and offers the games. */
+  async begin(): Promise<void> {
+    await this.#open();
+    const games = await this.#session!.games();
+    this.#choice.offer(games);
+    if (games[0]) {
+      await this.#load({ game: games[0] });
+    }
+  }
+
+  /** The view is shown or hidden. Hidden, the game pauses. */
+  set active(active: boolean) {
+    this.#active = active;
+    if (active) {
+      requestAnimationFrame((now) => this.#tick(now));
+    } else if (this.#player?.motion !== "paused") {
+      this.#move("paused");
+    }
+  }
+
+  async #open(): Promise<void> {
+    const { session, limits } = await this.#server.reopen(() => this.told("The server does not answer. Trying again."));
+    this.told("");
+    this.#lost = false;
+    this.#session = session;
+    this.#player = new Player(session, limits.max_states);
+    this.#player.shown = (shown) => this.#take(shown);
+    this.#player.failed = (error) => void this.#lose(error);
+    void session.ended.then((error) => (session === this.#session ? this.#lose(error) : undefined));
+    await this.#player.observe(this.#inspector.open ? ["grey84:delta"] : []);
+  }
+
+  /** The session has ended: opens another one, which plays the same acts to the same moment. */
+  async #lose(error: unknown): Promise<void> {
+    if (error instanceof RefusedError) {
+      this.told(error.message);
+      return;
+    }
+    if (this.#lost) {
+      return;
+    }
+    this.#lost = true;
+    this.told("The connection is lost. Trying again.");
+    const { game, acts = [] } = this.#player ?? {};
+    try {
+      await this.#open();
+      if (game) {
+        const { name, mode, difficulty, seed } = game;
+        await this.#load({ game: name, mode, difficulty, seed }, acts);
+      }
+    } catch (again) {
+      this.#lost = false;
+      void this.#lose(again);
+    }
+  }
+
+  async #load(choice: Choice, acts: readonly string[] = []): Promise<void> {
+    const player = this.#player!;
+    this.#move("paused");
+    const game = await player.load(choice, acts);
+    this.told("");
+    const colours = await this.#session!.palette();
+    this.#screen.become(colours, game.format, game.height);
+    this.#speaker.rate = soundRate(game.format);
+    this.#inspector.begin(colours);
+    const described = await this.#session!.game(game.name).catch((): Group => ({})); // an image without rules has no description
+    this.#minimal = String(described.minimal ?? "0").split(",").map(Number);
+    this.#choice.show(game, described);
+    this.#screen.canvas.setAttribute("aria-label", `Screen of ${game.name}`);
+    const last = await this.#session!.look("screen");
+    this.#screen.draw(last.screen);
+    this.#curtain(acts.length ? "Continue" : `Play ${game.name}`);
+  }
+
+  #listen(): void {
+    const click = (id: string, action: () => void) => byId(id, HTMLButtonElement).addEventListener("click", action);
+    this.#choice.chosen = (choice) => void this.#load(choice).catch((error) => this.#lose(error));
+    this.#start.onclick = () => this.#go();
+    click("pause", () => this.#move(this.#player?.motion === "playing" ? "paused" : "playing"));
+    click("back", () => this.#single(-1));
+    click("step", () => this.#single(1));
+    click("new", () => void this.#again());
+    click("sound", () => this.#mute());
+    click("full", () => void this.#fill());
+    click("inspect", () => void this.#inspect());
+    click("replay-this", () => this.#replayThis());
+    byId("picture", HTMLSelectElement).onchange = ({ target }) => {
+      this.#stage.classList.remove("soft", "tube");
+      this.#stage.classList.add((target as HTMLSelectElement).value);
+    };
+    const rewind = byId("rewind", HTMLButtonElement);
+    rewind.onpointerdown = () => this.#move("rewinding");
+    rewind.onpointerup = rewind.onpointerleave = () => this.#player?.motion === "rewinding" && this.#move("paused");
+    rewind.onclick = ({ detail }) => detail === 0 && this.#player?.goTo(this.#player.now - 60); // by a key: a second
+    this.#stage.addEventListener("keydown", (event) => this.#key(event));
+    this.#stage.addEventListener("keyup", ({ code }) => code === "Backspace" && this.#move("playing"));
+    this.#screen.canvas.addEventListener("pointerdown", () => this.#stage.focus());
+  }
+
+  #key(event: KeyboardEvent): void {
+    const actions: Record<string, () => void> = {
+      KeyP: () => byId("pause", HTMLButtonElement).click(),
+      Period: () => this.#single(1),
+      Comma: () => this.#single(-1),
+      KeyN: () => void this.#again(),
+      KeyM: () => this.#mute(),
+      KeyF: () => void this.#fill(),
+      KeyI: () => void this.#inspect(),
+      Backspace: () => this.#move("rewinding"),
+    };
+    const action = actions[event.code];
+    if (action && !event.ctrlKey && !event.altKey && !event.metaKey && event.target === this.#stage) {
+      event.preventDefault();
+      if (!event.repeat || event.code === "Period" || event.code === "Comma") {
+        action();
+      }
+    }
+  }
+
+  /** Begins or continues, since the user said so. */
+  #go(): void {
+    void this.#speaker.start();
+    this.#stage.focus();
+    if (this.#player?.over) {
+      void this.#again();
+    } else {
+      this.#move("playing");
+    }
+  }
+
+  #move(motion: Motion): void {
+    const player = this.#player;
+    if (player) {
+      player.motion = motion;
+      byId("pause", HTMLButtonElement).setAttribute("aria-pressed", String(motion === "paused"));
+      if (motion === "playing") {
+        void this.#speaker.start();
+        this.#start.hidden = true;
+      }
+    }
+  }
+
+  /** What players A and B press. */
+  #pressed(): [number, number] {
+    return [this.#keyboard.pressed(0) | this.#touch.pressed() | gamepad(0), this.#keyboard.pressed(1) | gamepad(1)];
+  }
+
+  /** Goes a frame onward, with what is pressed, or a frame back, and stops there. */
+  #single(frames: 1 | -1): void {
+    this.#move("paused");
+    this.#start.hidden = true;
+    if (frames > 0) {
+      this.#player?.act(actWord(...this.#pressed()));
+    } else {
+      this.#player?.goTo(this.#player.now - 1);
+    }
+  }
+
+  async #again(): Promise<void> {
+    await this.#player?.reset().catch((error) => this.#lose(error));
+    this.#move("playing");
+    this.#stage.focus();
+  }
+
+  #mute(): void {
+    this.#speaker.on = !this.#speaker.on;
+    byId("sound", HTMLButtonElement).setAttribute("aria-pressed", String(this.#speaker.on));
+  }
+
+  async #fill(): Promise<void> {
+    await (document.fullscreenElement ? document.exitFullscreen() : this.#stage.requestFullscreen());
+    this.#stage.focus();
+  }
+
+  async #inspect(): Promise<void> {
+    this.#inspector.open = !this.#inspector.open;
+    byId("inspect", HTMLButtonElement).setAttribute("aria-pressed", String(this.#inspector.open));
+    await this.#player?.observe(this.#inspector.open ? ["grey84:delta"] : []).catch((error) => this.#lose(error));
+  }
+
+  #replayThis(): void {
+    const { game, acts = [] } = this.#player ?? {};
+    if (game) {
+      const { name, mode, difficulty, seed } = game;
+      const settings = { seed: String(seed), mode: String(mode), difficulty: String(difficulty), sticky: "0", frame_skip: "1" };
+      this.replay({ title: `${name}, played here`, game: name, settings, acts: [...acts] });
+    }
+  }
+
+  #curtain(text: string): void {
+    tell(this.#start, text);
+    this.#start.hidden = false;
+  }
+
+  /** A reply has come. */
+  #take(shown: Shown): void {
+    if (this.#player?.motion === "playing") {
+      this.#speaker.play(shown.audio);
+    }
+    this.#inspector.add(shown);
+  }
+
+  /** The display draws: shows the newest reply, and sends what is due. */
+  #tick(now: number): void {
+    if (!this.#active) {
+      return;
+    }
+    requestAnimationFrame((next) => this.#tick(next));
+    const player = this.#player;
+    if (!player) {
+      return;
+    }
+    const shown = player.take(performance.now());
+    if (shown) {
+      this.#draw(shown);
+    }
+    player.tick(now, ...this.#pressed());
+    this.#figures.tick(now, player, this.#speaker, shown !== undefined);
+  }
+
+  #draw(shown: Shown): void {
+    this.#screen.draw(shown.screen);
+    tell(byId("score", HTMLElement), String(shown.score));
+    tell(byId("lives", HTMLElement), String(shown.lives));
+    tell(byId("frame", HTMLElement), String(shown.moment));
+    this.#inspector.draw(shown);
+    if (shown.over) {
+      this.#move("paused");
+      this.#curtain("Game over: play again");
+    }
+  }
+}

@@ -1,0 +1,256 @@
+import type { Group, Session } from "racebeam";
+import { actWord, joined } from "../input/actions.js";
+import { LatencyMeter } from "./latency.js";
+import { History } from "./history.js";
+import { Pacer } from "./pacer.js";
+import { frameRate } from "../picture/shape.js";
+
+const SPACING = 30; // acts between two states
+const MOST_STATES = 240;
+const STATES_LEFT = 8; // of those that a session may hold
+const MOST_AHEAD = 8; // requests without a reply: a server that is slower slows the game
+const REWIND_SPEED = 2; // frames a frame
+const SENT_AHEAD = 500; // acts that lead to the moment at which a lost session stood
+
+const FIELDS = ["reward", "ends", "lives", "screen:delta", "audio:raw", "ram:raw"];
+
+/** What is known of the game that is loaded. */
+export interface Game {
+  name: string;
+  md5: string;
+  format: string;
+  height: number;
+  mode: number;
+  difficulty: number;
+  seed: number;
+  rule: boolean;
+}
+
+/** What to load. Without a mode, that of the game. */
+export interface Choice {
+  game: string;
+  mode?: number;
+  difficulty?: number;
+  seed?: number;
+}
+
+/** A moment of the game as it is shown. */
+export interface Shown {
+  moment: number;
+  act: string;
+  reward: number;
+  score: number;
+  lives: number;
+  over: boolean;
+  screen: Uint8Array;
+  ram: Uint8Array;
+  audio: Uint8Array;
+  agent?: Uint8Array;
+}
+
+export type Motion = "playing" | "paused" | "rewinding";
+
+/** Plays a game in a session: a request a frame, at the pace of the display's ticks. */
+export class Player {
+  readonly latency = new LatencyMeter();
+  /** Called with each moment as its reply arrives. */
+  shown: (shown: Shown) => void = () => {};
+  /** Called when the session has ended, or refuses what should succeed. */
+  failed: (error: unknown) => void = () => {};
+  motion: Motion = "paused";
+
+  readonly #session: Session;
+  readonly #history: History;
+  readonly #pacer = new Pacer(60);
+  #game: Game | undefined;
+  #extra: string[] = [];
+  #newest: { shown: Shown; pressed: number | undefined } | undefined;
+  #over = false;
+  #busy = false; // a game is being loaded
+  #ahead = 0;
+  #epoch = 0; // replies of an earlier one are about moments that were taken back
+
+  /** `states`: how many the session may hold. */
+  constructor(session: Session, states: number) {
+    this.#session = session;
+    this.#history = new History(SPACING, Math.max(2, Math.min(MOST_STATES, states - STATES_LEFT)));
+  }
+
+  get game(): Game | undefined {
+    return this.#game;
+  }
+
+  get over(): boolean {
+    return this.#over;
+  }
+
+  /** Requests without a reply. */
+  get ahead(): number {
+    return this.#ahead;
+  }
+
+  get now(): number {
+    return this.#history.now;
+  }
+
+  /** The acts since the episode began. With the game, they are the episode. */
+  get acts(): readonly string[] {
+    return this.#history.acts;
+  }
+
+  score(moment: number): number {
+    return this.#history.score(moment);
+  }
+
+  /** Loads a game, plays `acts`, and shows where that leads. */
+  async load(choice: Choice, acts: readonly string[] = []): Promise<Game> {
+    const { game, seed = newSeed(), ...settings } = choice;
+    this.#busy = true;
+    try {
+      this.#game = described(await this.#session.load(game, { sticky: 0, sound: 1, frame_skip: 1, seed, ...settings }));
+      this.#pacer.restart(frameRate(this.#game.format));
+      await this.#begin(acts);
+      return this.#game;
+    } finally {
+      this.#busy = false;
+    }
+  }
+
+  /** Begins an episode with another seed. */
+  async reset(): Promise<void> {
+    if (this.#game && !this.#busy) {
+      this.#busy = true;
+      try {
+        this.#game.seed = newSeed();
+        await this.#session.reset(this.#game.seed);
+        await this.#begin([]);
+      } finally {
+        this.#busy = false;
+      }
+    }
+  }
+
+  /** Observes more fields, such as grey84:delta. */
+  async observe(extra: string[]): Promise<void> {
+    this.#extra = extra;
+    if (this.#game) {
+      await this.#session.observe(...FIELDS, ...extra);
+    }
+  }
+
+  /** The display draws a picture: sends what is due. */
+  tick(now: number, playerA: number, playerB: number): void {
+    const due = this.#pacer.due(now);
+    if (this.#busy) {
+      return;
+    }
+    if (this.motion === "rewinding") {
+      if (this.#ahead === 0 && due > 0) {
+        this.goTo(this.now - due * REWIND_SPEED);
+      }
+      return;
+    }
+    for (let frame = 0; frame < due && this.motion === "playing" && !this.#over && this.#ahead < MOST_AHEAD; ++frame) {
+      this.act(actWord(playerA, playerB));
+    }
+  }
+
+  /** Plays one frame, unless the episode is over. */
+  act(word: string): void {
+    if (!this.#over && !this.#busy) {
+      const pressed = this.latency.take();
+      const { moment, reply } = this.#send(word);
+      void this.#show(reply, moment, pressed);
+    }
+  }
+
+  /** Goes back to an earlier moment. */
+  goTo(moment: number): void {
+    const way = this.#history.back(moment);
+    if (!way) {
+      return;
+    }
+    const { state, acts } = way;
+    ++this.#epoch;
+    this.#over = false;
+    const restored = this.#session.restore(state);
+    restored.catch(() => {}); // if it fails, the acts do, too
+    void this.#show(acts.length ? this.#session.act(...joined(acts)) : restored, this.now);
+  }
+
+  /** The newest moment that has not been drawn yet. */
+  take(now: number): Shown | undefined {
+    const newest = this.#newest;
+    this.#newest = undefined;
+    if (newest?.pressed !== undefined) {
+      this.latency.drawn(newest.pressed, now);
+    }
+    return newest?.shown;
+  }
+
+  /** Begins the history of an episode whose first moment the session shows, and plays `acts`. */
+  async #begin(acts: readonly string[]): Promise<void> {
+    ++this.#epoch;
+    this.#history.begin();
+    this.#over = false;
+    await this.#session.observe("reward", "ends", "lives");
+    for (let at = 0; at < acts.length; at += SENT_AHEAD) {
+      await Promise.all(acts.slice(at, at + SENT_AHEAD).map((act) => this.#send(act).reply));
+    }
+    await this.#session.observe(...FIELDS, ...this.#extra);
+    await this.#show(this.#session.look("ends", "lives", "screen", "audio:raw", "ram:raw"), this.now);
+  }
+
+  /** Sends an act, and a request to save the moment before it if it is time. */
+  #send(word: string): { moment: number; reply: Promise<Group> } {
+    const state = this.#history.saves();
+    if (state) {
+      this.#session.save(state, { random: 1 }).catch(this.failed);
+    }
+    const moment = this.#history.add(word);
+    const reply = this.#session.act(word).then((group) => {
+      this.#history.reward(moment, group.reward);
+      return group;
+    });
+    return { moment, reply };
+  }
+
+  /** Shows the moment that a reply describes, unless it has been taken back meanwhile. */
+  async #show(reply: Promise<Group>, moment: number, pressed?: number): Promise<void> {
+    const epoch = this.#epoch;
+    ++this.#ahead;
+    try {
+      const group = await reply;
+      if (epoch === this.#epoch) {
+        this.#take(group, moment, pressed);
+      }
+    } catch (error) {
+      this.failed(error);
+    } finally {
+      --this.#ahead;
+    }
+  }
+
+  #take(group: Group, moment: number, pressed: number | undefined): void {
+    const over = group.terminated === 1 || group.truncated === 1;
+    if (over) {
+      this.#history.cut(moment); // acts that were sent ahead have run no frame
+      ++this.#epoch;
+      this.#over = true;
+    }
+    const { reward = 0, lives, screen, ram, audio, grey84: agent } = group;
+    const act = this.#history.acts[moment - 1] ?? "0";
+    const shown: Shown = { moment, act, reward, score: this.score(moment), lives, over, screen, ram, audio, ...(agent ? { agent } : {}) };
+    this.#newest = { shown, pressed: this.#newest?.pressed ?? pressed };
+    this.shown(shown);
+  }
+}
+
+function newSeed(): number {
+  return 1 + Math.floor(Math.random() * 0xfffffffe);
+}
+
+function described(loaded: Group): Game {
+  const { game, md5, format, height, mode, difficulty, seed, rule } = loaded;
+  return { name: String(game), md5: String(md5), format, height, mode, difficulty, seed, rule: rule === 1 };
+}

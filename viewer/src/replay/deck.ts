@@ -1,0 +1,126 @@
+import { LostError } from "racebeam";
+import { spoken } from "../input/actions.js";
+import { copyOf, part, tell } from "../page/elements.js";
+import type { Server } from "../page/server.js";
+import { Screen } from "../picture/screen.js";
+import { frameRate, soundRate } from "../picture/shape.js";
+import type { Episode } from "./log.js";
+import { Track, type Outcome } from "./track.js";
+
+/** One episode on the page, in a session of its own. */
+export class Deck {
+  readonly element = copyOf("deck");
+  readonly episode: Episode;
+  /** Called when the user closes the deck. */
+  closed: () => void = () => {};
+  /** Called with the sound of a frame that follows the one shown before. */
+  sounded: (samples: Uint8Array) => void = () => {};
+
+  readonly #server: Server;
+  readonly #screen = new Screen(part(this.element, "screen", HTMLCanvasElement));
+  #track: Track | undefined;
+  #outcome: Outcome | undefined;
+  #end: (() => Promise<void>) | undefined;
+  #shown = -1; // step
+  #wanted = 0; // frame
+  #showing = false;
+
+  constructor(server: Server, episode: Episode) {
+    this.#server = server;
+    this.episode = episode;
+    tell(part(this.element, "title", HTMLElement), episode.title);
+    part(this.element, "close", HTMLButtonElement).onclick = () => this.closed();
+  }
+
+  /** Frames of the episode; 0 until it has been played through. */
+  get frames(): number {
+    return this.#outcome && this.#track ? this.#track.length * this.#track.framesAStep : 0;
+  }
+
+  get frameRate(): number {
+    return frameRate(String(this.#track?.loaded.format));
+  }
+
+  get soundRate(): number {
+    return soundRate(String(this.#track?.loaded.format));
+  }
+
+  /** The frames after which there was a reward, with it. */
+  get rewards(): { frame: number; reward: number }[] {
+    const { rewards = [] } = this.#outcome ?? {};
+    return rewards.map(({ step, reward }) => ({ frame: step * (this.#track?.framesAStep ?? 1), reward }));
+  }
+
+  /** Opens the session, and plays the episode through. */
+  async open(): Promise<void> {
+    const progress = part(this.element, "progress", HTMLProgressElement);
+    progress.hidden = false;
+    const { session, limits } = await this.#server.open();
+    this.#end = () => session.disconnect();
+    this.#track = new Track(session, this.episode, limits.max_states);
+    this.#outcome = await this.#track.prepare((done) => (progress.value = done));
+    this.#screen.become(await session.palette(), String(this.#track.loaded.format), this.#track.loaded.height);
+    progress.hidden = true;
+    this.#shown = -1;
+    this.show(this.#wanted);
+  }
+
+  async close(): Promise<void> {
+    this.element.remove();
+    await this.#end?.();
+  }
+
+  /** Shows a frame. While the server works, only the newest wish counts. */
+  show(frame: number): void {
+    this.#wanted = frame;
+    if (!this.#showing && this.#outcome) {
+      void this.#follow();
+    }
+  }
+
+  async #follow(): Promise<void> {
+    const track = this.#track!;
+    this.#showing = true;
+    try {
+      for (let step = this.#step(); step !== this.#shown; step = this.#step()) {
+        const group = await track.show(step);
+        if (step === this.#shown + 1) {
+          this.sounded(group.audio);
+        }
+        this.#shown = step;
+        this.#screen.draw(group.screen);
+        tell(part(this.element, "facts", HTMLElement), this.#facts(step, group.lives));
+      }
+    } catch (error) {
+      await this.#lose(error);
+    } finally {
+      this.#showing = false;
+    }
+  }
+
+  /** The step that shows the wanted frame. */
+  #step(): number {
+    const track = this.#track!;
+    return Math.max(0, Math.min(track.length, Math.floor(this.#wanted / track.framesAStep)));
+  }
+
+  async #lose(error: unknown): Promise<void> {
+    tell(part(this.element, "facts", HTMLElement), error instanceof Error ? error.message : String(error));
+    if (error instanceof LostError && this.element.isConnected) {
+      await this.#server.reopen(() => {}).then(({ session }) => session.disconnect());
+      await this.open();
+    }
+  }
+
+  #facts(step: number, lives: number): string {
+    const track = this.#track!;
+    const act = track.steps[step - 1];
+    const checked = this.#outcome?.asLogged;
+    return [
+      `score ${track.score(step)} of ${track.score(track.length)}`,
+      `lives ${lives}`,
+      act === undefined ? "start" : spoken(act),
+      ...(checked === undefined ? [] : [checked ? "plays as logged" : "does not play as logged"]),
+    ].join(" · ");
+  }
+}

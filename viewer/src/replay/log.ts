@@ -1,0 +1,125 @@
+// Logs of episodes: docs/episodes.md describes the file.
+
+export interface Episode {
+  /** For people. */
+  title: string;
+  game: string;
+  /** Those of `load`, but for the game. */
+  settings: Readonly<Record<string, string>>;
+  /** Words of `act`, in order. */
+  acts: readonly string[];
+  /** What the log says of its end. An episode of the page's own has none. */
+  ended?: { score: number; frames: number; decisions: number; end: string; lives: number };
+  md5?: string;
+}
+
+const MAGIC = "RBEPISOD";
+const VERSION = 1;
+const HEADER = 24; // bytes before the contents
+const LARGEST = 2 * 1024 * 1024; // bytes, of the file and of its contents
+const LAST_ACTION = 17;
+const HASH_EVERY = 256; // decisions
+const HASH_SIZE = 8;
+
+const CRC_TABLE = Uint32Array.from({ length: 256 }, (_, byte) => {
+  let crc = byte;
+  for (let bit = 0; bit < 8; ++bit) {
+    crc = crc & 1 ? 0xedb88320 ^ (crc >>> 1) : crc >>> 1;
+  }
+  return crc;
+});
+
+/** The CRC-32 of some pieces in a row. */
+export function crc32(...pieces: Uint8Array[]): number {
+  let crc = 0xffffffff;
+  for (const piece of pieces) {
+    for (const byte of piece) {
+      crc = CRC_TABLE[(crc ^ byte) & 0xff]! ^ (crc >>> 8);
+    }
+  }
+  return (crc ^ 0xffffffff) >>> 0;
+}
+
+/** The bytes of a zlib stream. Throws if there are more than LARGEST. */
+async function inflated(bytes: Uint8Array): Promise<Uint8Array> {
+  const reader = new Blob([bytes as BlobPart]).stream().pipeThrough(new DecompressionStream("deflate")).getReader();
+  const pieces: Uint8Array[] = [];
+  let size = 0;
+  for (let { done, value } = await reader.read(); !done; { done, value } = await reader.read()) {
+    pieces.push(value!);
+    size += value!.length;
+    if (size > LARGEST) {
+      await reader.cancel();
+      throw new Error(`the log has more than ${LARGEST} bytes of contents`);
+    }
+  }
+  const whole = new Uint8Array(size);
+  pieces.reduce((at, piece) => (whole.set(piece, at), at + piece.length), 0);
+  return whole;
+}
+
+/** The contents that the seal of a log protects. */
+async function opened(file: Uint8Array): Promise<Uint8Array> {
+  if (file.length > LARGEST) {
+    throw new Error(`the file has ${file.length} bytes; a log has at most ${LARGEST}`);
+  }
+  const magic = new TextDecoder("latin1").decode(file.subarray(0, MAGIC.length));
+  if (magic !== MAGIC || file.length < HEADER) {
+    throw new Error("the file is not a log of an episode");
+  }
+  const header = new DataView(file.buffer, file.byteOffset, HEADER);
+  if (header.getUint32(8, true) !== VERSION) {
+    throw new Error(`the log has version ${header.getUint32(8, true)}; this page reads version ${VERSION}`);
+  }
+  const packed = file.subarray(HEADER);
+  if (header.getUint32(20, true) !== crc32(file.subarray(0, 20), packed)) {
+    throw new Error("the log was altered or cut off: its checksum does not fit");
+  }
+  const contents = await inflated(packed);
+  if (contents.length !== Number(header.getBigUint64(12, true))) {
+    throw new Error("the log was altered: the size of its contents does not fit");
+  }
+  return contents;
+}
+
+/** The pairs KEY=VALUE among the words of a line. */
+function pairs(words: readonly string[]): Record<string, string> {
+  return Object.fromEntries(words.filter((word) => word.includes("=")).map((word) => {
+    const equals = word.indexOf("=");
+    return [word.slice(0, equals), word.slice(equals + 1)];
+  }));
+}
+
+/** The end of the lines of text: the place after the empty line. */
+function endOfText(contents: Uint8Array): number {
+  for (let at = 1; at < contents.length; ++at) {
+    if (contents[at] === 10 && contents[at - 1] === 10) {
+      return at + 1;
+    }
+  }
+  throw new Error("the log has no empty line after its text");
+}
+
+/** Reads a log. Throws an Error with a sentence if it is none. */
+export async function readLog(file: Uint8Array, name: string): Promise<Episode> {
+  const contents = await opened(file);
+  const start = endOfText(contents);
+  const lines = new TextDecoder().decode(contents.subarray(0, start)).split("\n").map((line) => line.split(" "));
+  const [load = [], image = [], from = [], ended = []] = lines;
+  if (load[0] !== "load" || !load[1] || image[0] !== "image" || from[0] !== "from" || ended[0] !== "ended") {
+    throw new Error("the log's text does not begin with load, image, from and ended");
+  }
+  const { score, frames, decisions, end = "", lives } = pairs(ended);
+  const actions = contents.subarray(start + HASH_SIZE * (Math.floor(Number(decisions) / HASH_EVERY) + 1));
+  if (actions.length !== Number(decisions) || actions.some((action) => action > LAST_ACTION)) {
+    throw new Error(`the log has ${actions.length} actions; its text says ${decisions}, from 0 to ${LAST_ACTION}`);
+  }
+  return {
+    title: pairs(from).unit ? `${pairs(from).unit}, episode ${pairs(from).episode}` : name,
+    game: load[1],
+    settings: pairs(load.slice(2)),
+    acts: Array.from(actions, String),
+    ended: { score: Number(score), frames: Number(frames), decisions: Number(decisions), end, lives: Number(lives) },
+    ...(image[1] ? { md5: image[1] } : {}),
+  };
+}

@@ -1,0 +1,103 @@
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { after, afterEach, before, describe, test } from "node:test";
+import { readFileSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import type { Page } from "playwright-core";
+import { numberIn, Server, Tabs, until } from "./harness.js";
+
+describe("the panels of Inspect", () => {
+  const server = new Server();
+  const tabs = new Tabs();
+  let page: Page;
+
+  before(async () => {
+    await server.start();
+    page = await tabs.open(server.address);
+    await page.getByRole("button", { name: "Play beamfall" }).click();
+    await page.keyboard.press("KeyI");
+  });
+  after(async () => {
+    await tabs.close();
+    await server.remove();
+  });
+  afterEach(() => assert.deepEqual(tabs.problems(), []));
+
+  /** The byte that the grid shows for an address. */
+  async function byte(address: number): Promise<number> {
+    return parseInt(await page.locator("#ram td").nth(1 + address - 0x80).textContent() ?? "", 16);
+  }
+
+  /** Fires until the score has changed, and pauses. */
+  async function score(): Promise<void> {
+    const before = await numberIn(page, "#score");
+    await page.locator("#stage").focus();
+    if (await page.locator("#pause").getAttribute("aria-pressed") === "true") {
+      await page.keyboard.press("KeyP");
+    }
+    await page.keyboard.down("Space");
+    await until(async () => await numberIn(page, "#score") > before, "a score");
+    await page.keyboard.press("KeyP");
+    await page.keyboard.up("Space");
+    await page.waitForTimeout(300);
+  }
+
+  test("the grid shows RAM, where the score is", async () => {
+    await score();
+    const [tens, units] = [await byte(0x83), await byte(0x84)];
+    const bcd = (value: number) => 10 * (value >> 4) + (value & 15);
+    assert.equal(100 * bcd(tens) + bcd(units), await numberIn(page, "#score"));
+    assert.equal(await byte(0x81), await numberIn(page, "#lives"));
+  });
+
+  test("the search finds the score", async () => {
+    await page.getByRole("button", { name: "Begin anew" }).click();
+    for (let round = 0; round < 3; ++round) {
+      await score();
+      await page.getByRole("button", { name: "Changed", exact: true }).click();
+      await page.keyboard.press("Tab");
+    }
+    const found = Number(/^(\d+) of 128/.exec(await page.locator("#found").textContent() ?? "")?.[1]);
+    assert.ok(found > 0 && found < 80, `${found} bytes`);
+    await page.locator("#value").fill(`$${(await byte(0x84)).toString(16)}`);
+    await page.getByRole("button", { name: "Search" }).click();
+    await page.locator("#candidates").getByText("$84").waitFor();
+    await page.locator("#value").fill("999");
+    await page.getByRole("button", { name: "Search" }).click();
+    await page.getByText("A byte is a number from 0 to 255").waitFor();
+  });
+
+  test("the draft is a game file that the program takes", async () => {
+    await page.getByLabel("Part of the rule of $84").selectOption("score0");
+    const download = page.waitForEvent("download");
+    await page.getByRole("button", { name: "Save a draft" }).click();
+    const file = path.join(server.folder, "draft.toml");
+    await (await download).saveAs(file);
+    assert.match(readFileSync(file, "utf8"), /bcd\(0x84\)/);
+    const image = path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "../../../games/homebrew/beamfall.bin");
+    const actions = path.join(server.folder, "actions");
+    writeFileSync(actions, "1\n".repeat(300));
+    const printed = execFileSync(process.env.RACEBEAM_BINARY!, ["serve", "--stdio", "--game-file", file, "--rom", image],
+      { input: "load beamfall sticky=0 seed=1\nact FIRE*600\n", encoding: "utf8" });
+    assert.match(printed, /^ok reward=[1-9]\d* /m, printed);
+  });
+
+  test("the panels show what the agent sees, the action, the colours and the plots", async () => {
+    await page.locator("#stage").focus();
+    await page.keyboard.press("KeyP");
+    await page.keyboard.down("ArrowUp");
+    await page.locator("#action").getByText("UP", { exact: true }).waitFor();
+    await page.keyboard.up("ArrowUp");
+    await page.waitForTimeout(500);
+    const colours = (selector: string) => page.locator(selector).evaluate((canvas: HTMLCanvasElement) =>
+      new Set(new Uint32Array(canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size);
+    for (const oldest of [0, 3]) {
+      assert.ok(await colours(`#agent canvas >> nth=${oldest}`) > 3);
+    }
+    assert.ok(await colours("#palette") > 100);
+    assert.ok(await page.locator("#used li").count() > 3);
+    for (const plot of ["#score-plot", "#reward-plot", "#lives-plot", "#wave"]) {
+      assert.ok(await colours(plot) > 1, plot);
+    }
+  });
+});

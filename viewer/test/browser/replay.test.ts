@@ -1,0 +1,134 @@
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, afterEach, before, describe, test } from "node:test";
+import type { Page } from "playwright-core";
+import { recordedEpisodes, Server, Tabs, until } from "./harness.js";
+
+describe("the view Replay", () => {
+  const server = new Server();
+  const tabs = new Tabs();
+  let page: Page;
+  let logs: string[];
+
+  before(async () => {
+    logs = [...recordedEpisodes(server.folder, 0, 2), ...recordedEpisodes(server.folder, 0.25, 1)];
+    await server.start();
+    page = await tabs.open(`${server.address}#replay`);
+  });
+  after(async () => {
+    await tabs.close();
+    await server.remove();
+  });
+  afterEach(() => assert.deepEqual(tabs.problems(), []));
+
+  const facts = (deck = 0) => page.locator('[data-part="facts"]').nth(deck).textContent();
+  const screen = (deck = 0) => page.locator('.deck [data-part="screen"]').nth(deck).evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+  const place = async () => Number(/frame (\d+) of/.exec(await page.locator("#place").textContent() ?? "")?.[1]);
+  const scrub = (frame: number) => page.locator("#timeline").fill(String(frame));
+
+  /** Waits until the deck shows the picture of its place. */
+  async function settled(deck = 0): Promise<string> {
+    let before = "";
+    await until(async () => {
+      const now = `${await facts(deck)} ${await screen(deck)}`;
+      const same = now === before;
+      before = now;
+      return same;
+    }, "a picture that stays");
+    return before;
+  }
+
+  test("a log plays as it says, frame by frame", async () => {
+    await page.locator("#log").setInputFiles(logs[0]!);
+    await until(async () => /plays as logged/.test(await facts() ?? ""), "the episode");
+    assert.match(await page.locator("#place").textContent() ?? "", /^frame 0 of \d{3,}$/);
+  });
+
+  test("any frame is shown at once, and always looks the same", async () => {
+    await scrub(500);
+    const seen = await settled();
+    await scrub(37);
+    assert.notEqual(await settled(), seen);
+    for (let frame = 495; frame < 500; ++frame) {
+      await scrub(frame);
+    }
+    await page.getByRole("button", { name: "Forward" }).last().click();
+    assert.equal(await place(), 500);
+    assert.equal(await settled(), seen);
+  });
+
+  test("the end has the score of the log", async () => {
+    await page.locator("#timeline").press("End");
+    await settled();
+    assert.match(await facts() ?? "", /^score (\d+) of \1 · /);
+  });
+
+  test("it runs at the speed that is chosen", async () => {
+    await scrub(0);
+    await page.locator("#speed").selectOption("2");
+    const begun = Date.now();
+    await page.locator("#run").click();
+    await until(async () => await place() >= 180, "180 frames");
+    const rate = (1000 * await place()) / (Date.now() - begun);
+    await page.locator("#run").click();
+    assert.ok(rate > 90 && rate < 135, `${rate} frames a second`);
+  });
+
+  test("the buttons go from reward to reward", async () => {
+    await scrub(0);
+    await page.getByRole("button", { name: "Next reward" }).click();
+    const first = await place();
+    assert.ok(first > 0);
+    await settled();
+    assert.match(await facts() ?? "", /^score [1-9]/);
+    await page.getByRole("button", { name: "Next reward" }).click();
+    assert.ok(await place() > first);
+    await page.getByRole("button", { name: "Reward before" }).click();
+    assert.equal(await place(), first);
+  });
+
+  test("a link leads to the frame, in another tab", async () => {
+    await scrub(321);
+    const seen = await screen();
+    await page.getByRole("button", { name: "Copy a link" }).click();
+    await page.locator("#link-told").filter({ hasText: "The link is" }).waitFor();
+    const other = await tabs.open(page.url());
+    await until(async () => /^frame 321 /.test(await other.locator("#place").textContent() ?? ""), "the frame of the link");
+    await until(async () => await other.locator('.deck [data-part="screen"]').evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL()) === seen,
+      "the picture of the link");
+    await other.context().close();
+  });
+
+  test("an episode with sticky actions stands beside the other", async () => {
+    await page.locator("#log").setInputFiles(logs[2]!);
+    await until(async () => /plays as logged/.test(await facts(1) ?? ""), "the second episode");
+    await scrub(400);
+    await Promise.all([settled(0), settled(1)]);
+    assert.notEqual(await screen(0), await screen(1));
+    await page.locator("#log").setInputFiles(logs[1]!);
+    await page.locator("#log-problem").filter({ hasText: "close one first" }).waitFor();
+    await page.getByRole("button", { name: "Close" }).first().click();
+    assert.equal(await page.locator(".deck").count(), 1);
+  });
+
+  test("a log that was cut is refused in a sentence", async () => {
+    const whole = readFileSync(logs[0]!);
+    await page.locator("#log").setInputFiles({ name: "cut.episode", mimeType: "", buffer: whole.subarray(0, whole.length - 9) });
+    await page.locator("#log-problem").filter({ hasText: "altered or cut off" }).waitFor();
+  });
+
+  test("the episode that was just played is replayed", async () => {
+    await page.getByRole("button", { name: "Close" }).click();
+    await page.getByRole("link", { name: "Play", exact: true }).click();
+    await page.getByRole("button", { name: "Play beamfall" }).click();
+    await page.keyboard.down("Space");
+    await until(async () => Number(await page.locator("#score").textContent()) > 0, "a score");
+    await page.keyboard.up("Space");
+    await page.keyboard.press("KeyP");
+    await page.waitForTimeout(200);
+    const [score, frame] = [await page.locator("#score").textContent(), await page.locator("#frame").textContent()];
+    await page.getByRole("button", { name: "Replay this episode" }).click();
+    await page.locator("#place").filter({ hasText: `of ${frame}` }).waitFor();
+    assert.match(await facts() ?? "", new RegExp(`^score 0 of ${score} `));
+  });
+});

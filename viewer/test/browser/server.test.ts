@@ -1,0 +1,86 @@
+// What the page does about the server: tokens, an end, a beginning.
+
+import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import path from "node:path";
+import { after, before, describe, test } from "node:test";
+import type { Page } from "playwright-core";
+import { numberIn, Server, Tabs, until } from "./harness.js";
+
+const TOKEN = "a-token-of-the-tests-0123456789";
+
+describe("the server", () => {
+  const server = new Server();
+  const tabs = new Tabs();
+  const tokens = path.join(server.folder, "tokens");
+
+  before(async () => {
+    writeFileSync(tokens, `${TOKEN}\n`, { mode: 0o600 });
+  });
+  after(async () => {
+    await tabs.close();
+    await server.remove();
+  });
+
+  async function answer(page: Page, token: string): Promise<void> {
+    await page.getByLabel("Token", { exact: true }).fill(token);
+    await page.getByRole("button", { name: "Connect" }).click();
+  }
+
+  test("a token is asked for, and a wrong one refused", async () => {
+    await server.start(["--token-file", tokens]);
+    const page = await tabs.open(server.address);
+    await answer(page, "wrong");
+    await page.getByText("The server refused this token.").waitFor();
+    await answer(page, TOKEN);
+    await page.getByRole("button", { name: "Play beamfall" }).waitFor();
+    assert.deepEqual(tabs.problems(), []);
+    await page.context().close();
+  });
+
+  test("three wrong tokens end the session, and the page asks again", async () => {
+    const page = await tabs.open(server.address);
+    for (let attempt = 0; attempt < 4; ++attempt) {
+      await answer(page, `wrong${attempt}`);
+      await page.getByLabel("Token", { exact: true }).waitFor();
+    }
+    await answer(page, TOKEN);
+    await page.getByRole("button", { name: "Play beamfall" }).waitFor();
+    await page.context().close();
+    tabs.problems();
+  });
+
+  test("the address may have the token, which then vanishes from it", async () => {
+    const page = await tabs.open(`${server.address}#token=${TOKEN}`);
+    await page.getByRole("button", { name: "Play beamfall" }).waitFor();
+    assert.ok(!page.url().includes(TOKEN));
+    assert.deepEqual(tabs.problems(), []);
+    await page.context().close();
+    await server.stop();
+  });
+
+  test("a server that stops and comes back finds the game where it was", async () => {
+    await server.start();
+    const page = await tabs.open(server.address);
+    await page.getByRole("button", { name: "Play beamfall" }).click();
+    await page.keyboard.down("Space");
+    await until(async () => await numberIn(page, "#score") > 0 && await numberIn(page, "#frame") > 90, "a score");
+    await page.keyboard.press("KeyP");
+    await page.keyboard.up("Space");
+    await page.waitForTimeout(300);
+    const seen = async () => [await numberIn(page, "#frame"), await numberIn(page, "#score"), await numberIn(page, "#lives"),
+      await page.locator("#screen").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL())];
+    const before = await seen();
+    const { port } = server;
+    await server.stop();
+    await page.locator("#status").getByText("Trying again").waitFor();
+    await server.start([], port);
+    await page.getByRole("button", { name: "Continue" }).waitFor();
+    assert.deepEqual(await seen(), before);
+    assert.equal(await page.locator("#status").textContent(), "");
+    await page.getByRole("button", { name: "Continue" }).click();
+    await until(async () => await numberIn(page, "#frame") > Number(before[0]) + 10, "more frames");
+    await page.context().close();
+    tabs.problems(); // the browser tells of connections that were refused
+  });
+});

@@ -1,0 +1,104 @@
+import assert from "node:assert/strict";
+import { after, afterEach, before, describe, test } from "node:test";
+import type { Page } from "playwright-core";
+import { connect, type Session } from "racebeam";
+import { Server, Tabs, until } from "./harness.js";
+
+/** An agent that plays in a session of its own, until it is told to stop. */
+class Agent {
+  readonly #session: Session;
+  #runs = true;
+
+  private constructor(session: Session) {
+    this.#session = session;
+  }
+
+  static async start(address: string, game: string, name: string): Promise<Agent> {
+    const session = await connect(address);
+    await session.load(game, { seed: 7, sticky: 0 });
+    await session.share(name);
+    const agent = new Agent(session);
+    void agent.#play().catch(() => {}); // until the session ends
+    return agent;
+  }
+
+  async #play(): Promise<void> {
+    while (this.#runs) {
+      const { terminated } = await this.#session.act("UPFIRE");
+      await (terminated ? this.#session.reset() : new Promise((resolve) => setTimeout(resolve, 10)));
+    }
+  }
+
+  async stop(): Promise<void> {
+    this.#runs = false;
+    await this.#session.disconnect();
+  }
+}
+
+describe("the view Watch", () => {
+  const server = new Server();
+  const tabs = new Tabs();
+  let page: Page;
+  let agents: Agent[] = [];
+
+  before(async () => {
+    await server.start(["--listen", "tcp://127.0.0.1:0"]);
+    page = await tabs.open(`${server.address}#watch`);
+  });
+  after(async () => {
+    await Promise.all(agents.map((agent) => agent.stop()));
+    await tabs.close();
+    await server.remove();
+  });
+  afterEach(() => assert.deepEqual(tabs.problems(), []));
+
+  const picture = (canvas: string) => page.locator(canvas).evaluate((element: HTMLCanvasElement) => element.toDataURL());
+
+  /** Waits until a canvas shows another picture. */
+  async function moves(canvas: string): Promise<void> {
+    const before = await picture(canvas);
+    await until(async () => await picture(canvas) !== before, `another picture in ${canvas}`);
+  }
+
+  test("says what to do if no session is shared", async () => {
+    await page.getByText("No session is shared").waitFor();
+  });
+
+  test("shows two sessions at once, and one of them large", async () => {
+    agents = [await Agent.start(server.agents, "beamfall", "left"), await Agent.start(server.agents, "updraft", "right")];
+    await page.getByRole("button", { name: /right updraft/ }).waitFor();
+    await moves("#wall canvas >> nth=0");
+    await moves("#wall canvas >> nth=1");
+    await moves("#watched-screen");
+    await page.getByRole("button", { name: /right updraft/ }).click();
+    await page.locator("#watched-title").filter({ hasText: "right: updraft" }).waitFor();
+    await moves("#watched-screen");
+    assert.ok(await page.getByText("No session is shared").isHidden());
+  });
+
+  test("tells score, episode and speed", async () => {
+    await until(async () => /score [1-9]\d* · episode \d+ · [1-9]\d* frames\/s/.test(
+      await page.getByRole("button", { name: /left beamfall/ }).textContent() ?? ""), "a score");
+    await page.locator("#watched-facts").getByText("action").waitFor();
+  });
+
+  test("a session that ends leaves the wall", async () => {
+    await agents[1]!.stop();
+    await until(async () => await page.locator("#wall li").count() === 1, "one tile");
+    await page.locator("#watched-title").filter({ hasText: "left: beamfall" }).waitFor();
+    await moves("#watched-screen");
+  });
+
+  test("a hidden view asks for nothing", async () => {
+    await page.getByRole("link", { name: "Play", exact: true }).click();
+    await page.waitForTimeout(200);
+    let sent = 0;
+    const devtools = await page.context().newCDPSession(page);
+    await devtools.send("Network.enable");
+    devtools.on("Network.webSocketFrameSent", ({ response }) => (sent += Number(response.payloadData.startsWith("watch"))));
+    await page.waitForTimeout(500);
+    assert.equal(sent, 0);
+    await page.getByRole("link", { name: "Watch" }).click();
+    await until(() => Promise.resolve(sent > 10), "requests");
+  });
+});

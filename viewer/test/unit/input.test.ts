@@ -1,0 +1,42 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import { ACTIONS, actionOf, actWord, DOWN, FIRE, joined, LEFT, RIGHT, spoken, UP } from "../../src/input/actions.js";
+import { pressedOn } from "../../src/input/gamepad.js";
+import { directionAt } from "../../src/input/touch.js";
+
+test("each combination of direction and button is an action of its own", () => {
+  const pressed = [0, UP, DOWN].flatMap((y) => [0, LEFT, RIGHT].flatMap((x) => [0, FIRE].map((fire) => x | y | fire)));
+  assert.deepEqual(pressed.map(actionOf).sort((a, b) => a - b), Array.from(ACTIONS.keys()));
+  assert.equal(ACTIONS[actionOf(UP | RIGHT | FIRE)], "UPRIGHTFIRE");
+  assert.equal(ACTIONS[actionOf(DOWN | LEFT)], "DOWNLEFT");
+});
+
+test("opposite directions cancel each other", () => {
+  assert.equal(ACTIONS[actionOf(LEFT | RIGHT | UP)], "UP");
+  assert.equal(actionOf(LEFT | RIGHT | UP | DOWN), 0);
+});
+
+test("an act has player B if B presses something", () => {
+  assert.equal(actWord(FIRE), "1");
+  assert.equal(actWord(0, FIRE), "0/1");
+  assert.equal(spoken("0/1"), "NOOP, FIRE");
+});
+
+test("equal acts in a row are one word", () => {
+  assert.deepEqual(joined(["1", "1", "1", "0/2", "1", "1"]), ["1*3", "0/2", "1*2"]);
+  assert.deepEqual(joined([]), []);
+});
+
+test("a gamepad has a stick, a cross and buttons", () => {
+  const button = (pressed: boolean) => ({ pressed, touched: pressed, value: Number(pressed) });
+  const pad = (axes: number[], down: number[]) => pressedOn({ axes, buttons: Array.from({ length: 16 }, (_, at) => button(down.includes(at))) });
+  assert.equal(pad([-1, 0.9], []), LEFT | DOWN);
+  assert.equal(pad([0.3, -0.3], []), 0);
+  assert.equal(pad([], [12, 15, 0]), UP | RIGHT | FIRE);
+});
+
+test("a thumb points in eight directions, or rests", () => {
+  assert.equal(directionAt(0.1, 0.1), 0);
+  assert.deepEqual([[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]].map(([x, y]) => directionAt(x!, y!)),
+    [RIGHT, RIGHT | DOWN, DOWN, DOWN | LEFT, LEFT, LEFT | UP, UP, UP | RIGHT]);
+});

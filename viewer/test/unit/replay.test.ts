@@ -1,0 +1,96 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import { deflateSync } from "node:zlib";
+import { linkTo, readLink } from "../../src/replay/link.js";
+import { crc32, readLog, type Episode } from "../../src/replay/log.js";
+
+const TEXT = `load beamfall seed=7 frame_skip=5 sticky=0
+image 8b96297bc95db74738674ce177f501c1
+from unit=beamfall-random-0 agent=random trial=0 episode=2 agent_seed=1 version=0.1.0
+ended score=40 frames=15 decisions=3 end=terminated lives=0
+
+`;
+
+function contents(text = TEXT, hashes = 1, actions = [1, 0, 17]): Uint8Array {
+  return Uint8Array.from([...new TextEncoder().encode(text), ...new Uint8Array(8 * hashes).fill(10), ...actions]);
+}
+
+/** A log as docs/episodes.md describes it. `change` alters the header before the checksum is made. */
+function sealed(inside: Uint8Array, change: (header: DataView) => void = () => {}): Uint8Array {
+  const packed = deflateSync(inside);
+  const file = new Uint8Array(24 + packed.length);
+  file.set(new TextEncoder().encode("RBEPISOD"));
+  file.set(packed, 24);
+  const header = new DataView(file.buffer, 0, 24);
+  header.setUint32(8, 1, true);
+  header.setBigUint64(12, BigInt(inside.length), true);
+  change(header);
+  header.setUint32(20, crc32(file.subarray(0, 20), packed), true);
+  return file;
+}
+
+test("the checksum is CRC-32", () => {
+  assert.equal(crc32(new TextEncoder().encode("1234"), new TextEncoder().encode("56789")), 0xcbf43926);
+});
+
+test("a log is read", async () => {
+  assert.deepEqual(await readLog(sealed(contents()), "2.episode"), {
+    title: "beamfall-random-0, episode 2",
+    game: "beamfall",
+    settings: { seed: "7", frame_skip: "5", sticky: "0" },
+    acts: ["1", "0", "17"],
+    ended: { score: 40, frames: 15, decisions: 3, end: "terminated", lives: 0 },
+    md5: "8b96297bc95db74738674ce177f501c1",
+  });
+});
+
+test("the number of hashes follows from that of decisions", async () => {
+  const actions = new Array<number>(600).fill(3);
+  const { acts } = await readLog(sealed(contents(TEXT.replace("decisions=3", "decisions=600"), 3, actions)), "");
+  assert.deepEqual(acts, actions.map(String));
+});
+
+test("every log that was cut or altered is refused", async () => {
+  const whole = sealed(contents());
+  for (let size = 0; size < whole.length; ++size) {
+    await assert.rejects(readLog(whole.slice(0, size), ""), Error);
+  }
+  for (let at = 0; at < whole.length; ++at) {
+    const altered = whole.slice();
+    altered[at]! ^= 0x40;
+    await assert.rejects(readLog(altered, ""), Error, `byte ${at}`);
+  }
+});
+
+const wrong: Record<string, Uint8Array> = {
+  "another version": sealed(contents(), (header) => header.setUint32(8, 2, true)),
+  "another size": sealed(contents(), (header) => header.setBigUint64(12, 5n, true)),
+  "too few actions": sealed(contents(TEXT, 1, [1])),
+  "no such action": sealed(contents(TEXT, 1, [1, 2, 18])),
+  "no text": sealed(new Uint8Array(40)),
+  "another text": sealed(contents("load\n\n")),
+  "a bomb": sealed(new Uint8Array(3 * 1024 * 1024)),
+};
+for (const [name, file] of Object.entries(wrong)) {
+  test(`a log with ${name} is refused in a sentence`, async () => {
+    await assert.rejects(readLog(file, ""), /^Error: the /);
+  });
+}
+
+const EPISODE: Episode = { title: "beamfall, played here", game: "beamfall", settings: { seed: "7" }, acts: ["1", "1", "0/3", "0", "0"] };
+
+test("a link leads to a frame of an episode", async () => {
+  const link = await linkTo(EPISODE, 321);
+  assert.match(link, /^replay=[\w-]+&frame=321$/);
+  assert.deepEqual(await readLink(`#${link}`), { episode: EPISODE, frame: 321 });
+  assert.equal(await readLink("#replay"), undefined);
+  assert.equal(await readLink("#play"), undefined);
+});
+
+test("a damaged link is refused", async () => {
+  const link = await linkTo(EPISODE, 0);
+  await assert.rejects(readLink(`#${link.slice(0, 30)}&frame=0`), /damaged/);
+  for (const acts of [["1*9999999"], ["quit"], ["1\nquit"], "1 2", [null], ["1*0999999", "1*0999999"]]) {
+    await assert.rejects(readLink(`#${await linkTo({ ...EPISODE, acts: acts as string[] }, 0)}`), /damaged/, String(acts));
+  }
+});
