@@ -1,6 +1,8 @@
 // An agent of the benchmark: it sees a machine after each decision, and chooses the next action.
 #pragma once
 
+#include <cstdint>
+
 #include "agents/base/state_bytes.hpp"
 #include "environment/environment.hpp"
 
@@ -27,6 +29,9 @@ class Agent {
 
   // Whether the values that the agent learns are no longer finite.
   virtual bool diverged() const { return false; }
+
+  // Frames that the agent has tried on a machine of its own, in searches.
+  virtual std::int64_t searched_frames() const { return 0; }
 
   // What an agent carries from one episode to the next. An agent that was made with the same context, and has
   // read this state, goes on as the one that wrote it.

@@ -27,7 +27,7 @@ class HugePages {  // an allocator
   }
   void deallocate(T* memory, std::size_t count) {
     const std::size_t size = rounded(count * sizeof(T));
-    ::operator delete(memory, size, alignment(size));
+    ::operator delete(memory, alignment(size));  // clang 14 has the one with the size only on demand
   }
   bool operator==(const HugePages&) const = default;
 

@@ -44,7 +44,7 @@ class LogReader {
     log.image_md5 = line("image");
     read_origin(log.origin);
     read_end(log.end);
-    if (line("") != "") fail("an empty line");
+    if (!line("").empty()) fail("an empty line");
     read_bytes(log);
     return log;
   }

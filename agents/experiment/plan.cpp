@@ -18,7 +18,7 @@ namespace racebeam {
 namespace {
 
 constexpr std::size_t kMostPlanBytes = std::size_t{1} << 20;
-constexpr int kMostInt = std::numeric_limits<int>::max();
+constexpr int kMostPlanNumber = std::numeric_limits<int>::max();
 constexpr int kMostEpisodes = 1000000;
 constexpr int kMostEpisodeFrames = 1000000;  // a log holds this many decisions
 constexpr int kMostScreens = 10000000;
@@ -51,7 +51,7 @@ struct LengthKey {
 constexpr std::array kLengthKeys = {
     LengthKey{"trials", &TrialLength::trials, 1, kMostEpisodes},
     LengthKey{"training_episodes", &TrialLength::training_episodes, 0, kMostEpisodes},
-    LengthKey{"training_frames", &TrialLength::training_frames, 0, kMostInt},
+    LengthKey{"training_frames", &TrialLength::training_frames, 0, kMostPlanNumber},
     LengthKey{"evaluation_episodes", &TrialLength::evaluation_episodes, 1, kMostEpisodes},
 };
 
@@ -104,7 +104,8 @@ class PlanReader {
     if (top_.node("name"))
       top_.guard(*top_.node("name"), "name",
                  [&] { as_invalid_input([&] { checked_name(plan_.name, "name"); }); });
-    if (top_.node("seed")) plan_.seed = static_cast<std::uint32_t>(whole_within(top_, "seed", 0, kMostInt));
+    if (top_.node("seed"))
+      plan_.seed = static_cast<std::uint32_t>(whole_within(top_, "seed", 0, kMostPlanNumber));
     for (const ScreensKey& key : kScreensKeys)
       if (top_.node(key.name)) plan_.*key.member = whole_within(top_, key.name, 1, kMostScreens);
     plan_.version = top_.text("version").value_or("");

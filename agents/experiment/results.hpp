@@ -24,8 +24,9 @@ constexpr std::array<std::string_view, 8> kCurveColumns = {"unit",    "game",  "
                                                            "episode", "score", "frames", "decisions"};
 
 // The columns of times.csv. They differ from run to run, and are kept apart for that.
-constexpr std::array<std::string_view, 5> kTimeColumns = {"unit", "training_seconds", "training_frames",
-                                                          "evaluation_seconds", "evaluation_frames"};
+constexpr std::array<std::string_view, 6> kTimeColumns = {
+    "unit",           "training_seconds", "training_frames", "evaluation_seconds", "evaluation_frames",
+    "searched_frames"};
 
 template <std::size_t kSize>
 std::string line_of(const std::array<std::string_view, kSize>& columns) {

@@ -30,7 +30,7 @@ evaluation_episodes = 30
     ShippedPlan{"smoke", "our own games, for half a minute", R"(name = "smoke"
 preset = "paper2013"
 games = ["beamfall", "updraft"]
-agents = ["random", "const", "perturb", "basic", "disco", "lsh", "ram", "uct", "iw1"]
+agents = ["random", "const", "perturb", "basic", "disco", "lsh", "ram", "blob_prost", "uct", "iw1"]
 trials = 1
 training_episodes = 10
 evaluation_episodes = 2
@@ -43,6 +43,58 @@ simulations = 10
 [agent.iw1]
 trials = 1
 frames = 500
+)"},
+    ShippedPlan{"baselines", "Random and the 36 Const and Perturb policies in all 55 games",
+                R"(name = "baselines"
+games = "paper"
+agents = ["random", "const", "perturb"]
+evaluation_episodes = 30
+)"},
+    ShippedPlan{"basic", "Basic for 2,000,000 decisions in two games", R"(name = "basic"
+games = ["asterix", "freeway"]
+agents = ["random", "basic"]
+trials = 1
+training_frames = 10000000
+evaluation_episodes = 30
+)"},
+    ShippedPlan{"uct", "UCT with 500 simulations, an episode in each of three games", R"(name = "uct"
+games = ["boxing", "asterix", "seaquest"]
+agents = ["uct"]
+[agent.uct]
+trials = 1
+)"},
+    ShippedPlan{"uct10", "UCT with 10 simulations, two episodes in each of two games", R"(name = "uct10"
+games = ["asterix", "seaquest"]
+agents = ["uct"]
+[agent.uct]
+trials = 2
+simulations = 10
+)"},
+    ShippedPlan{"uct50", "UCT with 50 simulations, two episodes in each of two games", R"(name = "uct50"
+games = ["asterix", "seaquest"]
+agents = ["uct"]
+[agent.uct]
+trials = 2
+simulations = 50
+)"},
+    ShippedPlan{"uct150", "UCT with 150 simulations, two episodes in each of two games", R"(name = "uct150"
+games = ["asterix", "seaquest"]
+agents = ["uct"]
+[agent.uct]
+trials = 2
+simulations = 150
+)"},
+    ShippedPlan{"full_tree", "full-tree search, an episode of Asterix", R"(name = "full_tree"
+games = ["asterix"]
+agents = ["full_tree"]
+[agent.full_tree]
+trials = 1
+)"},
+    ShippedPlan{"iw1", "IW(1), an episode in each of two games", R"(name = "iw1"
+games = ["asterix", "freeway"]
+agents = ["iw1"]
+[agent.iw1]
+trials = 1
 )"},
 };
 

@@ -13,7 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr SealedKind kCheckpoint = {
-    .what = "checkpoint", .magic = "RBCHECKP", .version = 1, .most = std::size_t{8} << 30, .level = 1};
+    .what = "checkpoint", .magic = "RBCHECKP", .version = 2, .most = std::size_t{8} << 30, .level = 1};
 
 AgentContext context_of(const Plan& plan, const Unit& unit, const AgentValues& values,
                         const Cartridge& cartridge, GameFacts* facts, const PlaySettings& play) {
@@ -74,10 +74,11 @@ bool Trial::is_over() const {
 }
 
 void Trial::run_episode() {
-  const std::int64_t start = microseconds();
+  const std::int64_t start = microseconds(), searched = agent_->searched_frames();
   const bool training = !training_is_over();
   training ? train() : evaluate();
   (training ? account_.training_microseconds : account_.evaluation_microseconds) += microseconds() - start;
+  account_.searched_frames += agent_->searched_frames() - searched;
 }
 
 void Trial::train() {
@@ -145,7 +146,8 @@ void Trial::finish() {
   const std::string times = unit_.name + ',' + seconds(account_.training_microseconds) + ',' +
                             std::to_string(account_.training_frames) + ',' +
                             seconds(account_.evaluation_microseconds) + ',' +
-                            std::to_string(account_.frames - account_.training_frames) + '\n';
+                            std::to_string(account_.frames - account_.training_frames) + ',' +
+                            std::to_string(account_.searched_frames) + '\n';
   replace_file(folder_.unit(unit_.name, "times"), times, Durable::kLater);
   replace_file(folder_.unit(unit_.name, "curves"), curves_, Durable::kLater);
   replace_file(folder_.unit(unit_.name, "results"), rows_, Durable::kNow);

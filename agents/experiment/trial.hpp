@@ -37,6 +37,7 @@ class Trial {
     std::int64_t frames = 0;  // of all episodes
     std::int64_t score = 0;   // the sum of evaluation episodes
     std::int64_t training_microseconds = 0, evaluation_microseconds = 0;
+    std::int64_t searched_frames = 0;
   };
 
   bool training_is_over() const;

@@ -19,13 +19,13 @@ LocalityHash::LocalityHash(int vectors, int ones, int buckets, std::uint64_t see
   Random random(seed);
   std::vector<One> all;
   std::vector<std::uint32_t> owner(kFeaturePixels * kBitsOfColour);  // the last vector that has a bit, from 1
-  for (std::uint16_t vector = 0; vector < sums_.size(); ++vector) {
+  for (std::size_t vector = 0; vector < sums_.size(); ++vector) {
     for (int left = ones; left > 0;) {
       const std::size_t bit = random.below(owner.size());
-      if (owner[bit] == vector + 1U) continue;  // the ones of a vector are distinct
-      owner[bit] = vector + 1U;
+      if (owner[bit] == vector + 1) continue;  // the ones of a vector are distinct
+      owner[bit] = static_cast<std::uint32_t>(vector + 1);
       const auto hash = static_cast<std::uint16_t>(random.below(buckets_));
-      all.push_back({static_cast<std::uint32_t>(bit), {vector, hash}});
+      all.push_back({static_cast<std::uint32_t>(bit), {static_cast<std::uint16_t>(vector), hash}});
       --left;
     }
   }

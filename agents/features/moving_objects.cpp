@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kAreaPercent = 120, kDifferentPercent = 10;
 
-bool of_similar_area(const Object& a, const Object& b) {
+bool of_similar_area(const ScreenObject& a, const ScreenObject& b) {
   return std::max(a.area, b.area) * 100 <= std::min(a.area, b.area) * kAreaPercent;
 }
 
@@ -40,7 +40,7 @@ void ObjectList::clear() {
   runs_.clear();
 }
 
-Object& ObjectList::add(const Box& box, int area, ShapeView shape) {
+ScreenObject& ObjectList::add(const Box& box, int area, ShapeView shape) {
   const auto first = static_cast<std::uint32_t>(runs_.size());
   runs_.insert(runs_.end(), shape.begin(), shape.end());
   objects_.push_back({.box = box,
@@ -54,10 +54,10 @@ Object& ObjectList::add(const Box& box, int area, ShapeView shape) {
   return objects_.back();
 }
 
-const Object* ObjectList::nearest(const Object& object, ShapeView shape_of_it) const {
-  const Object* best = nullptr;
+const ScreenObject* ObjectList::nearest(const ScreenObject& object, ShapeView shape_of_it) const {
+  const ScreenObject* best = nullptr;
   std::tuple<bool, int> least;  // whether the shapes differ, and the square of the distance
-  for (const Object& other : objects_) {
+  for (const ScreenObject& other : objects_) {
     const int x = std::abs(other.box.x() - object.box.x()), y = std::abs(other.box.y() - object.box.y());
     if (x > kMostVelocity || y > kMostVelocity || !of_similar_area(object, other)) continue;
     const std::tuple found(other.key != object.key, x * x + y * y);
@@ -83,15 +83,15 @@ void MovingObjects::see(Screen screen) {
   regions_.find(screen);
   for (const Region& region : regions_.all()) {
     const ShapeView shape = regions_.shape(region);
-    Object& object = now_.regions.add(region.box, region.area, shape);
-    if (const Object* const earlier = before_.regions.nearest(object, shape))
+    ScreenObject& object = now_.regions.add(region.box, region.area, shape);
+    if (const ScreenObject* const earlier = before_.regions.nearest(object, shape))
       object.velocity = {object.box.x() - earlier->box.x(), object.box.y() - earlier->box.y()};
   }
   join_neighbours();
 }
 
 void MovingObjects::join_neighbours() {
-  const std::vector<Object>& regions = now_.regions.all();
+  const std::vector<ScreenObject>& regions = now_.regions.all();
   parent_.resize(regions.size());
   std::iota(parent_.begin(), parent_.end(), 0);
   for (const auto& [one, other] : regions_.touching()) {
@@ -117,7 +117,7 @@ std::uint32_t MovingObjects::root(std::uint32_t region) {
 
 // Of the regions parts_[first] and so on.
 void MovingObjects::add_object(std::size_t first, std::size_t count) {
-  const Object& top = part(static_cast<std::uint32_t>(first));
+  const ScreenObject& top = part(static_cast<std::uint32_t>(first));
   Box box = top.box;
   int area = 0;
   for (std::size_t i = first; i < first + count; ++i) {
@@ -126,7 +126,7 @@ void MovingObjects::add_object(std::size_t first, std::size_t count) {
   }
   joined_.clear();
   for (std::size_t i = first; i < first + count; ++i) {
-    const Object& region = now_.regions.all()[parts_[i]];
+    const ScreenObject& region = now_.regions.all()[parts_[i]];
     const int right = region.box.left - box.left, down = region.box.top - box.top;
     for (const PixelRun& run : now_.regions.shape(region))
       joined_.push_back({static_cast<std::uint8_t>(run.row + down),
@@ -134,7 +134,7 @@ void MovingObjects::add_object(std::size_t first, std::size_t count) {
                          static_cast<std::uint8_t>(run.last + right)});
   }
   if (count > 1) put_in_order(joined_);
-  Object& object = now_.objects.add(box, area, joined_);
+  ScreenObject& object = now_.objects.add(box, area, joined_);
   object.velocity = top.velocity;
   if (count == 1) return;
   object.first_part = static_cast<std::uint32_t>(first);

@@ -15,7 +15,7 @@ struct Velocity {
   bool operator==(const Velocity&) const = default;
 };
 
-struct Object {
+struct ScreenObject {
   Box box;
   int area;
   ShapeKey key;
@@ -29,21 +29,21 @@ class ObjectList {
  public:
   void clear();
   // Appends an object of this shape.
-  Object& add(const Box& box, int area, ShapeView shape);
+  ScreenObject& add(const Box& box, int area, ShapeView shape);
 
-  const std::vector<Object>& all() const { return objects_; }
-  Object& operator[](std::size_t place) { return objects_[place]; }
-  ShapeView shape(const Object& object) const {
+  const std::vector<ScreenObject>& all() const { return objects_; }
+  ScreenObject& operator[](std::size_t place) { return objects_[place]; }
+  ShapeView shape(const ScreenObject& object) const {
     return ShapeView(runs_).subspan(object.first_run, object.run_count);
   }
 
   // The nearest object that `object`, of this shape, can have been: at most 8 pixels away in x and in y, of
   // the same shape, or else of an area within a factor of 1.2 with at most 10 % of pixels different. Null:
   // there is none.
-  const Object* nearest(const Object& object, ShapeView shape) const;
+  const ScreenObject* nearest(const ScreenObject& object, ShapeView shape) const;
 
  private:
-  std::vector<Object> objects_;
+  std::vector<ScreenObject> objects_;
   std::vector<PixelRun> runs_;
 };
 
@@ -56,7 +56,7 @@ class MovingObjects {
 
   const ObjectList& objects() const { return now_.objects; }  // regions that are not joined, and joined ones
   const ObjectList& before() const { return before_.objects; }  // those of the screen before
-  const Object& part(std::uint32_t place) const { return now_.regions.all()[parts_[place]]; }
+  const ScreenObject& part(std::uint32_t place) const { return now_.regions.all()[parts_[place]]; }
 
  private:
   struct Seen {

@@ -60,7 +60,7 @@ double distance(ShapeView a, ShapeView b) {
 void ClassDiscovery::add(Screen screen, bool first) {
   if (first) objects_.forget();
   objects_.see(screen);
-  for (const Object& object : objects_.objects().all()) {
+  for (const ScreenObject& object : objects_.objects().all()) {
     const std::uint32_t number = shape_number(object);
     if (number == kNoShape) continue;
     ++shapes_[number].count;
@@ -70,7 +70,7 @@ void ClassDiscovery::add(Screen screen, bool first) {
 }
 
 // The number of the object's shape, which is made if it is new.
-std::uint32_t ClassDiscovery::shape_number(const Object& object) {
+std::uint32_t ClassDiscovery::shape_number(const ScreenObject& object) {
   if (const auto found = number_of_.find(object.key); found != number_of_.end()) return found->second;
   if (shapes_.size() == kMostShapes) return kNoShape;
   const ShapeView shape = objects_.objects().shape(object);
@@ -83,15 +83,15 @@ std::uint32_t ClassDiscovery::shape_number(const Object& object) {
 }
 
 // The class of an object whose shape is new: that of the object that it was, or a class of its own.
-std::uint32_t ClassDiscovery::class_of_new(const Object& object, ShapeView shape) {
-  if (const Object* const earlier = objects_.before().nearest(object, shape))
+std::uint32_t ClassDiscovery::class_of_new(const ScreenObject& object, ShapeView shape) {
+  if (const ScreenObject* const earlier = objects_.before().nearest(object, shape))
     if (const auto found = number_of_.find(earlier->key); found != number_of_.end())
       return shapes_[found->second].class_number;
   classes_.emplace_back();
   return static_cast<std::uint32_t>(classes_.size() - 1);
 }
 
-void ClassDiscovery::count(const Object& object, SeenClass& seen) const {
+void ClassDiscovery::count(const ScreenObject& object, SeenClass& seen) const {
   seen.screens += seen.last_screen != screens_;
   seen.last_screen = screens_;
   seen.left = std::min(seen.left, object.box.x());

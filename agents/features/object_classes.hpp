@@ -41,9 +41,9 @@ class ClassDiscovery {
     int tracked = 0, moved = 0;  // objects that were on the screen before, and those with a velocity
   };
 
-  std::uint32_t shape_number(const Object& object);
-  std::uint32_t class_of_new(const Object& object, ShapeView shape);
-  void count(const Object& object, SeenClass& seen) const;
+  std::uint32_t shape_number(const ScreenObject& object);
+  std::uint32_t class_of_new(const ScreenObject& object, ShapeView shape);
+  void count(const ScreenObject& object, SeenClass& seen) const;
   bool is_kept(const SeenClass& seen) const;
   void most_frequent_first(ShapeNumbers& shapes) const;
   void merge_nearest(std::vector<ShapeNumbers>& classes) const;

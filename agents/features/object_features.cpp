@@ -30,7 +30,7 @@ InstanceFinder::InstanceFinder(const Background& background, const ObjectClasses
 const std::vector<Instance>& InstanceFinder::find(Screen screen) {
   instances_.clear();
   objects_.see(screen);
-  for (const Object& object : objects_.objects().all()) {
+  for (const ScreenObject& object : objects_.objects().all()) {
     if (add(object)) continue;
     for (std::uint32_t part = 0; part < object.part_count; ++part)
       add(objects_.part(object.first_part + part));
@@ -43,7 +43,7 @@ const std::vector<Instance>& InstanceFinder::find(Screen screen) {
 }
 
 // Returns whether the object's shape is of a class.
-bool InstanceFinder::add(const Object& object) {
+bool InstanceFinder::add(const ScreenObject& object) {
   const auto found = class_of_.find(object.key);
   if (found == class_of_.end()) return false;
   instances_.push_back({found->second, object.area, object.box, object.velocity.value_or(Velocity{0, 0})});

@@ -27,7 +27,7 @@ class InstanceFinder {
   const std::vector<Instance>& find(Screen screen);
 
  private:
-  bool add(const Object& object);
+  bool add(const ScreenObject& object);
 
   MovingObjects objects_;
   std::unordered_map<ShapeKey, std::uint32_t> class_of_;  // of shapes and their mirror images

@@ -6,7 +6,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFF;
+constexpr std::uint32_t kNoRegion = 0xFFFFFFFF;
 constexpr std::uint8_t kNoLowestBit = 0xFE;
 
 bool equal_words(const std::uint8_t* a, const std::uint8_t* b) {
@@ -90,7 +90,7 @@ void Regions::gather() {
   place_runs();
   std::erase_if(touching_, [&](auto& pair) {
     pair = {region_of_[pair.first], region_of_[pair.second]};
-    return pair.first == kNone || pair.second == kNone;
+    return pair.first == kNoRegion || pair.second == kNoRegion;
   });
 }
 
@@ -120,8 +120,8 @@ void Regions::leave_out_single_pixels() {
   renamed_.resize(regions_.size());
   Number kept = 0, runs = 0;
   for (Number number = 0; number < regions_.size(); ++number) {
-    renamed_[number] = regions_[number].area == 1 ? kNone : kept;
-    if (renamed_[number] == kNone) continue;
+    renamed_[number] = regions_[number].area == 1 ? kNoRegion : kept;
+    if (renamed_[number] == kNoRegion) continue;
     regions_[kept] = regions_[number];
     regions_[kept++].first_run = runs;
     runs += regions_[number].run_count;
@@ -136,7 +136,7 @@ void Regions::place_runs() {
   next_.clear();
   for (const Region& region : regions_) next_.push_back(region.first_run);
   for (Number run = 0; run < runs_.size(); ++run) {
-    if (region_of_[run] == kNone) continue;
+    if (region_of_[run] == kNoRegion) continue;
     const Box& box = regions_[region_of_[run]].box;
     const auto [row, first, last] = runs_[run];
     shapes_[next_[region_of_[run]]++] = {static_cast<std::uint8_t>(row - box.top),

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <stdexcept>
 
+#include "agents/features/blob_features.hpp"
 #include "agents/features/game_facts.hpp"
 #include "agents/features/locality_hash.hpp"
 #include "agents/features/object_features.hpp"
@@ -81,6 +82,18 @@ constexpr std::array kRamSettings = {alpha(0.2, "appendix C, RAM-based"),
                                      kLeastTrace,
                                      kClearTraces,
                                      kRewardScale};
+constexpr std::string_view kLiang = "Liang et al. 2016";
+constexpr std::array kBlobSettings = {
+    alpha(0.5, kLiang),
+    lambda(0.9, kLiang),
+    AgentSetting{"gamma", 0.99, 0, 1, false, kLiang},
+    AgentSetting{"epsilon", 0.01, 0, 1, false, kLiang},
+    AgentSetting{"evaluation_epsilon", 0.01, 0, 1, false, "docs/paper-notes.md, Evaluation"},
+    kLeastTrace,
+    kClearTraces,
+    kRewardScale,
+    AgentSetting{"blob_distance", 6, 1, 210, true, kLiang},
+    AgentSetting{"most_features", 10e6, 1, 114702400, true, "docs/paper-notes.md, Successors"}};
 
 constexpr AgentSetting frames_of(double value, std::string_view source) {
   return {"frames", value, 1, 1e9, true, source};
@@ -144,8 +157,17 @@ std::unique_ptr<Agent> make_lsh(const AgentContext& context) {
                                                          values.whole("buckets"), context.seed + 1));
 }
 
-std::unique_ptr<Agent> make_ram(const AgentContext& context) {
-  return learner(context, std::make_unique<RamBits>());
+// On features that need nothing but the machine.
+template <typename Features>
+std::unique_ptr<Agent> make_learner(const AgentContext& context) {
+  return learner(context, std::make_unique<Features>());
+}
+
+std::unique_ptr<Agent> make_blob_prost(const AgentContext& context) {
+  const AgentValues& values = context.values;
+  return std::make_unique<Learner>(std::make_unique<BlobFeatures>(values.whole("blob_distance")),
+                                   FeatureGroups(static_cast<std::size_t>(values["most_features"])),
+                                   sarsa_settings(values), context.seed);
 }
 
 std::unique_ptr<Agent> make_random(const AgentContext& context) {
@@ -217,7 +239,7 @@ constexpr std::array kKinds = {
               .role = Role::kLearner,
               .frame_skip = {},
               .settings = kTileSettings,
-              .decisions_per_second = 8000,
+              .decisions_per_second = 9100,
               .megabytes = 20,
               .make = make_basic},
     AgentKind{.name = "bass",
@@ -225,7 +247,7 @@ constexpr std::array kKinds = {
               .role = Role::kLearner,
               .frame_skip = {},
               .settings = kTileSettings,
-              .decisions_per_second = 1000,
+              .decisions_per_second = 5000,
               .megabytes = 140,
               .make = make_bass},
     AgentKind{.name = "disco",
@@ -233,7 +255,7 @@ constexpr std::array kKinds = {
               .role = Role::kLearner,
               .frame_skip = {},
               .settings = kDiscoSettings,
-              .decisions_per_second = 3000,
+              .decisions_per_second = 6500,
               .megabytes = 40,
               .make = make_disco},
     AgentKind{.name = "lsh",
@@ -241,7 +263,7 @@ constexpr std::array kKinds = {
               .role = Role::kLearner,
               .frame_skip = {},
               .settings = kLshSettings,
-              .decisions_per_second = 4000,
+              .decisions_per_second = 3600,
               .megabytes = 40,
               .make = make_lsh},
     AgentKind{.name = "ram",
@@ -249,15 +271,23 @@ constexpr std::array kKinds = {
               .role = Role::kLearner,
               .frame_skip = {},
               .settings = kRamSettings,
-              .decisions_per_second = 500,
+              .decisions_per_second = 570,
               .megabytes = 60,
-              .make = make_ram},
+              .make = make_learner<RamBits>},
+    AgentKind{.name = "blob_prost",
+              .summary = "Blob-PROST: SARSA on blobs, and their offsets in space and time",
+              .role = Role::kLearner,
+              .frame_skip = {},
+              .settings = kBlobSettings,
+              .decisions_per_second = 2600,
+              .megabytes = 110,  // after 20,000 decisions; it grows with the features that were seen
+              .make = make_blob_prost},
     AgentKind{.name = "full_tree",
               .summary = "breadth-first search of the tree of all actions",
               .role = Role::kPlanner,
               .frame_skip = {},
               .settings = kFullTreeSettings,
-              .decisions_per_second = 1,
+              .decisions_per_second = 0.7,
               .megabytes = 130,
               .make = make_full_tree},
     AgentKind{.name = "uct",
@@ -265,7 +295,7 @@ constexpr std::array kKinds = {
               .role = Role::kPlanner,
               .frame_skip = {},
               .settings = kUctSettings,
-              .decisions_per_second = 1,
+              .decisions_per_second = 1,  // an estimate: whole episodes were not measured
               .megabytes = 10,
               .make = make_uct},
     AgentKind{.name = "iw1",
@@ -273,7 +303,7 @@ constexpr std::array kKinds = {
               .role = Role::kPlanner,
               .frame_skip = {},
               .settings = kWidthSettings,
-              .decisions_per_second = 1,
+              .decisions_per_second = 1,  // an estimate: whole episodes were not measured
               .megabytes = 130,
               .make = make_iw1},
 };

@@ -66,7 +66,7 @@ struct AgentKind {
   bool each_action = false;       // there is one of this kind for each of the 18 actions
   std::optional<int> frame_skip;  // frames of a decision; none: the plan's
   std::span<const AgentSetting> settings;
-  double decisions_per_second;  // measured on one core; for estimates
+  double decisions_per_second;  // of processor time, measured: the mean of the five training games
   double megabytes;             // of memory, measured
   std::unique_ptr<Agent> (*make)(const AgentContext& context);
 };

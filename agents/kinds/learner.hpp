@@ -1,7 +1,8 @@
-// An agent that learns by SARSA(lambda) on a set of features.
+// An agent that learns by SARSA(lambda) on a set of features, or on groups of them that share weights.
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "agents/base/agent.hpp"
 #include "agents/features/feature_set.hpp"
@@ -13,27 +14,44 @@ class Learner final : public Agent {
  public:
   Learner(std::unique_ptr<FeatureSet> features, const SarsaSettings& settings, std::uint64_t seed)
       : features_(std::move(features)), sarsa_(settings, features_->size(), seed) {}
+  Learner(std::unique_ptr<FeatureSet> features, FeatureGroups groups, const SarsaSettings& settings,
+          std::uint64_t seed)
+      : features_(std::move(features)), groups_(std::move(groups)), sarsa_(settings, 0, seed) {}
 
   Drawing drawing() const override { return features_->reads_screen() ? Drawing::kLast : Drawing::kNone; }
 
   int begin(const Environment& environment) override {
     features_->begin_episode();
-    features_->extract(environment, active_);
+    look(environment);
     return sarsa_.begin(active_);
   }
   int next(double reward, const Environment& environment) override {
-    features_->extract(environment, active_);
+    look(environment);
     return sarsa_.next(reward, active_);
   }
   void end(double reward) override { sarsa_.end(reward); }
 
   void set_learning(bool learning) override { sarsa_.set_learning(learning); }
   bool diverged() const override { return sarsa_.diverged(); }
-  void write(StateWriter& out) const override { sarsa_.write(out); }
-  void read(StateReader& in) override { sarsa_.read(in); }
+  void write(StateWriter& out) const override {
+    sarsa_.write(out);
+    if (groups_) groups_->write(out);
+  }
+  void read(StateReader& in) override {
+    sarsa_.read(in);
+    if (groups_) groups_->read(in);
+  }
 
  private:
+  void look(const Environment& environment) {
+    features_->extract(environment, active_);
+    if (!groups_) return;
+    const std::span<const FeatureSplit> splits = groups_->replace(active_);
+    sarsa_.refine(groups_->count(), splits);
+  }
+
   const std::unique_ptr<FeatureSet> features_;
+  std::optional<FeatureGroups> groups_;
   Sarsa sarsa_;
   ActiveFeatures active_;
 };

@@ -21,6 +21,7 @@ class TreePlanner final : public Agent {
   }
   int next(double, const Environment& environment) override { return begin(environment); }
   void end(double) override {}
+  std::int64_t searched_frames() const override { return model_.frames(); }
   void write(StateWriter& out) const override {
     out.put(search_.random());
     out.put(search_.scaler());
@@ -51,6 +52,7 @@ class UctPlanner final : public Agent {
     return action_ = uct_.choose(state);
   }
   void end(double) override { uct_.forget(); }
+  std::int64_t searched_frames() const override { return model_.frames(); }
   void write(StateWriter& out) const override {
     out.put(uct_.random());
     out.put(uct_.scaler());

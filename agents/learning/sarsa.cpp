@@ -18,6 +18,7 @@ constexpr int kFetchAhead = 24;  // features whose weights are on their way from
 Sarsa::Sarsa(const SarsaSettings& settings, std::size_t features, std::uint64_t seed, int actions)
     : settings_(settings),
       actions_(static_cast<std::size_t>(actions)),
+      grows_(features == 0),
       weights_(features * actions_),
       scaled_(settings.reward_scale),
       random_(seed) {}
@@ -154,11 +155,33 @@ void Sarsa::move_weights(float step) {
     const auto behind = static_cast<std::uint32_t>(settings_.clear_other_traces ? actions_ : 1) - before;
     while (old != traces_.cend() && old->place < at - before) move_old();
     if (old != traces_.cend() && old->place < at + behind) ++old;  // is replaced
-    move({at, features_.count(i)});
+    move({at, features_.trace(i)});
   }
   while (old != traces_.cend()) move_old();
   merged_.resize(static_cast<std::size_t>(out - merged_.data()));
   std::swap(traces_, merged_);
+}
+
+void Sarsa::refine(std::size_t groups, std::span<const FeatureSplit> splits) {
+  if (groups * actions_ > weights_.size()) weights_.resize(groups * actions_);
+  for (const FeatureSplit& each : splits) split(each);
+}
+
+// The new group comes behind all others, in the traces and among the features that were active.
+void Sarsa::split(const FeatureSplit& part) {
+  std::copy_n(weights_.data() + place(part.from, 0), actions_, weights_.data() + place(part.to, 0));
+  auto trace = static_cast<std::size_t>(
+      std::ranges::lower_bound(traces_, place(part.from, 0), {}, &Trace::place) - traces_.begin());
+  for (; trace < traces_.size() && traces_[trace].place < place(part.from + 1, 0); ++trace) {
+    const auto [at, size] = traces_[trace];
+    traces_.push_back({static_cast<std::uint32_t>(at - place(part.from, 0) + place(part.to, 0)), size});
+  }
+  const auto active = std::ranges::lower_bound(features_.indices, part.from);
+  if (active == features_.indices.end() || *active != part.from) return;
+  features_.counts[static_cast<std::size_t>(active - features_.indices.begin())] -=
+      static_cast<float>(part.features);
+  features_.indices.push_back(part.to);
+  features_.counts.push_back(static_cast<float>(part.features));
 }
 
 // Traces are empty between episodes.
@@ -175,7 +198,8 @@ void Sarsa::read(StateReader& in) {
   in.get(most_active_);
   in.get(scaled_);
   in.get(random_);
-  if (weights_.size() != size) throw InvalidInput("the checkpoint is of another number of features");
+  if (weights_.size() != size && !grows_)
+    throw InvalidInput("the checkpoint is of another number of features");
 }
 
 }  // namespace racebeam

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "agents/base/huge_pages.hpp"
@@ -12,6 +13,7 @@
 #include "agents/base/reward_scale.hpp"
 #include "agents/base/state_bytes.hpp"
 #include "agents/features/feature_set.hpp"
+#include "agents/learning/feature_groups.hpp"
 #include "games/game/actions.hpp"
 
 namespace racebeam {
@@ -30,7 +32,7 @@ struct SarsaSettings {
 
 class Sarsa {
  public:
-  // features: the number of indices. actions: at most 18.
+  // features: the number of indices; 0: none are known yet, and refine() adds them. actions: at most 18.
   Sarsa(const SarsaSettings& settings, std::size_t features, std::uint64_t seed, int actions = kActions);
 
   // The first action of an episode, in a state with these features.
@@ -39,6 +41,10 @@ class Sarsa {
   int next(double reward, const ActiveFeatures& features);
   // The reward of the last action. The value of what follows is 0.
   void end(double reward);
+
+  // There are so many groups of features now. Each that was split off has the weights and the traces of the
+  // one that it was a part of. Must precede the first use of a new group.
+  void refine(std::size_t groups, std::span<const FeatureSplit> splits);
 
   void set_learning(bool learning) { learning_ = learning; }
   bool diverged() const { return diverged_; }
@@ -67,9 +73,11 @@ class Sarsa {
   int choose();
   void update(double error);
   void move_weights(float step);
+  void split(const FeatureSplit& part);
 
   SarsaSettings settings_;
   std::size_t actions_;
+  bool grows_;                 // refine() adds features
   HugeTable<float> weights_;   // of all actions of feature 0, then of feature 1, ...
   std::vector<Trace> traces_;  // by ascending place; without other traces, at most one a feature
   std::vector<Trace> merged_;  // room for the next

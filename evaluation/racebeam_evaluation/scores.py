@@ -14,7 +14,7 @@ from .results import DIVERGED, Results
 BASELINES = 37                                   # Random, and one Const and one Perturb policy for each of 18 actions
 BASELINE_VIEWS = ("random", "const", "perturb")  # const and perturb: the best of 18 in each game
 _BASELINE = re.compile("random|(const|perturb)[-_].+")  # such as const_noop
-_LEARNERS = ("basic", "bass", "disco", "lsh", "ram")
+_LEARNERS = ("basic", "bass", "disco", "lsh", "ram", "blob_prost")
 _PLANNERS = ("full_tree", "uct", "iw1")
 
 

@@ -72,7 +72,7 @@ TEST_CASE("Neighbours that move alike are one object, and others are not") {
   CHECK(seen.objects().all().size() == 3);  // a body and two legs, of which nothing is known yet
   seen.see(screen(41, 41));
   REQUIRE(seen.objects().all().size() == 1);
-  const Object& walker = seen.objects().all()[0];
+  const ScreenObject& walker = seen.objects().all()[0];
   const ShapeView shape = seen.objects().shape(walker);
   CHECK(Shape(shape.begin(), shape.end()) == shape_of({" ## ", "####", "#  #", "#  #"}));
   CHECK((walker.area == 10 && walker.velocity == Velocity{1, 0} && walker.part_count == 3));

@@ -1,0 +1,91 @@
+"""scripts/measure/paper_results.py: what is in docs/results.md follows from the folders of results."""
+
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import paper_results
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
+import layout  # noqa: E402
+
+
+def write(path, lines):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("".join(line + "\n" for line in lines))
+
+
+def results(folder, agents, scores, seconds="2.0", frames="1000"):
+    """Results of agents in Asterix: `scores` has a list of episodes for each trial of each agent."""
+    write(folder / "plan.toml", ['games = ["asterix"]', f"agents = {json.dumps(agents)}"] + [
+        line for agent in agents for line in (f"[agent.{agent}]", "frame_skip = 5", "trials = 1", "training_frames = 500",
+                                              "evaluation_episodes = 2")])
+    rows, times = [], []
+    for agent, trials in scores.items():
+        for trial, episodes in enumerate(trials, 1):
+            unit = f"asterix-{agent}-{trial}"
+            for episode, score in enumerate(episodes, 1):
+                rows.append(f"{unit},asterix,{agent},{trial},{episode},{score},1000,200,terminated")
+                write(folder / "logs" / unit / f"{episode}.episode", ["log"])
+            times.append(f"{unit},0.5,500,{seconds},{frames},30000")
+    write(folder / "results.csv", ["unit,game,agent,trial,episode,score,frames,decisions,end", *rows])
+    write(folder / "times.csv", ["unit,training_seconds,training_frames,evaluation_seconds,evaluation_frames,searched_frames", *times])
+
+
+class PaperResults(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.folder = pathlib.Path(place.name)
+
+    def text(self):
+        return paper_results.Document(self.folder).text()
+
+    def test_plans_without_whole_results_are_said_to_be_not_run(self):
+        results(self.folder / "uct", ["uct"], {"uct": [[5]]})
+        (self.folder / "uct/work").mkdir()
+        text = self.text()
+        for plan in paper_results.PLANS:
+            self.assertIn(f"| `{plan}` | not run yet |", text)
+        self.assertIn("Not run yet: `racebeam experiment uct`.", text)
+
+    def test_baselines_stand_beside_the_paper(self):
+        results(self.folder / "baselines", ["random", "const", "perturb"],
+                {"random": [[100, 400]], "const_noop": [[10]], "const_up": [[70, 72]], "perturb_up": [[33]]})
+        text = self.text()
+        self.assertIn("| asterix | 250.0 | 288.1 | 71.0 | up | 650.0 | 33.0 | up | 337.8 |", text)
+        self.assertIn("In 1 of 1 games, the score of Random is within a fifth", " ".join(text.split()))
+        self.assertIn("| `baselines` | random | largest | 4 | at most 12,288 |", text)
+
+    def test_learners_have_scores_and_speeds(self):
+        results(self.folder / "hour", ["random", "basic"], {"random": [[10]], "basic": [[20, 40], [60]]})
+        text = self.text()
+        self.assertIn("| asterix | 10.0 (288.1) | 45.0 (862.3) |", text)
+        self.assertIn("| basic | 1 | 120 | 120 | 120 | 8,000 |", text)  # 1,500 frames of 5 in 2.5 s
+
+    def test_searches_have_times_and_their_part_of_the_bench(self):
+        for name in ("uct", "uct10", "uct50", "uct150"):
+            results(self.folder / name, ["uct"], {"uct": [[500]]})
+        write(self.folder / "bench/asterix-search.json", ['{"frames_per_second": 20000}'])
+        text = self.text()
+        self.assertIn("| uct | asterix | 500.0 | 290,700.0 | 100,000 | 200 | 0.01 | 15,000 | 0.75 |", text)
+        self.assertIn("| asterix | 500.0 (1) | 500.0 (1) | 500.0 (1) | 500.0 (1) |", text)
+
+    def test_verification_is_quoted(self):
+        results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
+        write(self.folder / "iw1.verify", ["1 rows confirmed, 0 wrong, 0 could not be checked; 1000 frames in 9.0 s",
+                                           "processor seconds: 0.05"])
+        write(self.folder / "iw1.ale", ["1 rows agree with ALE, 0 do not, 0 have no image"])
+        self.assertIn("| `iw1` | 1 | 0 | 0 | 20,000 | 2.0% | 1 | 0 |", self.text())
+
+    def test_the_document_is_laid_out_as_all_are(self):
+        write(self.folder / "machine.txt", ["processor: one", "cores: 2"])
+        text = self.text()
+        self.assertEqual([*layout.width_faults(text), *layout.table_faults(text)], [])
+        self.assertIn("| processor | one |", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
