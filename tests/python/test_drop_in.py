@@ -30,8 +30,8 @@ import racebeam.ale_py._ale_py
 
 ale_py.ALEInterface.setLoggerMode(ale_py.LoggerMode.Error)
 
-# What is below the vector environment (difference 15).
-NOT_YET = {"ALEVectorInterface", "AutoresetMode", "VectorXLAReset", "VectorXLAResetGPU", "VectorXLAStep", "VectorXLAStepGPU"}
+# What is below ALEVectorInterface (difference 15).
+INTERNAL = {"AutoresetMode", "VectorXLAReset", "VectorXLAResetGPU", "VectorXLAStep", "VectorXLAStepGPU"}
 PONG = None if "pong" not in package.roms() else racebeam.find_image("pong")
 
 
@@ -51,11 +51,16 @@ def in_process(script, **environment):
     return subprocess.run([sys.executable, "-c", script], env={**os.environ, **environment}, capture_output=True, text=True)
 
 
+def interfaces(count, **settings):
+    """The vector interface of either package."""
+    return [module.ALEVectorInterface(PONG, count, **settings) for module in (drop_in, ale_py)]
+
+
 class Names(unittest.TestCase):
     def test_every_public_name_is_there(self):
         for ours, theirs in ((drop_in, ale_py), (drop_in._ale_py if hasattr(drop_in, "_ale_py") else __import__(
                 "racebeam.ale_py._ale_py", fromlist=["x"]), _ale_py)):
-            names = {name for name in dir(theirs) if not name.startswith("_")} - NOT_YET
+            names = {name for name in dir(theirs) if not name.startswith("_")} - INTERNAL
             names -= {"importlib", "metadata", "os", "platform", "warnings", "packagedir", "env", "registration", "roms", "vector_env"}
             self.assertEqual({name for name in names if not hasattr(ours, name)}, set())
         for module in ("env", "registration", "roms", "vector_env"):
@@ -64,16 +69,21 @@ class Names(unittest.TestCase):
             own = {name for name, value in vars(theirs).items() if getattr(value, "__module__", "").startswith("ale_py.")
                    and not name.startswith("_")}
             self.assertEqual({name for name in own if not hasattr(ours, name)}, set(), module)
-        self.assertEqual(set(ale_py.__all__) - NOT_YET, set(drop_in.__all__) - NOT_YET)
+        self.assertEqual(set(ale_py.__all__) - INTERNAL, set(drop_in.__all__) - INTERNAL)
 
     def test_every_method_is_there(self):
-        for name in ("ALEInterface", "ALEState", "AtariEnv"):
+        for name in ("ALEInterface", "ALEState", "ALEVectorInterface", "AtariEnv", "AtariVectorEnv"):
             theirs, ours = getattr(ale_py, name), getattr(drop_in, name)
             self.assertEqual({method for method in dir(theirs) if not hasattr(ours, method)} - {"__slotnames__"}, set(), name)
 
     def test_the_arguments_of_AtariEnv_are_in_the_same_order(self):
         theirs = list(inspect.signature(ale_py.AtariEnv).parameters)
         self.assertEqual(list(inspect.signature(drop_in.AtariEnv).parameters)[:len(theirs)], theirs)
+
+    def test_the_arguments_of_ALEVectorInterface_are_the_same(self):
+        theirs = re.findall(r"(\w+): [^=,]*(?: = ([^,)]*))?[,)]", ale_py.ALEVectorInterface.__init__.__doc__)
+        ours = inspect.signature(drop_in.ALEVectorInterface).parameters.values()
+        self.assertEqual([(one.name, "" if one.default is one.empty else repr(one.default)) for one in ours], theirs)
 
     def test_actions_are_the_same_enumeration(self):
         self.assertEqual({name: action.value for name, action in drop_in.Action.__members__.items()},
@@ -229,6 +239,58 @@ class Interface(unittest.TestCase):
 
 
 @unittest.skipIf(PONG is None, "there is no image of pong")
+@unittest.skipIf(PONG is None, "there is no image of pong")
+class Vectors(unittest.TestCase):
+    def check(self, one, other):
+        if isinstance(other, dict):
+            self.assertEqual(set(one), set(other))
+            one, other = [one[key] for key in other], list(other.values())
+        if isinstance(other, (tuple, list)):
+            self.assertEqual(len(one), len(other))
+            return [self.check(*pair) for pair in zip(one, other)]
+        self.assertEqual((one.dtype, one.shape), (other.dtype, other.shape))
+        return self.assertTrue(np.array_equal(one, other))
+
+    def check_step(self, one, other):
+        """Where no episode ended, ale_py's final_obs is not defined."""
+        done = other[2] | other[3]
+        for *_, info in (one, other):
+            if "final_obs" in info:
+                info["final_obs"] = info["final_obs"][done]
+        self.check(one, other)
+
+    def test_all_calls_have_the_same_outcome(self):
+        for settings in ({}, {"autoreset_mode": "SameStep", "max_episode_steps": 20}, {"grayscale": False, "stack_num": 2}, {"full_action_space": True}):
+            with self.subTest(**settings):
+                ours, theirs = both = interfaces(3, **settings)
+                self.assertEqual([action.name for action in ours.get_action_set()], [action.name for action in theirs.get_action_set()])
+                self.assertEqual((ours.get_num_envs(), ours.get_observation_shape()), (3, theirs.get_observation_shape()))
+                self.assertEqual((ours.handle().dtype, ours.handle().shape), (theirs.handle().dtype, theirs.handle().shape))
+                for ids, seeds in (([0, 1, 2], [5, 6, 7]), ([1], [9]), ([2, 0], [-1, -1]) if not settings else ([0], [3])):
+                    self.check(*(each.reset(ids, seeds) for each in both))
+                    for step in range(8):
+                        for each in both:
+                            each.send([step % 3, 1, 2], [1.0, 0.5, 0.0])
+                        self.check_step(*(each.recv() for each in both))
+
+    def test_bad_input_is_refused_as_ale_py_does(self):
+        ours, theirs = both = interfaces(3)
+        for each in both:
+            each.reset([0, 1, 2], [1, 2, 3])
+        for call, error in ((lambda each: each.reset([0, 1], [3]), ValueError), (lambda each: each.send([0], [1.0]), ValueError),
+                            (lambda each: each.reset([7], [3]), IndexError), (lambda each: each.send([0, 1, 2], [1.0]), ValueError),
+                            (lambda each: type(each)(PONG, 2, autoreset_mode="x"), Exception)):
+            for each in both:
+                self.assertRaises(error, call, each)
+
+    def test_the_environments_of_AtariVectorEnv(self):
+        ours, theirs = both = [module.AtariVectorEnv("pong", 2) for module in (drop_in, ale_py)]
+        for envs in both:
+            envs.reset(seed=1)
+            envs.ale.reset([1], [5])
+        self.check(*(envs.step(np.array([1, 2])) for envs in both))
+
+
 class Differences(unittest.TestCase):
     """A test for each number in the docstring."""
 
@@ -368,10 +430,16 @@ class Differences(unittest.TestCase):
         self.assertRaises(gymnasium.error.ClosedEnvironmentError, both[0].step, np.zeros(2, np.int64))
         both[1].step(np.zeros(2, np.int64))
 
-    def test_15_what_is_not_there_yet(self):
-        for name in NOT_YET:
+    def test_15_ALEVectorInterface_and_xla(self):
+        for name in INTERNAL:
             self.assertFalse(hasattr(drop_in, name) or hasattr(drop_in._ale_py, name), name)
-        self.assertFalse(drop_in.AtariVectorEnv.is_xla_registered)
+        ours, theirs = interfaces(3)
+        self.assertRaises(RuntimeError, theirs.reset, [0], [4])
+        self.assertEqual(len(ours.reset([0], [4])[0]), 3)
+        ours.send([0, 1, 2], [1.0] * 3)
+        self.assertRaises(IndexError, ours.send, [0, 99, 0], [1.0] * 3)
+        ours.recv()
+        self.assertRaises(racebeam.InvalidInput, drop_in.ALEVectorInterface, __file__, 2)
 
     def test_16_a_strength_is_finite(self):
         for radius in (np.nan, np.inf, -np.inf):

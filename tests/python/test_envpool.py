@@ -177,5 +177,83 @@ class Others(unittest.TestCase):
             envs.step(np.zeros(3, int))
 
 
+class Found(unittest.TestCase):
+    """By fuzz.py."""
+
+    def test_counts_that_are_none(self):
+        for config in ({"num_envs": np.ones(210, np.uint8)}, {"num_envs": 0}, {"max_episode_steps": "2"}, {"frame_skip": [4]}):
+            with self.subTest(**config), self.assertRaises(gymnasium.error.Error):
+                make(**config)
+
+    def test_pictures_of_no_environment(self):
+        envs = make()
+        envs.reset()
+        self.assertRaises(InvalidInput, envs.render, np.zeros(0, np.int32))
+        self.assertRaises(IndexError, envs.render, [99])
+
+    def test_an_action_without_its_part(self):
+        envs = make()
+        envs.reset()
+        with self.assertRaisesRegex(InvalidInput, "one must be 'action'"):
+            envs.step({"env_id": np.arange(3, dtype=np.int32)})
+
+
+class Spec(unittest.TestCase):
+    """What make_spec() of EnvPool 1.2.5 shows of Pong-v5, but for the number of actions."""
+
+    def test_spaces_and_settings(self):
+        for config, shape, actions in (({"num_envs": 4}, (4, 84, 84), 18), ({"gray_scale": False, "img_width": 50}, (12, 84, 50), 18)):
+            spec = envpool.make_spec("Beamfall-v5", **config)
+            self.assertEqual((spec.observation_space.shape, spec.gymnasium_observation_space.dtype), (shape, np.uint8))
+            self.assertEqual((spec.action_space.n, spec.gymnasium_action_space.n, spec.reward_threshold), (actions, actions, None))
+            self.assertEqual((spec.config.num_envs, spec.config.batch_size), (config.get("num_envs", 1),) * 2)
+            self.assertEqual((spec.config.seed, spec.config.max_episode_steps, spec.config.task), (42, 27000, "Beamfall-v5"))
+            self.assertTrue(repr(spec).startswith(f"AtariEnvSpec(num_envs={spec.config.num_envs}, "))
+            envs = make(**config)
+            self.assertEqual((envs.observation_space, envs.action_space), (spec.observation_space, spec.action_space))
+            self.assertIn("Beamfall-v5", str(envs))  # Gymnasium takes it from the spec
+            self.assertEqual(envs.spec.config._replace(num_envs=1, batch_size=1), spec.config._replace(num_envs=1, batch_size=1))
+
+    def test_arrays(self):
+        spec = envpool.make_spec("Beamfall-v5")
+        self.assertEqual({name: (array.shape, np.dtype(array.dtype).name, array.minimum, array.maximum) for name, array in spec.state_array_spec.items()}, {
+            "info:env_id": ([], "int32", -2**31, 2**31 - 1), "info:players.env_id": ([-1], "int32", -2**31, 2**31 - 1),
+            "elapsed_step": ([], "int32", -2**31, 2**31 - 1), "done": ([], "bool", False, True),
+            "reward": ([-1], "float32", np.finfo(np.float32).min, np.finfo(np.float32).max), "discount": ([-1], "float32", 0, 1),
+            "step_type": ([], "int32", -2**31, 2**31 - 1), "trunc": ([], "bool", False, True), "obs": ([4, 84, 84], "uint8", 0, 255),
+            "info:lives": ([-1], "int32", -2**31, 2**31 - 1),
+            "info:reward": ([-1], "float32", np.finfo(np.float32).min, np.finfo(np.float32).max),
+            "info:terminated": ([-1], "int32", 0, 1), "info:ram": ([128], "uint8", 0, 255)})
+        self.assertEqual(spec.action_array_spec["action"], (np.int32, [-1], 0, 17))
+
+    def test_what_is_made_fits(self):
+        envs = make("dm")
+        shown = envs.reset()
+        names = {name.removeprefix("info:"): array for name, array in envs.spec.state_array_spec.items()}
+        for name, array in names.items():
+            value = {"players.env_id": shown.observation.players.env_id, "step_type": shown.step_type, "discount": shown.discount}.get(
+                name, getattr(shown.observation, name, None))
+            if value is not None:
+                self.assertEqual((value.dtype, value.shape[1:]), (array.dtype, tuple(length for length in array.shape if length != -1)), name)
+
+    @unittest.skipUnless(package._is_there("dm_env"), "there is no dm_env")
+    def test_specs_of_dm_env(self):
+        from dm_env import specs
+
+        envs = make("dm")
+        self.assertEqual(envs.action_spec(), specs.DiscreteArray(18, np.int32, "action"))
+        seen = envs.observation_spec()
+        shown = envs.reset().observation
+        for name in ("obs", "lives", "reward", "terminated", "ram"):
+            getattr(seen, name).validate(getattr(shown, name)[0])
+        seen.players.env_id.validate(shown.players.env_id[0])
+        self.assertIsInstance(seen.terminated, specs.DiscreteArray)
+
+    def test_bad_input_is_refused(self):
+        self.assertRaises(racebeam.UnknownGame, envpool.make_spec, "Nope-v5")
+        self.assertRaises(InvalidInput, envpool.make_spec, "Beamfall-v5", foo=1)
+        self.assertRaises(InvalidInput, envpool.make_spec, "Beamfall-v5", max_num_players=2)
+
+
 if __name__ == "__main__":
     package.main()

@@ -104,7 +104,7 @@ class Readme(unittest.TestCase):
             text = (package.SOURCE / document).read_text()
             for number, example in enumerate(re.findall(r"(?ms)^```python\n(.*?)^```", text)):
                 with self.subTest(document=document, example=number):
-                    needs = {module for module in ("gymnasium", "ale_py", "stable_baselines3") if re.search(rf"\b(import|from) {module}\b", example)}
+                    needs = {module for module in ("gymnasium", "ale_py", "stable_baselines3", "jax") if re.search(rf"\b(import|from) {module}\b", example)}
                     needs |= {"gymnasium"} if re.search(r"Atari\w*Env", example) else set()
                     if not all(map(has, needs)) or ("Pong" in example and "pong" not in package.roms()):
                         continue

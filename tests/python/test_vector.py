@@ -19,7 +19,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.wrappers.vector import DictInfoToList, RecordEpisodeStatistics
 
 import racebeam
-from racebeam import AtariVectorEnv, InvalidInput
+from racebeam import AtariVectorEnv, InvalidInput, ale_py
 
 SHORT = {"max_num_frames_per_episode": 12, "noop_max": 0}  # three steps an episode
 
@@ -406,6 +406,23 @@ class Threads(unittest.TestCase):
         for _ in range(50):
             play(envs, 10)  # 110 MB of observations in all
         self.assertLess(resident() - before, 20 << 20)
+
+
+class Found(unittest.TestCase):
+    """By fuzz.py."""
+
+    def test_calls_after_close_extras(self):
+        envs = AtariVectorEnv("beamfall", 2)
+        envs.close_extras()
+        for call in (lambda: envs.step([0, 0]), envs.reset, envs.show, envs.recv, lambda: envs.send([0, 0]), lambda: envs.save(0)):
+            self.assertRaises(gymnasium.error.ClosedEnvironmentError, call)
+        envs.close()
+
+    def test_arguments_of_ALEVectorInterface(self):
+        envs = ale_py.ALEVectorInterface("builtin:beamfall", 2)
+        for error, call in ((TypeError, lambda: envs.send([0, 1], "ab")), (InvalidInput, lambda: envs.send([0, 1], [[1], [2, 3]])),
+                            (TypeError, lambda: envs.reset([0, 1], ["x", None])), (TypeError, lambda: envs.reset(np.ones((2, 2)), [1, 2]))):
+            self.assertRaises(error, call)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@
 #include "clients/python/core/arrays.hpp"
 #include "clients/python/core/bindings.hpp"
 #include "clients/python/core/image_argument.hpp"
+#include "clients/python/core/vector_acts.hpp"
 #include "clients/python/core/vector_machines.hpp"
 #include "system/invalid_input.hpp"
 
@@ -88,51 +89,45 @@ void fill(VectorMachines& self, const Results& results, const Ask& ask) {
   ask(batch, arrays_of(batch, batch.size(), results));
 }
 
-// All machines have as many actions as the first.
-std::vector<int> indices_of(Batch& batch, const Given<std::int64_t>& actions) {
-  const auto end = static_cast<std::int64_t>(batch.actions(0).size());
-  std::vector<int> indices;
-  indices.reserve(actions.size());
-  for (const std::int64_t action : span_of(actions)) {
-    if (action < 0 || action >= end)
-      throw std::out_of_range("action " + std::to_string(action) + " is out of range; there are 0 to " +
-                              std::to_string(end - 1));
-    indices.push_back(static_cast<int>(action));
-  }
-  return indices;
-}
-
-std::vector<Act> acts_of(const Joysticks& joysticks, float threshold) {
-  std::vector<Act> acts;
-  acts.reserve(joysticks.shape(0));
-  for (std::size_t i = 0; i < joysticks.shape(0); ++i)
-    acts.push_back(act_of(joysticks(i, 0), joysticks(i, 1), joysticks(i, 2), threshold));
-  return acts;
-}
-
 void step(VectorMachines& self, const Given<std::int64_t>& actions, const Results& results) {
   fill(self, results, [&](Batch& batch, const BatchArrays& out) {
-    batch.step(std::span<const int>(indices_of(batch, actions)), out);
+    batch.step(std::span<const int>(indices_of(batch, span_of(actions))), out);
   });
 }
 
 void step_joysticks(VectorMachines& self, const Joysticks& joysticks, float threshold,
                     const Results& results) {
   fill(self, results, [&](Batch& batch, const BatchArrays& out) {
-    batch.step(std::span<const Act>(acts_of(joysticks, threshold)), out);
+    batch.step(std::span<const Act>(acts_of({joysticks.data(), joysticks.size()}, threshold)), out);
   });
 }
 
 void send(VectorMachines& self, const Given<std::int64_t>& actions, const Given<std::int32_t>& machines) {
   const Turn turn(self.lock());
   Batch& batch = self.batch();
-  batch.send(std::span<const int>(indices_of(batch, actions)), span_of(machines));
+  batch.send(std::span<const int>(indices_of(batch, span_of(actions))), span_of(machines));
 }
 
 void send_joysticks(VectorMachines& self, const Joysticks& joysticks, float threshold,
                     const Given<std::int32_t>& machines) {
   const Turn turn(self.lock());
-  self.batch().send(std::span<const Act>(acts_of(joysticks, threshold)), span_of(machines));
+  self.batch().send(std::span<const Act>(acts_of({joysticks.data(), joysticks.size()}, threshold)),
+                    span_of(machines));
+}
+
+// `strengths`: of each machine's paddle.
+void send_strengths(VectorMachines& self, const Given<std::int64_t>& actions, const Given<float>& strengths,
+                    const Given<std::int32_t>& machines) {
+  const Turn turn(self.lock());
+  Batch& batch = self.batch();
+  const std::vector<int> indices = indices_of(batch, span_of(actions));
+  if (strengths.size() != indices.size())
+    throw InvalidInput("there are " + std::to_string(strengths.size()) + " strengths for " +
+                       std::to_string(indices.size()) + " actions");
+  std::vector<Act> acts;
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    acts.push_back({.a = batch.actions(0)[static_cast<std::size_t>(indices[i])], .strength_a = strengths(i)});
+  batch.send(std::span<const Act>(acts), span_of(machines));
 }
 
 void send_resets(VectorMachines& self, const std::optional<Given<std::int64_t>>& seeds) {
@@ -220,6 +215,12 @@ std::vector<std::size_t> numbers_of_actions(VectorMachines& self) {
   return counts;
 }
 
+std::vector<int> actions_of(VectorMachines& self, std::int64_t machine) {
+  const Turn turn(self.lock());
+  slot_of(self.batch(), machine);  // throws
+  return self.batch().actions(static_cast<std::size_t>(machine));
+}
+
 int height(VectorMachines& self) {
   const Turn turn(self.lock());
   return self.batch().height();
@@ -239,6 +240,8 @@ void bind_vector(nb::module_& module) {
       .def("send", send, "actions"_a.noconvert(), "machines"_a.noconvert())
       .def("send_joysticks", send_joysticks, "joysticks"_a.noconvert(), "threshold"_a,
            "machines"_a.noconvert())
+      .def("send_strengths", send_strengths, "actions"_a.noconvert(), "strengths"_a.noconvert(),
+           "machines"_a.noconvert())
       .def("send_resets", send_resets, "seeds"_a.none())
       .def("receive", receive, results)
       .def("reset", reset, "chosen"_a.none(), "seeds"_a.none(), results)
@@ -247,6 +250,7 @@ void bind_vector(nb::module_& module) {
       .def("restore", restore, "machine"_a, "state"_a)
       .def("screen", screen, "machine"_a, "The picture of one machine, height x 160 x 3.")
       .def("numbers_of_actions", numbers_of_actions, "How many actions each machine has.")
+      .def("actions_of", actions_of, "machine"_a, "The numbers of a machine's actions.")
       .def("height", height, "The rows of the tallest machine's screen.");
 }
 

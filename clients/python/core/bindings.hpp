@@ -12,5 +12,6 @@ void bind_state(nanobind::module_& module);            // ALEState
 void bind_interface(nanobind::module_& module);        // ALEInterface
 void bind_vector_settings(nanobind::module_& module);  // VectorSettings
 void bind_vector(nanobind::module_& module);           // VectorMachines
+void bind_xla(nanobind::module_& module);              // its custom calls of XLA
 
 }  // namespace racebeam::python

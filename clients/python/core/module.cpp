@@ -27,4 +27,5 @@ NB_MODULE(_core, m) {
   racebeam::python::bind_interface(m);
   racebeam::python::bind_vector_settings(m);
   racebeam::python::bind_vector(m);
+  racebeam::python::bind_xla(m);
 }

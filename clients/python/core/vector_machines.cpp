@@ -5,11 +5,11 @@
 namespace racebeam::python {
 
 // A child process leaves the memory as it is: threads that are not there cannot be awaited.
-VectorMachines::~VectorMachines() {
+SharedBatch::~SharedBatch() {
   if (is_forked()) static_cast<void>(batch_.release());
 }
 
-Batch& VectorMachines::batch() {
+Batch& SharedBatch::batch() {
   if (is_forked())
     throw std::runtime_error("these environments were made before the process forked; make new ones");
   return *batch_;

@@ -9,15 +9,15 @@
 
 namespace racebeam::python {
 
-class VectorMachines {
+// Calls that XLA makes (bind_xla.cpp) share it with the object of Python, and may outlive that.
+class SharedBatch {
  public:
-  VectorMachines(std::span<const Cartridge> cartridges, const BatchSettings& settings)
-      : settings_(settings), batch_(std::make_unique<Batch>(cartridges, settings)) {}
-  ~VectorMachines();
-  VectorMachines(const VectorMachines&) = delete;
-  VectorMachines& operator=(const VectorMachines&) = delete;
+  SharedBatch(std::span<const Cartridge> cartridges, const BatchSettings& settings)
+      : batch_(std::make_unique<Batch>(cartridges, settings)) {}
+  ~SharedBatch();
+  SharedBatch(const SharedBatch&) = delete;
+  SharedBatch& operator=(const SharedBatch&) = delete;
 
-  const BatchSettings& settings() const { return settings_; }
   Lock& lock() { return lock_; }
 
   // The caller holds lock(). Throws std::runtime_error in a child of the process that made the machines.
@@ -26,10 +26,24 @@ class VectorMachines {
  private:
   bool is_forked() const { return made_in_ != process_generation(); }
 
-  const BatchSettings settings_;
   const unsigned made_in_ = process_generation();
   Lock lock_;
   std::unique_ptr<Batch> batch_;
+};
+
+class VectorMachines {
+ public:
+  VectorMachines(std::span<const Cartridge> cartridges, const BatchSettings& settings)
+      : shared_(std::make_shared<SharedBatch>(cartridges, settings)) {}
+
+  // As those of SharedBatch.
+  Lock& lock() { return shared_->lock(); }
+  Batch& batch() { return shared_->batch(); }
+
+  std::weak_ptr<SharedBatch> shared() const { return shared_; }
+
+ private:
+  std::shared_ptr<SharedBatch> shared_;
 };
 
 }  // namespace racebeam::python

@@ -3,7 +3,7 @@
 What differs from EnvPool 1.2.5: the games are those of ALE 0.12, and not 0.7.5. env_type="gym" has the interface of Gym 0.21,
 as EnvPool 0.6 had it: reset() returns observations, and step() four values; gym_reset_return_info=True undoes that. All
 environments are stepped, or as many as recv() returned; reset() alone takes some. Resizing is by area. An action that is out
-of range is an IndexError. There is no xla().
+of range is an IndexError. There is no xla(); racebeam.AtariVectorEnv has one. A spec's least reward is negative.
 """
 
 from __future__ import annotations
@@ -20,42 +20,18 @@ from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 
 from . import ale_games, images
+from .arguments import whole
+from .envpool_spec import EnvSpec, whole_config
 from .errors import InvalidInput, UnknownGame
+from .interface import ALEInterface
 from .registration import rom_id_to_name
-from .vector_env import AtariVectorEnv, Info
+from .vector_env import MOST_ENVS, AtariVectorEnv, Info
 from .vector_results import Bools, Numbers, Pixels, Results
 
-__all__ = ["DmEnvPool", "GymEnvPool", "GymnasiumEnvPool", "TimeStep", "list_all_envs", "make", "make_dm", "make_gym", "make_gymnasium"]
+__all__ = ["DmEnvPool", "GymEnvPool", "GymnasiumEnvPool", "TimeStep", "list_all_envs", "make", "make_dm", "make_gym", "make_gymnasium",
+           "make_spec"]
 
-CONFIG: dict[str, Any] = {
-    "num_envs": 1,
-    "batch_size": 0,
-    "num_threads": 0,
-    "max_num_players": 1,
-    "thread_affinity_offset": -1,
-    "base_path": "",
-    "seed": 42,
-    "env_seed": [],
-    "gym_reset_return_info": None,
-    "max_episode_steps": 27000,
-    "stack_num": 4,
-    "frame_skip": 4,
-    "noop_max": 30,
-    "zero_discount_on_life_loss": False,
-    "episodic_life": False,
-    "reward_clip": False,
-    "use_fire_reset": True,
-    "img_height": 84,
-    "img_width": 84,
-    "task": "",
-    "mode": -1,
-    "difficulty": -1,
-    "full_action_space": False,
-    "repeat_action_probability": 0.0,
-    "use_inter_area_resize": True,
-    "gray_scale": True,
-}
-FIXED = {"max_num_players": 1, "use_inter_area_resize": True}  # no other value is played
+COUNTS = {"num_envs": MOST_ENVS, "max_episode_steps": 2**31 - 1, "frame_skip": 1000}
 
 
 def _games() -> dict[str, str]:
@@ -68,11 +44,17 @@ def list_all_envs() -> list[str]:
     return list(_games())
 
 
+def _game(task_id: str) -> str:
+    if task_id not in _games():
+        raise UnknownGame(f"there is no task {task_id!r}; list_all_envs() lists them")
+    return _games()[task_id]
+
+
 class _Envs(AtariVectorEnv):
     """Infos have EnvPool's keys."""
 
     def __init__(self, game: str, config: dict[str, Any]) -> None:
-        count = config["num_envs"]
+        count, limit, skip = (whole(name, config[name], 1, most) for name, most in COUNTS.items())
         self._elapsed = np.zeros(count, np.int32)
         self._begins = np.ones(count, np.bool_)  # the next result of an environment begins an episode
         self._is_over = np.ones(count, np.bool_)  # and a game
@@ -83,7 +65,7 @@ class _Envs(AtariVectorEnv):
         super().__init__(
             game, count, batch_size=config["batch_size"], num_threads=config["num_threads"],
             thread_affinity_offset=config["thread_affinity_offset"], stack_num=config["stack_num"],
-            max_num_frames_per_episode=config["max_episode_steps"] * config["frame_skip"], frameskip=config["frame_skip"],
+            max_num_frames_per_episode=min(limit * skip, 2**31 - 1), frameskip=skip,
             noop_max=config["noop_max"], use_fire_reset=config["use_fire_reset"], reward_clipping=config["reward_clip"],
             img_height=config["img_height"], img_width=config["img_width"], grayscale=config["gray_scale"],
             mode=_optional(config["mode"]), difficulty=_optional(config["difficulty"]),
@@ -139,22 +121,15 @@ class _Pool:
     """What all kinds have. Results are a batch of observations, rewards, terminations, truncations and the info."""
 
     def __init__(self, task_id: str, config: dict[str, Any]) -> None:
-        self.config = {**CONFIG, **config, "task": task_id}
-        for name, value in config.items():
-            if name not in CONFIG:
-                raise InvalidInput(f"there is no setting {name!r}; there are {', '.join(CONFIG)}")
-            if name in FIXED and value != FIXED[name]:
-                raise InvalidInput(f"{name} is {value!r}; racebeam has {FIXED[name]!r} alone")
-        if task_id not in _games():
-            raise UnknownGame(f"there is no task {task_id!r}; list_all_envs() lists them")
-        self._envs = _Envs(_games()[task_id], self.config)
+        game, self.config = _game(task_id), whole_config(task_id, config)
+        self._envs = _Envs(game, self.config)
         self.num_envs, self.batch_size = self._envs.num_envs, self._envs.batch_size
         self._seeds: Any = self.config["env_seed"] or self.config["seed"]
         self._is_new = True
         self.action_space = self.single_action_space = self._envs.single_action_space
-        stack, height, width, *colours = self._envs.single_observation_space.shape or ()
-        shape = (stack * 3 if colours else stack, height, width)
-        self.observation_space = self.single_observation_space = spaces.Box(0, 255, shape, np.uint8)
+        actions = self._envs.machines().numbers_of_actions()[0]
+        self.spec: Any = EnvSpec(self.config, actions, _observations(self.config))
+        self.observation_space = self.single_observation_space = self.spec.observation_space
 
     def __len__(self) -> int:
         return self.num_envs
@@ -167,13 +142,24 @@ class _Pool:
     def all_env_ids(self) -> npt.NDArray[np.int32]:
         return np.arange(self.num_envs, dtype=np.int32)
 
+    def observation_spec(self) -> Any:
+        """As dm_env has it."""
+        return self.spec.observation_spec()
+
+    def action_spec(self) -> Any:
+        """As dm_env has it."""
+        return self.spec.action_spec()
+
     def seed(self, seed: Any = None) -> None:
         """Has no effect, as in EnvPool."""
         warnings.warn("seed() has no effect; give seed to make()", stacklevel=2)
 
     def render(self, env_ids: Any = None) -> Pixels:
         pictures = self._envs.render() or ()
-        return np.stack([pictures[env] for env in np.atleast_1d(0 if env_ids is None else env_ids)])
+        chosen = np.atleast_1d(0 if env_ids is None else env_ids)
+        if chosen.size == 0:
+            raise InvalidInput("env_ids is empty; it takes one environment or more")
+        return np.stack([pictures[env] for env in chosen])
 
     def xla(self) -> Any:
         raise NotImplementedError("racebeam.envpool has no xla()")
@@ -234,7 +220,15 @@ class _Pool:
         return (observations[chosen], rewards[chosen].astype(np.float32), (terminated & ~truncated)[chosen], truncated[chosen], told)
 
 
+def _observations(config: dict[str, Any]) -> spaces.Box:
+    """Of one environment. Colours are channels."""
+    channels = config["stack_num"] * (1 if config["gray_scale"] else 3)
+    return spaces.Box(0, 255, (channels, config["img_height"], config["img_width"]), np.uint8)
+
+
 def _check_parts(action: dict[str, Any]) -> None:
+    if "action" not in action:
+        raise InvalidInput(f"the parts of the action are {', '.join(map(str, action))}; one must be 'action'")
     for name, part in action.items():
         if np.asarray(part).dtype != np.int32:
             raise InvalidInput(f"{name} of the action has the type {np.asarray(part).dtype}; it must be int32")
@@ -353,7 +347,16 @@ MAKERS = {"gymnasium": make_gymnasium, "gym": make_gym, "dm": make_dm}
 
 
 def make(task_id: str, env_type: str, **config: Any) -> Any:
-    """Environments of the task, such as "Pong-v5". config: the settings of CONFIG."""
+    """Environments of the task, such as "Pong-v5". config: the settings of envpool_spec.CONFIG."""
     if env_type not in MAKERS:
         raise InvalidInput(f"env_type is {env_type!r}; it takes {', '.join(MAKERS)}")
     return MAKERS[env_type](task_id, **config)
+
+
+def make_spec(task_id: str, **config: Any) -> EnvSpec:
+    """The settings and the spaces of a task. Its image is needed for the number of actions."""
+    whole = whole_config(task_id, config)
+    game = ALEInterface()
+    game.loadROM(images.find(_game(task_id)))
+    actions = game.getLegalActionSet() if whole["full_action_space"] else game.getMinimalActionSet()
+    return EnvSpec(whole, len(actions), _observations(whole))

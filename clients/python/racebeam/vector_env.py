@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, Protocol, Union
 
 import numpy as np
@@ -13,12 +13,13 @@ from gymnasium import error, spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from . import _core, images
+from . import _core, images, xla
 from .arguments import either, whole
 from .errors import InvalidInput
 from .vector_results import Bools, Numbers, Pixels, Results
 from .vector_settings import SEEDS, autoreset_of, settings_of
 from .wire.remote_machines import RemoteMachines
+from .wire.spread_machines import SpreadMachines
 
 __all__ = ["AtariVectorEnv"]
 
@@ -29,12 +30,13 @@ MOST_ENVS = 10**7  # the memory sets a lower limit
 
 
 class Machines(Protocol):
-    """What plays: _core.VectorMachines here, RemoteMachines on a server. `seeds`: -1 for none."""
+    """What plays: _core.VectorMachines here, RemoteMachines on a server, SpreadMachines on several. `seeds`: -1 for none."""
 
     def step(self, actions: npt.NDArray[np.int64], results: Results) -> None: ...
     def step_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, results: Results) -> None: ...
     def send(self, actions: npt.NDArray[np.int64], machines: Numbers) -> None: ...
     def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None: ...
+    def send_strengths(self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers) -> None: ...
     def send_resets(self, seeds: npt.NDArray[np.int64] | None) -> None: ...
     def receive(self, results: Results) -> None: ...
     def reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None: ...
@@ -43,6 +45,7 @@ class Machines(Protocol):
     def restore(self, machine: int, state: _core.SavedMachine) -> None: ...
     def screen(self, machine: int) -> Pixels: ...
     def numbers_of_actions(self) -> list[int]: ...
+    def actions_of(self, machine: int) -> list[int]: ...
     def height(self) -> int: ...
 
 
@@ -72,8 +75,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     rules: "ale-0.12", or "fixed". rom: the image, a path or its bytes; None: the one that racebeam.find_image() finds.
     seed: of the first environment, until a reset has another one; the next has one more; None: at random.
     render_mode: "rgb_array" lets render() return the pictures.
-    server: the environments run there; token: for a server that asks for one. See racebeam.connect(). They are of one game,
-        and all step together. save() and restore() are not there.
+    server: the environments run there; token, timeout: as racebeam.connect() has them. They are of one game,
+        and all step together. save() and restore() are not there. A list spreads the environments over servers. If one is
+        lost, its episodes are truncated, and its environments begin new ones on the others; info["lost"] says where.
 
     Rewards are int32. info has env_id, lives, frame_number, episode_frame_number, raw_reward, the reward before it was
     clipped, and game_over, whatever lives and limits say: an array each. With SAME_STEP, where episodes end, also final_obs,
@@ -84,6 +88,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     with a server, also Refused, ConnectionError and TimeoutError, after which the environments are of no use.
     """
 
+    _xla_infos: tuple[str, ...] = ("env_id", "lives", "frame_number", "episode_frame_number", "raw_reward", "game_over")
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 15}
 
     def __init__(
@@ -122,8 +127,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         rom: Rom | None = None,
         seed: int | None = None,
         render_mode: Literal["rgb_array"] | None = None,
-        server: str | None = None,
+        server: str | Sequence[str] | None = None,
         token: str | None = None,
+        timeout: float | None = None,
     ) -> None:
         arguments = locals()
         names, game_of_env = _games(game, num_envs)
@@ -136,7 +142,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self.grayscale: bool = not settings["rgb"]
         self.continuous, self.continuous_action_threshold = continuous, float(continuous_action_threshold)
         self._shows_ram = obs_type == "ram"
-        self._machines = _machines(names, game_of_env, rom, settings, server, token)
+        self._machines: Any = _machines(names, game_of_env, rom, settings, server, token, timeout)
         self._make_spaces(settings)
         self._received = np.arange(self.num_envs, dtype=np.int32)
         self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
@@ -178,7 +184,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         if self.batch_size == self.num_envs:
             self._machines.reset(mask, seeds, results)
         elif mask is not None:
-            raise InvalidInput("reset_mask is given, which needs batch_size to be num_envs")
+            raise InvalidInput("reset_mask is given with batch_size < num_envs; it needs batch_size to be num_envs")
         else:
             self._machines.send_resets(seeds)
             self._machines.receive(results)
@@ -246,14 +252,14 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         return np.ascontiguousarray(mask)
 
     def _indices(self, actions: Any) -> npt.NDArray[np.int64]:
-        array = _array(actions)
+        array = array_of(actions)
         if array.dtype.kind not in "iu":
             raise TypeError(f"actions have the type {array.dtype}; they must be integers")
         self._check_shape(array, ())
         return np.ascontiguousarray(array, np.int64)
 
     def _joysticks(self, actions: Any) -> npt.NDArray[np.float32]:
-        array = _array(actions)
+        array = array_of(actions)
         if array.dtype.kind not in "fiu":
             raise TypeError(f"actions have the type {array.dtype}; they must be numbers: radius, angle and fire")
         self._check_shape(array, (3,))
@@ -291,6 +297,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         return observations, results.rewards, results.terminated, results.truncated, info
 
     def _info(self, results: Results) -> Info:
+        lost = {"lost": self._machines.lost} if isinstance(self._machines, SpreadMachines) else {}
         return {
             "env_id": results.env_id,
             "lives": results.lives,
@@ -298,6 +305,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             "episode_frame_number": results.episode_frames,
             "raw_reward": results.raw_rewards,
             "game_over": results.game_over,
+            **lost,
         }
 
     def _add_finals(self, info: Info, _: Any, results: Results) -> None:
@@ -320,12 +328,28 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
                               "render_mode='rgb_array'")
         return tuple(self._machines.screen(env) for env in range(self.num_envs))
 
+    def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
+        """For programs that JAX compiles: a handle, reset(handle, seed=None, reset_mask=None) and step(handle, actions).
+
+        Both return the handle for the next call, and a tuple of what they show, as reset() and step() of this class do, in arrays
+        of JAX on the processor. Seeds are int32. Not with SAME_STEP, batch_size or a server. Errors of a compiled program are
+        jax.errors.JaxRuntimeError. Raises ImportError without JAX.
+        """
+        self._check_open()
+        return xla.functions(self, self._xla_infos)
+
+    def machines(self) -> Machines:
+        """What plays; for other modules of this package."""
+        self._check_open()
+        machines: Machines = self._machines
+        return machines
+
     # States and the end
 
     def save(self, env: int, *, include_rng: bool = True) -> _core.SavedMachine:
         """The state of one environment, with its stack of screens; with include_rng, also of sticky actions' generator."""
         self._check_open()
-        return self._machines.save(operator.index(env), include_rng)
+        return self.machines().save(operator.index(env), include_rng)
 
     def restore(self, env: int, state: _core.SavedMachine) -> None:
         """Takes an environment to a state of its game. show() shows it. Raises InvalidInput for another game's."""
@@ -334,13 +358,25 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
     def close_extras(self, **kwargs: Any) -> None:
         """Ends the threads, or the session, and gives the memory back."""
-        machines = self.__dict__.pop("_machines", None)  # there are none where the constructor failed
-        if isinstance(machines, RemoteMachines):
+        machines = self.__dict__.get("_machines")  # there are none where the constructor failed
+        self._machines = _Closed()
+        if isinstance(machines, (RemoteMachines, SpreadMachines)):
             machines.close()
 
     def _check_open(self) -> None:
         if self.closed:
-            raise error.ClosedEnvironmentError("these environments were closed; make new ones")
+            raise _closed()
+
+
+class _Closed:
+    """In the place of machines that were closed, also by another thread in the middle of a call."""
+
+    def __getattr__(self, name: str) -> Any:
+        raise _closed()
+
+
+def _closed() -> error.ClosedEnvironmentError:
+    return error.ClosedEnvironmentError("these environments were closed; make new ones")
 
 
 def _games(game: str | Sequence[str], num_envs: int | None) -> tuple[list[str], Numbers]:
@@ -357,12 +393,14 @@ def _games(game: str | Sequence[str], num_envs: int | None) -> tuple[list[str], 
     return names, np.array([names.index(name) for name in game], np.int32)
 
 
-def _machines(names: list[str], game_of_env: Numbers, rom: Rom | None, settings: dict[str, Any], server: str | None,
-              token: str | None) -> Machines:
+def _machines(names: list[str], game_of_env: Numbers, rom: Rom | None, settings: dict[str, Any], server: str | Sequence[str] | None,
+              token: str | None, timeout: float | None) -> Machines:
     if len(names) > 1 and (rom is not None or server is not None):
         raise error.Error(f"there are {len(names)} games; rom and server take one")
     if server is not None:
-        return RemoteMachines(server, token, names[0], rom, len(game_of_env), settings)
+        kind: Any = RemoteMachines if isinstance(server, str) else SpreadMachines
+        machines: Machines = kind(server, token, timeout, names[0], rom, len(game_of_env), settings)
+        return machines
     found = [(images.find(name) if rom is None else rom, name) for name in names]
     chosen = _core.VectorSettings()
     for name, value in settings.items():
@@ -378,8 +416,9 @@ def _seed(value: Any, least: int = SEEDS[0]) -> int:
     return seed
 
 
-def _array(actions: Any) -> npt.NDArray[Any]:
+def array_of(values: Any) -> npt.NDArray[Any]:
+    """Raises InvalidInput for what is none."""
     try:
-        return np.asarray(actions)
+        return np.asarray(values)
     except ValueError:  # rows of several lengths
-        raise InvalidInput(f"actions are {actions!r}; they must be one array") from None
+        raise InvalidInput(f"{values!r} is given for one array; its rows have several lengths") from None

@@ -67,6 +67,14 @@ class Results(NamedTuple):
         """Whatever lives and limits say."""
         return self.flags[3]
 
+    def of(self, envs: slice) -> Results:
+        """The memory of some environments."""
+        def some(array: Any, axis: int = 0) -> Any:
+            return None if array is None else array[(slice(None),) * axis + (envs,)]
+
+        return Results(some(self.observations), some(self.ram), some(self.numbers, 1), some(self.flags, 1),
+                       some(self.final_observations), some(self.final_numbers, 1))
+
     @classmethod
     def around(cls, observations: Pixels | None, ram: Pixels | None, envs: int, final_observations: Pixels | None) -> Results:
         """With new numbers and flags."""

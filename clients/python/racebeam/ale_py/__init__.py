@@ -26,7 +26,8 @@ infos are the same to the byte, for the same seeds and actions. What differs:
 14. In AtariVectorEnv, an action that is out of range is an IndexError, and a step in a child process after a fork is a
     RuntimeError; ale_py hangs. A wrong argument is an Error, an InvalidInput or an UnknownGame; ale_py takes some, and ends the
     process for others. After close(), ClosedEnvironmentError is raised; ale_py goes on.
-15. ALEVectorInterface and XLA are not there yet: AtariVectorEnv has no `ale`, and is_xla_registered is False.
+15. The first reset() of ALEVectorInterface may be of some environments. What is below it and xla() is not there: AutoresetMode
+    and VectorXLAReset, VectorXLAStep. xla() does not need chex. A handle of environments that were closed is an error.
 16. A paddle's strength, or a radius, that is infinite or NaN is an InvalidInput; ale_py plays it.
 """
 
@@ -38,6 +39,7 @@ from typing import TYPE_CHECKING, Any
 
 from .._core import Action, ALEState, LoggerMode
 from ..interface import ALEInterface
+from .vector_interface import ALEVectorInterface
 
 if TYPE_CHECKING:
     from ..env import AtariEnv as AtariEnv
@@ -49,7 +51,7 @@ if TYPE_CHECKING:
 __version__ = "0.12.1"
 SDL_SUPPORT = False
 
-__all__ = ["ALEInterface", "ALEState", "Action", "LoggerMode", "SDL_SUPPORT"]
+__all__ = ["ALEInterface", "ALEState", "ALEVectorInterface", "Action", "LoggerMode", "SDL_SUPPORT"]
 
 _NEED_GYMNASIUM = {
     "AtariEnv": "racebeam.env",

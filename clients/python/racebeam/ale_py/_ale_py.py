@@ -3,8 +3,10 @@
 from racebeam._core import Action, ALEState, LoggerMode
 from racebeam.interface import ALEInterface
 
+from .vector_interface import ALEVectorInterface
+
 SDL_SUPPORT = False
-__all__ = ["ALEInterface", "ALEState", "Action", "LoggerMode", "SDL_SUPPORT"]
+__all__ = ["ALEInterface", "ALEState", "ALEVectorInterface", "Action", "LoggerMode", "SDL_SUPPORT"]
 
 globals().update({action.name: action for action in Action})
 globals().update({mode.name: mode for mode in LoggerMode})

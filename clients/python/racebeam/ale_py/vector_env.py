@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -10,14 +11,38 @@ import numpy.typing as npt
 from .. import vector_env
 from ..env import AtariEnv
 from ..vector_results import Results
+from .vector_interface import ALEVectorInterface
 
-__all__ = ["AtariEnv", "AtariVectorEnv"]
+__all__ = ["ALEVectorInterface", "AtariEnv", "AtariVectorEnv"]
 
 
 class AtariVectorEnv(vector_env.AtariVectorEnv):
     """racebeam.AtariVectorEnv with the infos and the checks of ale_py's."""
 
+    _xla_infos = ("env_id", "lives", "frame_number", "episode_frame_number")
     is_xla_registered = False
+
+    @property
+    def ale(self) -> ALEVectorInterface:
+        """The same environments as lists and arrays."""
+        return ALEVectorInterface.of(self)
+
+    def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
+        functions = super().xla()
+        self.is_xla_registered = True
+        return functions
+
+    def action_numbers(self) -> list[int]:
+        """Those of the actions that step() takes indices of."""
+        return self.machines().actions_of(0)
+
+    def send_strengths(self, actions: Any, strengths: Any) -> None:
+        """As send(), with how far each paddle is turned, 0 to 1."""
+        turned = vector_env.array_of(strengths)
+        if turned.dtype.kind not in "fiu":
+            raise TypeError(f"paddle strengths have the type {turned.dtype}; they must be numbers")
+        self._check_shape(turned, ())
+        self.machines().send_strengths(vector_env.AtariVectorEnv._indices(self, actions), turned.astype(np.float32), self._received)
 
     def _indices(self, actions: Any) -> npt.NDArray[np.int64]:
         assert isinstance(actions, np.ndarray) and actions.dtype in (np.int32, np.int64), \

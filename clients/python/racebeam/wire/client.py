@@ -404,6 +404,13 @@ class Session:
         except OSError as error:
             raise self.lost(error) from error
 
+    def flush(self) -> None:
+        """Passes the requests on that send() has buffered, as receive() does first."""
+        try:
+            self.writer.flush()
+        except ConnectionError:
+            pass  # the server may have said why it ends, before it did
+
     def receive(self) -> list[Texts]:
         """The groups of the next reply, each a dictionary of texts."""
         return self._receive()[1]
@@ -483,10 +490,7 @@ class Session:
         if self._is_closed:
             raise ConnectionError("the session was closed")
         try:
-            try:
-                self.writer.flush()
-            except ConnectionError:
-                pass  # the server may have said why it ends, before it did
+            self.flush()
             line = self.reader.readline(self.longest_reply)
         except OSError as error:  # a TimeoutError is one, too: half a reply may have been read
             raise self.lost(error) from error

@@ -34,10 +34,10 @@ class RemoteInterface:
     Raises what ALEInterface does; ConnectionError when the server has gone; and Refused for a limit of the server.
     """
 
-    def __init__(self, server: str, token: str | None = None) -> None:
+    def __init__(self, server: str, token: str | None = None, timeout: float | None = None) -> None:
         self._server, self._token = server, token
         self._keys = ALEInterface()
-        self.session: Session = connect(server, token=token)
+        self.session: Session = connect(server, token=token, timeout=timeout)
         self._view: View | None = None
         self._colours = np.zeros((256, 3), np.uint8)
         self._greys = np.zeros(256, np.uint8)

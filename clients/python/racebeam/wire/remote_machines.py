@@ -31,23 +31,49 @@ def _word(member: Any) -> str:
     return str(member.name).lower().replace("_", "-")
 
 
-class RemoteMachines:
+class OnServers:
+    """What servers do not do."""
+
+    def send(self, actions: npt.NDArray[np.int64], machines: Numbers) -> None:
+        raise _impossible("send")
+
+    def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None:
+        raise _impossible("send")
+
+    def send_strengths(self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers) -> None:
+        raise _impossible("send")
+
+    def send_resets(self, seeds: npt.NDArray[np.int64] | None) -> None:
+        raise _impossible("send")
+
+    def receive(self, results: Results) -> None:
+        raise _impossible("recv")
+
+    def save(self, machine: int, include_rng: bool) -> SavedMachine:
+        raise _impossible("save")
+
+    def restore(self, machine: int, state: SavedMachine) -> None:
+        raise _impossible("restore")
+
+
+class RemoteMachines(OnServers):
     """Has the methods of _core.VectorMachines. Raises what RemoteInterface does; RuntimeError in a child after a fork.
 
-    settings: those of _core.VectorSettings, by name. All machines step together.
+    settings: those of _core.VectorSettings, by name. timeout: of connect(). All machines step together.
     """
 
-    def __init__(self, server: str, token: str | None, game: str, rom: Any, count: int, settings: dict[str, Any]) -> None:
+    def __init__(self, server: str, token: str | None, timeout: float | None, game: str, rom: Any, count: int,
+                 settings: dict[str, Any]) -> None:
         if settings["batch_size"] not in (0, count):
             raise InvalidInput(f"batch_size is {settings['batch_size']}; a server plays all {count} environments together")
         self._count, self._process = count, os.getpid()
         self._turn = threading.Lock()
-        self._machine = RemoteInterface(server, token)
+        self._machine = RemoteInterface(server, token, timeout)
         self._session = self._machine.session
         self._load(game, rom, settings)
         self._actions = self._actions_of(settings)
         self._field = _field(settings, self.height())
-        self._screens: list[Pixels] = []
+        self._last: list[Values] = []  # what the machines showed last
         self._machine.ask(self._session.observe, *NUMBERS, *FLAGS, self._field + (":raw" if "raw" in self._session.offered else ":base64"),
                           *(["rgb:zlib"] if settings["screens"] else []))
         self._open(settings)
@@ -71,12 +97,12 @@ class RemoteMachines:
     def _open(self, settings: dict[str, Any]) -> None:
         if not settings["fire"] and settings["start"] is not ResetOrder.FIRE_NOOPS:
             raise InvalidInput(f"start is {_word(settings['start'])!r} without FIRE, which a server does not play")
-        self._machine.ask(
+        self._last = self._machine.ask(
             self._session.open, self._count, _word(settings["autoreset"]), steps="frames",
             start=_word(settings["start"]) if settings["fire"] else "noops", lives=_word(settings["lives"]),
             stack=_word(settings["stack_start"]), pool=int(settings["pool"]))
         if settings["seed"] == 0:
-            self._machine.ask(self._session.restart, seed=0)
+            self._last = self._machine.ask(self._session.restart, seed=0)
 
     def _actions_of(self, settings: dict[str, Any]) -> list[int]:
         machine = self._machine
@@ -85,6 +111,9 @@ class RemoteMachines:
 
     def numbers_of_actions(self) -> list[int]:
         return [len(self._actions)] * self._count
+
+    def actions_of(self, machine: int) -> list[int]:
+        return self._actions
 
     def height(self) -> int:
         height, _ = self._machine.getScreenDims()
@@ -97,10 +126,10 @@ class RemoteMachines:
     # Playing
 
     def step(self, actions: npt.NDArray[np.int64], results: Results) -> None:
-        self._ask(results, self._session.step, *self._words(actions))
+        self._ask(results, "step", *self.words(actions))
 
     def step_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, results: Results) -> None:
-        self._ask(results, self._session.step, *_words_of(joysticks, threshold))
+        self._ask(results, "step", *self.words_of(joysticks, threshold))
 
     def reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None:
         """Machines whose seeds count up as the server counts them are reset by one request."""
@@ -109,71 +138,74 @@ class RemoteMachines:
             seed = -1 if seeds is None else int(seeds[machine])
             first = None if seed < 0 else (seed - int(machine)) % 2**32
             masks.setdefault(first, ["0"] * self._count)[machine] = "1"
-        for first, mask in masks.items():
-            self._ask(results, self._session.restart, "".join(mask), seed=first)
+        for first, mask in (masks or {None: ["0"] * self._count}).items():
+            self._ask(results, "restart", "".join(mask), **({} if first is None else {"seed": first}))
 
     def show(self, results: Results) -> None:
-        self._ask(results, self._session.restart, "0" * self._count)
+        self._ask(results, "restart", "0" * self._count)
 
-    def _ask(self, results: Results, method: Callable[..., list[Values]], *words: object, **settings: object) -> None:
+    def _ask(self, results: Results, *words: object, **settings: object) -> None:
+        with self._turn:
+            self.begin(*words, **settings)
+            self.finish(results)
+
+    def begin(self, *words: object, **settings: object) -> None:
+        """Sends a request about the machines. finish() comes next, and no other thread between them."""
         if os.getpid() != self._process:
             raise RuntimeError("these environments were made before the process forked; make new ones")
-        with self._turn:
-            shown = self._machine.ask(method, *words, **settings)
-        self._fill(results, shown)
+        self._session.send(*words, **settings)
+        self._session.flush()
 
-    def _words(self, actions: npt.NDArray[np.int64]) -> list[int]:
+    def finish(self, results: Results) -> None:
+        self._last = self._machine.ask(self._session.received)[1:]
+        self.show_last(results)
+
+    def words(self, actions: npt.NDArray[np.int64]) -> list[int]:
+        """The words of `step` that play actions. Raises IndexError."""
         if actions.min() < 0 or actions.max() >= len(self._actions):
             wrong = next(int(action) for action in actions if not 0 <= action < len(self._actions))
             raise IndexError(f"action {wrong} is out of range; there are 0 to {len(self._actions) - 1}")
         return [self._actions[action] for action in actions]
 
+    @staticmethod
+    def words_of(joysticks: npt.NDArray[np.float32], threshold: float) -> list[str]:
+        """ACTION@STRENGTH of each. The comparisons are those of float32."""
+        radius, angle, fire = joysticks.T
+        limit = np.float32(threshold)
+        parts = [(radius * part(angle.astype(np.float64)).astype(np.float32)) for part in (np.cos, np.sin)]
+        column, row = (1 + (part > limit).astype(int) - (part < -limit) for part in parts)
+        actions = STICK[(fire > limit).astype(int), row, column]
+        return [f"{action}@{strength:.9g}" for action, strength in zip(actions, radius)]
+
     # What is shown
 
-    def _fill(self, results: Results, shown: list[Values]) -> None:
+    def show_last(self, results: Results) -> None:
+        """What the last reply had."""
         seen = results.ram if results.observations is None else results.observations
         assert seen is not None
-        for machine, values in enumerate(shown):
+        for machine, values in enumerate(self._last):
             results.numbers[:-1, machine] = [values[name] for name in NUMBERS]
             results.flags[(0, 1, 3), machine] = [values[name] for name in FLAGS]
             seen[machine] = np.frombuffer(values[self._field], np.uint8).reshape(seen.shape[1:])
             results.finished[machine] = FINAL_NUMBERS[0] in values
             if results.finished[machine]:
-                self._fill_finals(results, machine, values)
+                self._fill_finals(results, machine, values, "final_")
         results.env_id[:] = range(self._count)
-        if shown and "rgb" in shown[0]:
-            self._screens = [np.frombuffer(values["rgb"], np.uint8).reshape(-1, 160, 3) for values in shown]
 
-    def _fill_finals(self, results: Results, machine: int, values: Values) -> None:
+    def show_last_as_final(self, results: Results) -> None:
+        """As if the episodes had ended with it."""
+        for machine, values in enumerate(self._last):
+            self._fill_finals(results, machine, values, "")
+        results.finished[:] = True
+
+    def _fill_finals(self, results: Results, machine: int, values: Values, prefix: str) -> None:
         assert results.final_observations is not None and results.final_numbers is not None
         finals = results.final_observations
-        finals[machine] = np.frombuffer(values["final_" + self._field], np.uint8).reshape(finals.shape[1:])
-        results.final_numbers[:, machine] = [values[name] for name in FINAL_NUMBERS]
+        finals[machine] = np.frombuffer(values[prefix + self._field], np.uint8).reshape(finals.shape[1:])
+        results.final_numbers[:, machine] = [values[prefix + name.removeprefix("final_")] for name in FINAL_NUMBERS]
 
     def screen(self, machine: int) -> Pixels:
-        if not self._screens:
-            raise InvalidInput("there is nothing to show before the first reset")
-        return self._screens[machine].copy()
-
-    # What a server does not do
-
-    def send(self, actions: npt.NDArray[np.int64], machines: Numbers) -> None:
-        raise _impossible("send")
-
-    def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None:
-        raise _impossible("send")
-
-    def send_resets(self, seeds: npt.NDArray[np.int64] | None) -> None:
-        raise _impossible("send")
-
-    def receive(self, results: Results) -> None:
-        raise _impossible("recv")
-
-    def save(self, machine: int, include_rng: bool) -> SavedMachine:
-        raise _impossible("save")
-
-    def restore(self, machine: int, state: SavedMachine) -> None:
-        raise _impossible("restore")
+        return np.frombuffer(self._last[machine]["rgb"], np.uint8).reshape(-1, 160, 3).copy()
 
 
 def _impossible(what: str) -> InvalidInput:
@@ -186,13 +218,3 @@ def _field(settings: dict[str, Any], height: int) -> str:
         return "ram"
     kind = "rgb" if settings["rgb"] else "grey"
     return f"{kind}{settings['width'] or 160}x{settings['height'] or height}x{settings['stack']}"
-
-
-def _words_of(joysticks: npt.NDArray[np.float32], threshold: float) -> list[str]:
-    """ACTION@STRENGTH of each. The comparisons are those of float32."""
-    radius, angle, fire = joysticks.T
-    limit = np.float32(threshold)
-    parts = [(radius * part(angle.astype(np.float64)).astype(np.float32)) for part in (np.cos, np.sin)]
-    column, row = (1 + (part > limit).astype(int) - (part < -limit) for part in parts)
-    actions = STICK[(fire > limit).astype(int), row, column]
-    return [f"{action}@{strength:.9g}" for action, strength in zip(actions, radius)]

@@ -1,0 +1,183 @@
+// Steps and resets of machines as custom calls of XLA, which programs that JAX compiled make
+// (racebeam/xla.py).
+#include <nanobind/stl/string.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+
+#include "clients/python/core/bindings.hpp"
+#include "clients/python/core/vector_acts.hpp"
+#include "clients/python/core/vector_machines.hpp"
+#include "clients/python/core/xla_ffi.hpp"
+#include "system/invalid_input.hpp"
+
+namespace racebeam::python {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+// Handles: what a compiled program names machines by. No number is used twice, and one that names none is an
+// error.
+
+std::mutex handles_mutex;
+std::map<std::uint64_t, std::weak_ptr<SharedBatch>> handles;
+std::uint64_t last_handle = 0;
+
+std::uint64_t handle_of(const VectorMachines& self) {
+  const std::scoped_lock hold(handles_mutex);
+  std::erase_if(handles, [](const auto& entry) { return entry.second.expired(); });
+  handles[++last_handle] = self.shared();
+  return last_handle;
+}
+
+std::shared_ptr<SharedBatch> named_by(std::uint64_t handle) {
+  const std::scoped_lock hold(handles_mutex);
+  const auto found = handles.find(handle);
+  auto shared = found == handles.end() ? nullptr : found->second.lock();
+  if (!shared) throw std::runtime_error("the environments of this handle were closed; make new ones");
+  return shared;
+}
+
+// Buffers
+
+template <class T>
+constexpr xla::DataType type_of() {
+  if (std::is_same_v<T, bool>) return xla::DataType::kBool;
+  if (std::is_same_v<T, std::uint8_t>) return xla::DataType::kUint8;
+  return std::is_same_v<T, float> ? xla::DataType::kFloat32 : xla::DataType::kInt32;
+}
+
+// Gives one buffer after the other. Throws InvalidInput for one that has another type or size.
+class Reader {
+ public:
+  explicit Reader(const xla::Buffers& buffers) : buffers_(buffers) {}
+
+  bool is_done() const { return next_ == buffers_.size; }
+
+  template <class T>
+  std::span<T> next(std::size_t count) {
+    if (is_done()) throw InvalidInput("a call of XLA has too few buffers");
+    const auto& buffer = *static_cast<const xla::Buffer*>(buffers_.buffers[next_]);
+    std::size_t size = 1;
+    for (std::int64_t axis = 0; axis < buffer.rank; ++axis)
+      size *= static_cast<std::size_t>(buffer.shape[axis]);
+    if (buffer.type != type_of<std::remove_const_t<T>>() || size != count)
+      throw InvalidInput("buffer " + std::to_string(next_) + " of a call of XLA has another type, or not " +
+                         std::to_string(count) + " values");
+    ++next_;
+    return {static_cast<T*>(buffer.data), count};
+  }
+
+ private:
+  const xla::Buffers& buffers_;
+  std::int64_t next_ = 0;
+};
+
+std::span<std::uint8_t> as_bytes(std::span<bool> flags) {
+  static_assert(sizeof(bool) == 1);
+  return {reinterpret_cast<std::uint8_t*>(flags.data()), flags.size()};
+}
+
+// What racebeam.xla.RESULTS lists, in its order.
+BatchArrays results_of(const Batch& batch, Reader& results) {
+  const std::size_t count = batch.size();
+  BatchArrays to;
+  if (batch.observation_size() > 0) {
+    to.observations = results.next<std::uint8_t>(count * batch.observation_size());
+  } else {
+    to.ram = results.next<std::uint8_t>(count * kRamSize);
+  }
+  to.rewards = results.next<std::int32_t>(count);
+  to.terminated = as_bytes(results.next<bool>(count));
+  to.truncated = as_bytes(results.next<bool>(count));
+  for (auto* const numbers : {&to.numbers, &to.lives, &to.frames, &to.episode_frames, &to.raw_rewards})
+    *numbers = results.next<std::int32_t>(count);
+  to.game_over = as_bytes(results.next<bool>(count));
+  return to;
+}
+
+// Calls
+
+// Arguments: the actions, or joysticks and their threshold.
+void play_step(Batch& batch, Reader& arguments, const BatchArrays& out) {
+  batch.step(std::span<const int>(indices_of(batch, arguments.next<const std::int32_t>(batch.size()))), out);
+}
+
+void play_step_joysticks(Batch& batch, Reader& arguments, const BatchArrays& out) {
+  const auto joysticks = arguments.next<const float>(3 * batch.size());
+  batch.step(std::span<const Act>(acts_of(joysticks, arguments.next<const float>(1)[0])), out);
+}
+
+// Arguments: seeds, negative for none, and which machines are reset.
+void play_reset(Batch& batch, Reader& arguments, const BatchArrays& out) {
+  const auto seeds = arguments.next<const std::int32_t>(batch.size());
+  const auto chosen = arguments.next<const bool>(batch.size());
+  batch.reset(out, std::vector<std::uint8_t>(chosen.begin(), chosen.end()),
+              std::vector<std::int64_t>(seeds.begin(), seeds.end()));
+}
+
+// The first argument is a handle, and so is the first result, which makes the next call depend on this one.
+template <class Ask>
+void answer(const xla::CallFrame& frame, const Ask& ask) {
+  Reader arguments(frame.arguments), results(frame.results);
+  const auto given = arguments.next<const std::uint8_t>(sizeof(std::uint64_t));
+  std::uint64_t handle = 0;
+  std::memcpy(&handle, given.data(), sizeof handle);
+  std::ranges::copy(given, results.next<std::uint8_t>(sizeof handle).begin());
+  const auto shared = named_by(handle);
+  const std::scoped_lock hold(shared->lock());
+  ask(shared->batch(), arguments, results_of(shared->batch(), results));
+}
+
+xla::Error* error_of(const xla::CallFrame& frame, xla::ErrorCode code, const char* sentence) {
+  xla::ErrorCreateArgs arguments{sizeof arguments, nullptr, sentence, code};
+  return frame.api->error_create(&arguments);
+}
+
+// Answers XLA when it asks for the version. Was that the question?
+bool tells_version(const xla::CallFrame& frame) {
+  if (!frame.extensions || frame.extensions->type != xla::kMetadataExtension) return false;
+  xla::Metadata& metadata = *reinterpret_cast<xla::MetadataExtension*>(frame.extensions)->metadata;
+  metadata.api_version.major_version = xla::kMajorVersion;
+  metadata.api_version.minor_version = std::min(xla::kMinorVersion, frame.api->api_version.minor_version);
+  metadata.traits = 0;
+  return true;
+}
+
+template <auto ask>
+xla::Error* handle_call(xla::CallFrame* frame) {
+  try {
+    if (!tells_version(*frame)) answer(*frame, ask);
+    return nullptr;
+  } catch (const std::out_of_range& error) {
+    return error_of(*frame, xla::ErrorCode::kOutOfRange, error.what());
+  } catch (const InvalidInput& error) {
+    return error_of(*frame, xla::ErrorCode::kInvalidArgument, error.what());
+  } catch (const std::exception& error) {
+    return error_of(*frame, xla::ErrorCode::kFailedPrecondition, error.what());
+  }
+}
+
+nb::dict targets() {
+  const std::pair<const char*, xla::Handler*> all[] = {{"step", handle_call<play_step>},
+                                                       {"step_joysticks", handle_call<play_step_joysticks>},
+                                                       {"reset", handle_call<play_reset>}};
+  nb::dict found;
+  for (const auto& [name, handler] : all) found[name] = nb::capsule(reinterpret_cast<void*>(handler));
+  return found;
+}
+
+}  // namespace
+
+void bind_xla(nb::module_& module) {
+  module.def("xla_targets", targets, nb::sig("def xla_targets() -> dict[str, object]"),
+             "The custom calls by name, for jax.ffi.register_ffi_target().");
+  module.def("xla_handle", handle_of, "machines"_a, "A number that names these machines in custom calls.");
+}
+
+}  // namespace racebeam::python

@@ -1,0 +1,183 @@
+"""The machines of AtariVectorEnv on several servers. What one server played goes on elsewhere when that server is lost."""
+
+from __future__ import annotations
+
+import secrets
+import threading
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .._core import Autoreset
+from ..errors import InvalidInput
+from ..vector_results import Bools, Pixels, Results
+from .client import Refused
+from .remote_machines import OnServers, RemoteMachines
+
+LEAVING = ("stopping", "busy", "idle", "internal")  # the errors after which a server closes the session
+
+
+class _Part:
+    """The environments that one server plays: a range of rows."""
+
+    def __init__(self, rows: slice, address: str, machines: RemoteMachines) -> None:
+        self.rows, self.address, self.machines = rows, address, machines
+        self.is_fresh = False  # it was moved, and the next step shows the beginning of its episodes
+
+
+class SpreadMachines(OnServers):
+    """Has the methods of _core.VectorMachines. Raises what RemoteMachines does; ConnectionError when no server is left.
+
+    Each server plays as many environments as the next, give or take one. Those beyond the number of environments are spare.
+
+    When a server is lost, its episodes are truncated in that step, with the observations of the step before, and `lost` says
+    where. Its environments then begin new games on the server that plays the fewest, with new seeds. A server that was lost is
+    not asked again. A loss in reset() or show() is no truncation: the environments of the new server are shown, and `lost`
+    says where.
+    """
+
+    def __init__(self, servers: Sequence[str], token: str | None, timeout: float | None, game: str, rom: Any, count: int,
+                 settings: dict[str, Any]) -> None:
+        if settings["batch_size"] not in (0, count):
+            raise InvalidInput(f"batch_size is {settings['batch_size']}; servers play all {count} environments together")
+        if not servers or not all(isinstance(server, str) for server in servers):
+            raise TypeError(f"server is {servers!r}; it takes an address, or a list of addresses")
+        self._how, self._count, self._settings = (token, timeout, game, rom), count, settings
+        self._turn = threading.Lock()
+        self._servers = list(dict.fromkeys(servers))  # those that are not lost
+        self._parts: list[_Part] = []
+        self.lost: Bools = np.zeros(count, np.bool_)  # of the last call
+        parts = np.array_split(np.arange(count), min(len(self._servers), count))
+        try:
+            for address, rows in zip(self._servers, parts):
+                self._add(address, slice(int(rows[0]), int(rows[-1]) + 1))
+        except BaseException:
+            self.close()
+            raise
+
+    def _add(self, address: str, rows: slice) -> None:
+        seed = (self._settings["seed"] + rows.start) % 2**32
+        self._parts.append(_Part(rows, address, self._opened(address, rows, seed)))
+
+    def _opened(self, address: str, rows: slice, seed: int) -> RemoteMachines:
+        settings = {**self._settings, "seed": seed, "batch_size": 0}
+        return RemoteMachines(address, *self._how, rows.stop - rows.start, settings)
+
+    def numbers_of_actions(self) -> list[int]:
+        return [number for part in self._parts for number in part.machines.numbers_of_actions()]
+
+    def actions_of(self, machine: int) -> list[int]:
+        return self._parts[0].machines.actions_of(0)
+
+    def height(self) -> int:
+        return self._parts[0].machines.height()
+
+    def close(self) -> None:
+        """Ends the sessions."""
+        for part in self._parts:
+            part.machines.close()
+
+    # Playing
+
+    def step(self, actions: npt.NDArray[np.int64], results: Results) -> None:
+        self._step([part.machines.words(actions[part.rows]) for part in self._parts], results)
+
+    def step_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, results: Results) -> None:
+        self._step([part.machines.words_of(joysticks[part.rows], threshold) for part in self._parts], results)
+
+    def _step(self, words: list[list[Any]], results: Results) -> None:
+        """All servers play at the same time."""
+        requests = [("restart", "0" * len(acts)) if part.is_fresh else ("step", *acts) for part, acts in zip(self._parts, words)]
+        with self._turn:
+            self.lost = np.zeros(self._count, np.bool_)
+            failures = [self._failure(part.machines.begin, *request) for part, request in zip(self._parts, requests)]
+            try:
+                for index, part in enumerate(self._parts):
+                    failures[index] = failures[index] or self._failure(part.machines.finish, results.of(part.rows))
+            except BaseException:
+                self.close()  # replies that are read later would be taken for others'
+                raise
+            for part, failure in zip(self._parts, failures):
+                if failure is not None:
+                    self._truncate(part, failure, results.of(part.rows))
+                else:
+                    part.is_fresh = False
+        self._number(results)
+
+    @staticmethod
+    def _failure(call: Callable[..., None], *arguments: object) -> Exception | None:
+        """The exception that says that the server is lost, if it is."""
+        try:
+            call(*arguments)
+        except (ConnectionError, TimeoutError) as error:
+            return error
+        except InvalidInput as error:
+            if isinstance(error.__cause__, Refused) and error.__cause__.code in LEAVING:
+                return error
+            raise
+        return None
+
+    def reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None:
+        def ask(part: _Part) -> None:
+            rows = part.rows
+            part.machines.reset(None if chosen is None else chosen[rows], None if seeds is None else seeds[rows], results.of(rows))
+            part.is_fresh = False
+
+        self._each(ask, results)
+
+    def show(self, results: Results) -> None:
+        self._each(lambda part: part.machines.show(results.of(part.rows)), results)
+
+    def _each(self, ask: Callable[[_Part], None], results: Results) -> None:
+        with self._turn:
+            self.lost = np.zeros(self._count, np.bool_)
+            for part in self._parts:
+                self._ask(part, ask)
+        self._number(results)
+
+    def _ask(self, part: _Part, ask: Callable[[_Part], None]) -> None:
+        """Asks the server of a part, and the next one while a server is lost."""
+        while (failure := self._failure(ask, part)) is not None:
+            self._move(part, failure)
+
+    def _number(self, results: Results) -> None:
+        results.env_id[:] = range(self._count)
+
+    # Losing a server
+
+    def _truncate(self, part: _Part, failure: Exception, results: Results) -> None:
+        last = part.machines
+        self._move(part, failure)
+        if self._settings["autoreset"] is Autoreset.SAME_STEP:
+            self._ask(part, lambda part: part.machines.show(results))
+            last.show_last_as_final(results)
+        else:
+            last.show_last(results)
+            part.is_fresh = self._settings["autoreset"] is Autoreset.NEXT_STEP
+        results.rewards[:] = results.raw_rewards[:] = 0
+        results.terminated[:] = False
+        results.truncated[:] = True
+
+    def _move(self, part: _Part, failure: Exception) -> None:
+        """Opens new environments for the part on the server that plays the fewest."""
+        part.machines.close()
+        self.lost[part.rows] = True
+        self._servers = [address for address in self._servers if address != part.address]
+        for address in sorted(self._servers, key=self._load_of):
+            try:
+                part.machines = self._opened(address, part.rows, secrets.randbits(32) or 1)
+            except (OSError, InvalidInput) as error:
+                failure = error
+                continue
+            part.address = address
+            return
+        raise ConnectionError(f"no server is left for environments {part.rows.start} to {part.rows.stop - 1}: {failure}") from failure
+
+    def _load_of(self, address: str) -> int:
+        return sum(part.rows.stop - part.rows.start for part in self._parts if part.address == address)
+
+    def screen(self, machine: int) -> Pixels:
+        part = next(part for part in self._parts if part.rows.start <= machine < part.rows.stop)
+        return part.machines.screen(machine - part.rows.start)

@@ -1,0 +1,82 @@
+"""racebeam.cluster: servers as jobs, here by submitit's executor for this machine."""
+
+import os
+import pathlib
+import tempfile
+import time
+import unittest
+
+import package
+
+package.require("gymnasium", "numpy", "submitit")
+
+import submitit
+
+import racebeam
+from racebeam.cluster import SlurmServers
+
+
+def processes(mark):
+    """The process ids of servers whose command line has `mark`."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            if entry.name.isdecimal() and mark.encode() in (entry / "cmdline").read_bytes():
+                found.append(int(entry.name))
+        except OSError:
+            continue
+    return found
+
+
+class Servers(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def servers(self, n, image=None, **options):
+        return SlurmServers(n, image, folder=self.folder, executor=submitit.LocalExecutor(self.folder / "logs"), wait=60, **options)
+
+    def nothing_is_left(self):
+        until = time.monotonic() + 30
+        while processes(str(self.folder)) and time.monotonic() < until:
+            time.sleep(0.05)
+        self.assertEqual(processes(str(self.folder)), [])
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["logs"])
+
+    def test_environments_on_all_servers(self):
+        with self.servers(3, timeout_min=5) as addresses:
+            envs = racebeam.AtariVectorEnv("beamfall", 6, server=addresses, seed=1)
+            here = racebeam.AtariVectorEnv("beamfall", 6, seed=1)
+            for _ in range(5):
+                self.assertTrue((envs.step([1] * 6)[0] == here.step([1] * 6)[0]).all())
+            envs.close()
+            sessions = [racebeam.connect(address) for address in addresses]
+            self.assertEqual(len({session.address for session in sessions}), 3)
+        self.nothing_is_left()
+
+    def test_images_and_options(self):
+        image = self.folder / "roms" / "game.bin"
+        image.parent.mkdir()
+        image.write_bytes(os.urandom(4096))
+        with self.servers(1, image, options=["--max-machines", "2"], listen="tcp://127.0.0.1:0") as (address,):
+            with racebeam.connect(address) as session:
+                self.assertEqual(session.hello()["max_machines"], 2)
+        image.unlink()
+        image.parent.rmdir()
+        self.nothing_is_left()
+
+    def test_an_exception_ends_the_servers(self):
+        with self.assertRaises(KeyError), self.servers(2) as addresses:
+            racebeam.connect(addresses[0]).close_connection()
+            raise KeyError
+        self.nothing_is_left()
+
+    def test_bad_input(self):
+        for arguments in ({"n": 0}, {"n": "two"}, {"n": 1, "image": "/nonexistent"}):
+            with self.subTest(**arguments), self.assertRaises(racebeam.InvalidInput):
+                SlurmServers(**arguments)
+
+
+if __name__ == "__main__":
+    package.main()

@@ -1,0 +1,190 @@
+"""AtariVectorEnv(server=[...]) spreads environments over servers, and goes on when one of them is lost."""
+
+import contextlib
+import os
+import signal
+import unittest
+
+import package
+
+package.require("gymnasium", "numpy")
+
+import numpy as np
+from vector_servers import Compared, server
+
+from racebeam import AtariVectorEnv, InvalidInput
+
+COUNT = 5  # of which the first server plays three
+FIRST, SECOND = np.arange(COUNT) < 3, np.arange(COUNT) >= 3
+
+
+class Servers(Compared):
+    """Two servers, and environments on them beside the same in this process."""
+
+    def setUp(self):
+        self.servers = contextlib.ExitStack()
+        self.addCleanup(self.servers.close)
+        (self.one, self.first), (self.two, self.second) = (self.servers.enter_context(server("--grace", "1")) for _ in range(2))
+
+    def both(self, count=COUNT, servers=None, **settings):
+        settings = {"seed": 5, "repeat_action_probability": 0.25, **settings}
+        here = AtariVectorEnv("beamfall", count, **settings)
+        there = AtariVectorEnv("beamfall", count, server=servers or [self.one, self.two], **settings)
+        self.addCleanup(there.close)
+        return here, there
+
+    def check(self, shown, expected, rows=None, lost=None):
+        """Of these rows; None: of all. `lost`: what the info must say; None: nothing is lost."""
+        *arrays, info = shown
+        self.assertTrue(np.array_equal(info.pop("lost"), np.zeros(len(arrays[0]), bool) if lost is None else lost))
+        if rows is None:
+            return super().check((*arrays, info), expected)
+        for one, other in zip([*arrays, *info.values()], [*expected[:-1], *expected[-1].values()]):
+            self.assertTrue(np.array_equal(one[rows], other[rows]))
+
+    @staticmethod
+    def kill(process):
+        process.kill()
+        process.wait()
+
+
+class Same(Servers):
+    def test_what_is_seen_and_told(self):
+        here, there = self.both(max_num_frames_per_episode=60, obs_type="ram")
+        self.assertGreater(self.play(here, there, 40), COUNT)
+        mask = np.array([True, False, False, True, False])
+        for arguments in ({"seed": 2**32 - 3}, {"options": {"reset_mask": mask}}, {"seed": [1, None, -1, 9, 2], "options": {"reset_mask": mask}}):
+            self.check(there.reset(**arguments), here.reset(**arguments))
+            self.play(here, there, 5)
+        self.check(there.show(), here.show())
+
+    def test_continuous_actions_and_pictures(self):
+        here, there = self.both(continuous=True, render_mode="rgb_array", autoreset_mode="SameStep", max_num_frames_per_episode=30)
+        self.assertTrue(all(map(np.array_equal, there.render(), here.render())))
+        self.play(here, there, 20)
+        self.assertTrue(all(map(np.array_equal, there.render(), here.render())))
+
+    def test_bad_input_leaves_all_servers_in_step(self):
+        here, there = self.both()
+        with self.assertRaises(IndexError):
+            there.step([0, 0, 0, 0, 99])
+        self.play(here, there, 3)
+        for envs in (lambda: there.save(0), lambda: there.send([0] * COUNT)):
+            with self.assertRaisesRegex(InvalidInput, "on a server"):
+                envs()
+        for servers in ([], [3]):
+            with self.subTest(servers=servers), self.assertRaises(TypeError):
+                AtariVectorEnv("beamfall", 2, server=servers)
+        with self.assertRaises(InvalidInput):
+            AtariVectorEnv("beamfall", 2, server=[self.one, self.two], batch_size=1)
+        with self.assertRaises(OSError):
+            AtariVectorEnv("beamfall", 2, server=[self.one, "unix:/nonexistent"])
+
+    def test_a_child_after_a_fork_is_refused(self):
+        here, there = self.both()
+        child = os.fork()
+        if child == 0:
+            try:
+                there.step([0] * COUNT)
+            except RuntimeError as error:
+                os._exit(7 if "before the process forked" in str(error) else 8)
+            os._exit(9)
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 7)
+        self.play(here, there, 2)
+
+
+class Lost(Servers):
+    def check_truncated(self, shown, before, expected):
+        """The second server was lost in this step; `expected` is what the first one shows."""
+        observations, rewards, terminated, truncated, info = shown
+        self.assertTrue(truncated[SECOND].all() and not terminated[SECOND].any() and not rewards[SECOND].any())
+        self.assertTrue(np.array_equal(observations[SECOND], before[SECOND]))
+        self.check(shown, expected, FIRST, lost=SECOND)
+
+    def test_the_next_step_begins_new_episodes(self):
+        here, there = self.both(noop_max=0, use_fire_reset=False)
+        self.play(here, there, 20)
+        before = there.step([1] * COUNT)[0]
+        here.step([1] * COUNT)
+        self.kill(self.second)
+        self.check_truncated(there.step([0] * COUNT), before, here.step([0] * COUNT))
+        begun, rewards, *_, info = shown = there.step([0] * COUNT)
+        self.check(shown, here.step([0] * COUNT), FIRST)
+        self.assertFalse(rewards[SECOND].any() or info["episode_frame_number"][SECOND].any() or shown[3].any())
+        self.assertFalse(np.array_equal(begun[SECOND], before[SECOND]))
+        for _ in range(50):  # they play on
+            shown = there.step([1] * COUNT)
+            self.check(shown, here.step([1] * COUNT), FIRST)
+        self.assertTrue(shown[-1]["episode_frame_number"][SECOND].all())
+        self.check(there.reset(seed=3), here.reset(seed=3))
+        self.play(here, there, 5)
+
+    def test_the_same_step_begins_new_episodes(self):
+        here, there = self.both(autoreset_mode="SameStep", noop_max=0, use_fire_reset=False)
+        self.play(here, there, 20)
+        before, _, _, _, told = there.step([1] * COUNT)
+        here.step([1] * COUNT)
+        self.kill(self.second)
+        begun, rewards, terminated, truncated, info = there.step([0] * COUNT)
+        self.assertTrue(np.array_equal(info["lost"], SECOND) and np.array_equal(truncated, SECOND) and np.array_equal(info["_final_obs"], SECOND))
+        for env in np.flatnonzero(SECOND):
+            self.assertTrue(np.array_equal(info["final_obs"][env], before[env]))
+            self.assertEqual(info["final_info"]["frame_number"][env], told["frame_number"][env])
+        self.assertFalse(info["episode_frame_number"][SECOND].any() or rewards[SECOND].any() or terminated.any())
+        self.assertTrue(np.array_equal(begun[FIRST], here.step([0] * COUNT)[0][FIRST]))
+        self.check(there.step([1] * COUNT), here.step([1] * COUNT), FIRST)
+
+    def test_without_autoreset_a_reset_begins_new_episodes(self):
+        here, there = self.both(autoreset_mode="Disabled", obs_type="ram")
+        self.play(here, there, 20)
+        before = there.step([1] * COUNT)[0]
+        here.step([1] * COUNT)
+        self.kill(self.second)
+        self.check_truncated(there.step([0] * COUNT), before, here.step([0] * COUNT))
+        self.check(*(envs.reset(options={"reset_mask": SECOND}) for envs in (there, here)), FIRST)
+        self.check(there.step([1] * COUNT), here.step([1] * COUNT), FIRST)
+
+    def test_a_server_that_is_told_to_stop_is_lost(self):
+        here, there = self.both()
+        self.play(here, there, 2)
+        self.second.send_signal(signal.SIGTERM)
+        lost = 0
+        for _ in range(2000):
+            shown = there.step([0] * COUNT)
+            lost += shown[-1]["lost"].sum()
+            if lost:
+                break
+        self.assertEqual(lost, SECOND.sum())
+        self.assertFalse(there.step([0] * COUNT)[-1]["lost"].any())
+
+    def test_a_server_that_does_not_answer_in_time_is_lost(self):
+        _, there = self.both(timeout=2)
+        self.second.send_signal(signal.SIGSTOP)
+        self.assertEqual(there.step([0] * COUNT)[-1]["lost"].tolist(), SECOND.tolist())
+        self.assertFalse(there.step([0] * COUNT)[-1]["lost"].any())
+
+    def test_a_loss_in_a_reset_is_told(self):
+        here, there = self.both()
+        self.kill(self.first)
+        self.check(there.reset(seed=9), here.reset(seed=9), lost=FIRST)
+        self.play(here, there, 5)
+
+    def test_spare_servers_come_first(self):
+        here, there = self.both(count=2, servers=[self.one, self.two, self.servers.enter_context(server("--max-machines", "1"))[0]])
+        self.kill(self.first)
+        there.step([0, 0])
+        self.kill(self.second)  # the spare one plays the first environment, and may play the other, too
+        self.assertEqual(there.step([0, 0])[-1]["lost"].tolist(), [False, True])
+        self.assertFalse(there.step([0, 0])[-1]["lost"].any())
+
+    def test_without_a_server_it_is_a_ConnectionError(self):
+        _, there = self.both()
+        for process in (self.first, self.second):
+            self.kill(process)
+        for call in (lambda: there.step([0] * COUNT), there.reset, there.show):
+            with self.assertRaisesRegex(ConnectionError, "no server is left for environments 0 to 2"):
+                call()
+
+
+if __name__ == "__main__":
+    package.main()

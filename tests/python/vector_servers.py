@@ -1,0 +1,58 @@
+"""Servers of their own, and environments on them that are compared with those in this process."""
+
+import contextlib
+import pathlib
+import subprocess
+import tempfile
+import time
+import unittest
+
+import numpy as np
+
+import racebeam.program
+
+
+@contextlib.contextmanager
+def server(*options):
+    """The address of a server that serves a Unix socket, and its process."""
+    with tempfile.TemporaryDirectory() as folder:
+        ready = pathlib.Path(folder, "ready")
+        process = subprocess.Popen([racebeam.program.path(), "serve", "--listen", f"unix:{folder}/s", "--ready-file", str(ready), *options],
+                                   stderr=subprocess.DEVNULL)
+        try:
+            while not ready.exists():
+                time.sleep(0.01)
+            yield f"unix:{folder}/s", process
+        finally:
+            process.kill()
+            process.wait()
+
+
+class Compared(unittest.TestCase):
+    def check(self, shown, expected):
+        for one, other in zip(shown[:-1], expected[:-1]):
+            self.assertEqual((one.dtype, one.shape), (other.dtype, other.shape))
+            self.assertTrue(np.array_equal(one, other))
+        self.check_told(shown[-1], expected[-1])
+
+    def check_told(self, told, expected):
+        self.assertEqual(list(told), list(expected))
+        for key, value in expected.items():
+            if isinstance(value, dict):
+                self.check_told(told[key], value)
+            elif value.dtype == object:
+                self.assertTrue(all(one is other is None or np.array_equal(one, other) for one, other in zip(told[key], value)), key)
+            else:
+                self.assertEqual(told[key].dtype, value.dtype)
+                self.assertTrue(np.array_equal(told[key], value), key)
+
+    def play(self, here, there, steps):
+        """How many episodes ended."""
+        here.action_space.seed(1)
+        ended = 0
+        for _ in range(steps):
+            actions = here.action_space.sample()
+            expected = here.step(actions)
+            self.check(there.step(actions), expected)
+            ended += np.count_nonzero(expected[2] | expected[3])
+        return ended
