@@ -7,7 +7,7 @@ import argparse
 import sys
 import unittest
 
-SLICE = ["test_kubernetes", "test_slurm.Slice"]
+SLICE = ["test_kubernetes", "test_simulation", "test_slurm.Slice"]
 WHOLE = [*SLICE, "test_slurm.Whole"]
 
 

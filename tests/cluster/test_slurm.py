@@ -3,6 +3,7 @@
 Slice is what continuous integration has time for, and Whole the rest. Without root, or without Slurm, all are skipped.
 """
 
+import json
 import os
 import pathlib
 import re
@@ -14,6 +15,8 @@ import unittest
 
 import agent
 import slurm
+import speed
+from small_experiment import PLAN, files
 
 sys.path.insert(0, str(slurm.TOP / "clients/python/racebeam/wire"))
 import client
@@ -22,21 +25,8 @@ BINARY = os.environ.get("RACEBEAM_BINARY", str(slurm.TOP / "build/release/racebe
 SCRIPTS = slurm.TOP / "cluster/slurm"
 AGENT = str(pathlib.Path(agent.__file__).resolve())
 
-PLAN = """games = ["beamfall"]
-agents = ["random", "const", "basic"]
-trials = 2
-training_episodes = 4
-evaluation_episodes = 2
-background_screens = 500
-environment = "max_episode_frames=1000"
-"""
+PYTHON = os.environ.get("RACEBEAM_PYTHON", str(slurm.TOP / "build/python/venv/bin/python"))  # with racebeam and submitit
 SHARDS = 24  # for 21 units: some have none
-
-
-def files(folder):
-    """The contents of all files of results by their paths, without times."""
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(folder.rglob("*"))
-            if path.is_file() and "times" not in path.name}
 
 
 def processes(mark):
@@ -83,7 +73,10 @@ class Slurm(unittest.TestCase):
         """No process of a job, no socket, no announce file, no folder of a job."""
         def left():
             return [*self.job_processes().values(), *self.temporary.iterdir(), *self.jobs.glob("racebeam-*")]
-        self.cluster.wait("the end of what jobs have left", lambda: not left())
+        try:
+            self.cluster.wait("the end of what jobs have left", lambda: not left())
+        except AssertionError as error:
+            raise AssertionError(f"left: {left()}\n{error}") from None
 
     def check_results(self, numbers):
         found = {path.name: path.read_text() for path in self.results.iterdir() if path.name.startswith("result-")}
@@ -114,6 +107,16 @@ class Slice(Slurm):
         with client.Session.start(str(SCRIPTS / "racebeam-srun"), "--log-level", "warning") as game:
             self.assertEqual(agent.play(game, 3), self.expected[3])
         self.nothing_is_left()
+
+    def test_servers_for_an_agent_in_python(self):
+        needed = ("-c", "import racebeam.vector_env, submitit")
+        if not pathlib.Path(PYTHON).exists() or subprocess.run([PYTHON, *needed], capture_output=True).returncode != 0:
+            self.skipTest(f"there is no {PYTHON} with racebeam and submitit (scripts/wheel --venv)")
+        done = subprocess.run([PYTHON, slurm.TOP / "tests/cluster/python_agent.py"], cwd=self.results, capture_output=True, text=True,
+                              env=self.cluster.environment | {"RACEBEAM_PROGRAM": BINARY}, timeout=slurm.PATIENCE)
+        self.assertEqual((done.returncode, done.stdout), (0, "the same; 2 environments were lost, and played on\n"), done.stderr)
+        self.nothing_is_left()
+        self.assertEqual(list(self.results.iterdir()), [])
 
 
 class Whole(Slurm):
@@ -193,6 +196,30 @@ class Whole(Slurm):
         self.assertRegex((self.results / "gathered").read_text(), r"\d+ rows confirmed, 0 wrong, 0 could not be checked")
         self.nothing_is_left()
 
+    def test_a_full_shared_disk_ends_the_element_with_a_sentence_and_loses_nothing(self):
+        plan, alone, shared = (self.results / name for name in ("plan.toml", "alone", "shared"))
+        plan.write_text(PLAN)
+        subprocess.run([BINARY, "experiment", plan, "--into", alone, "--threads", "1"], check=True, capture_output=True)
+        shared.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=32k", "racebeam-test", shared], capture_output=True).returncode != 0:
+            self.skipTest("a file system cannot be mounted here")
+        self.addCleanup(subprocess.run, ["umount", "--lazy", shared], check=True)
+        job = self.cluster.submit("--array=1-2", "--output", self.results / "said-%a", SCRIPTS / "experiment.sbatch", plan, shared)
+        self.assertEqual(self.cluster.wait_for_end(job), {"FAILED"})
+        for number in (1, 2):
+            self.assertRegex((self.results / f"said-{number}").read_text(), r"(?m)^racebeam: cannot write .*: No space left on device$")
+        subprocess.run(["mount", "-o", "remount,size=64m", shared], check=True)
+        job = self.cluster.submit(SCRIPTS / "gather.sbatch", plan, shared)
+        self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"}, self.cluster.logs())
+        self.assertEqual(files(shared), files(alone))
+
+    def test_a_shard_number_beyond_the_plan_is_named(self):
+        job = self.cluster.submit("--array=0", "--output", self.results / "said", SCRIPTS / "experiment.sbatch", "smoke",
+                                  self.results / "shared")
+        self.assertEqual(self.cluster.wait_for_end(job), {"FAILED"})
+        self.assertEqual((self.results / "said").read_text(), "racebeam: --shard is '0/0'; it takes K/N, with K from 1 to N\n")
+        self.assertFalse((self.results / "shared").exists())
+
     def test_two_hundred_servers_of_one_array(self):
         began = time.monotonic()
         job = self.cluster.submit("--array=0-199", "--oversubscribe", SCRIPTS / "array.sbatch", "bash", "-c",
@@ -204,3 +231,26 @@ class Whole(Slurm):
         self.assertEqual(len(list(self.results.glob("found-*"))), 200)
         self.nothing_is_left()
         print(f"\n200 servers of one array job: {seconds:.1f} s, load {os.getloadavg()[0]:.1f}")
+
+    def test_steps_a_second_over_streams_and_over_sockets(self):
+        """Prints them: docs/scale.md."""
+        script = str(pathlib.Path(speed.__file__).resolve())
+        environment = self.cluster.environment
+
+        def streams(program):
+            done = subprocess.run([sys.executable, script, "--program", program], capture_output=True, text=True, check=True,
+                                  env=environment, timeout=slurm.PATIENCE)
+            return json.loads(done.stdout)
+
+        def between_steps():
+            job = self.cluster.submit("--nodes=2", "--ntasks-per-node=1", SCRIPTS / "nodes.sbatch",
+                                      "bash", "-c", f"((SLURM_PROCID)) || exec python3 {script} >{self.results}/found")
+            self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"}, self.cluster.logs())
+            return json.loads((self.results / "found").read_text())
+        found = {"pipes": streams(BINARY), "pipes, srun": streams(str(SCRIPTS / "racebeam-srun")), "TCP, two steps": between_steps()}
+        lengths = [{shown: one["length"] for shown, one in way.items()} for way in found.values()]
+        self.assertEqual(lengths, lengths[:1] * 3)
+        self.nothing_is_left()
+        print(f"\nsteps/s, load {os.getloadavg()[0]:.1f}\n{'':16}" + "".join(f"{name:>16}" for name in found) + f"{'bytes':>8}")
+        for shown, length in lengths[0].items():
+            print(f"{shown:16}" + "".join(f"{way[shown]['steps']:16.0f}" for way in found.values()) + f"{length:8}")

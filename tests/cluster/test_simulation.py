@@ -1,0 +1,141 @@
+"""cluster/simulate.py: simulations with a known end, and the lengths of units."""
+
+import dataclasses
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import slurm
+
+sys.path.insert(0, str(slurm.TOP / "cluster"))
+import simulate
+from simulate import Cluster
+
+BINARY = os.environ.get("RACEBEAM_BINARY", str(slurm.TOP / "build/release/racebeam"))
+HOUR = 3600
+
+
+def drawn(count, seed=1):
+    chance = random.Random(seed)
+    return [chance.uniform(60, 2 * HOUR) for _ in range(count)]
+
+
+class Simulations(unittest.TestCase):
+    def test_one_core_works_through_the_sum(self):
+        units = drawn(50)
+        run = simulate.simulate(units, Cluster(1))
+        self.assertAlmostEqual(run.elapsed, sum(units))
+        self.assertAlmostEqual(run.busy, sum(units))
+        self.assertEqual((run.lost, run.failures), (0, 0))
+
+    def test_an_example_by_hand(self):
+        # Two cores: 5 and 3 begin; 4 follows the 3 and ends at 7; 1 follows the 5 and ends at 6.
+        self.assertEqual(simulate.simulate([5, 3, 4, 1], Cluster(2)).elapsed, 7)
+        # Shards take every second unit: 5 + 4 and 3 + 1.
+        self.assertEqual(simulate.simulate([5, 3, 4, 1], Cluster(2), shards=2).elapsed, 9)
+
+    def test_the_bound_of_list_scheduling_holds(self):
+        for seed in range(20):
+            units = drawn(300, seed)
+            for cluster in (Cluster(7), Cluster(3, cores=8)):
+                cores = cluster.nodes * cluster.cores
+                elapsed = simulate.simulate(units, cluster).elapsed
+                self.assertGreaterEqual(elapsed, max(sum(units) / cores, max(units)))
+                self.assertLessEqual(elapsed, sum(units) / cores + max(units))
+
+    def test_slow_nodes_take_longer(self):
+        units = drawn(100)
+        whole = simulate.simulate(units, Cluster(4)).elapsed
+        self.assertAlmostEqual(simulate.simulate(units, Cluster(4, slow=1, slowness=3)).elapsed, 3 * whole)
+        some = [simulate.simulate(units, Cluster(4, slow=0.5, slowness=3), seed=seed).elapsed for seed in range(20)]
+        self.assertTrue(all(whole <= elapsed <= 3 * whole for elapsed in some))
+        self.assertGreater(len(set(some)), 1)
+
+    def test_failures_lose_what_came_after_the_checkpoint_and_nothing_else(self):
+        units = drawn(200)
+        cluster = Cluster(8, cores=4, failures=365 * 24, repair=HOUR, requeue=120, checkpoint=60)  # one an hour
+        for seed in range(10):
+            run = simulate.simulate(units, cluster, seed=seed)
+            self.assertGreater(run.failures, 5)
+            self.assertGreater(run.lost, 0)
+            self.assertLess(run.lost, run.failures * cluster.cores * cluster.checkpoint)
+            self.assertAlmostEqual(run.busy - run.lost, sum(units), places=3)  # all units are done, once
+            self.assertGreater(run.elapsed, simulate.simulate(units, dataclasses.replace(cluster, failures=0)).elapsed)
+
+    def test_slow_nodes_that_fail_do_all_units_once(self):
+        units = drawn(60)
+        cluster = Cluster(4, failures=365 * 24, slow=1, slowness=2)
+        run = simulate.simulate(units, cluster, seed=3)
+        self.assertGreater(run.failures, 0)
+        self.assertAlmostEqual(run.busy - run.lost, 2 * sum(units), places=3)
+
+    def test_the_fewest_nodes_are_enough_and_one_less_is_not(self):
+        units = [drawn(400, seed) for seed in range(5)]
+        within = 30 * HOUR
+        nodes = simulate.fewest_nodes(units, Cluster(1, cores=2), 0, within)
+        slowest = [simulate.summary(units, Cluster(count, cores=2), 0)[-1].elapsed for count in (nodes - 1, nodes)]
+        self.assertGreater(slowest[0], within)
+        self.assertLessEqual(slowest[1], within)
+        self.assertIsNone(simulate.fewest_nodes(units, Cluster(1), 0, HOUR))  # a unit takes longer
+
+
+PLAN = """games = ["beamfall", "updraft"]
+agents = ["random", "ram"]
+trials = 2
+training_episodes = 2
+evaluation_episodes = 2
+environment = "max_episode_frames=1000"
+[agent.random]
+trials = 1
+"""
+
+
+@unittest.skipUnless(os.path.exists(BINARY), f"there is no {BINARY}")
+class Units(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.place = pathlib.Path(place.name)
+        (self.place / "plan.toml").write_text(PLAN)
+
+    def experiment(self, *words):
+        return subprocess.run([BINARY, "experiment", str(self.place / "plan.toml"), *words], capture_output=True, text=True,
+                              check=True).stdout
+
+    def test_they_are_as_many_and_as_long_as_the_program_says(self):
+        agents = simulate.agents_of(self.experiment("--dry-run"))
+        self.assertEqual([(agent.name, agent.units) for agent in agents], [("random", 2), ("ram", 4)])
+        lengths = simulate.lengths_of(agents, {}, random.Random(1))
+        self.assertEqual(len(lengths), 6)
+        self.assertEqual(lengths[:3], lengths[3:])  # a game after the other
+        with self.assertRaisesRegex(ValueError, "has no line such as"):
+            simulate.agents_of("racebeam: there is no plan\n")
+
+    def test_a_pilot_tells_what_was_measured(self):
+        results = self.place / "results"
+        self.experiment("--into", str(results), "--threads", "1")
+        measured = simulate.pilot_of(results)
+        self.assertEqual({agent: len(units) for agent, units in measured.items()}, {"random": 2, "ram": 4})
+        for part, seconds in measured["ram"]:
+            self.assertTrue(0 < part <= 1 and 0 < seconds < 1, (part, seconds))
+        # The plan of the pilot takes as long as the pilot took, but for the draws.
+        agents = simulate.agents_of(self.experiment("--dry-run"))
+        took = sum(float(row["training_seconds"]) + float(row["evaluation_seconds"]) for row in simulate.rows_of(results / "times.csv"))
+        means = {agent: [tuple(sum(values) / len(values) for values in zip(*units))] for agent, units in measured.items()}
+        self.assertAlmostEqual(sum(simulate.lengths_of(agents, means, random.Random(1))) / took, 1, delta=0.25)
+
+    def test_the_command_prints_a_row_for_each_number_of_nodes(self):
+        command = [sys.executable, slurm.TOP / "cluster/simulate.py", "smoke", "--program", BINARY, "--cores", "2", "--runs", "3"]
+        done = subprocess.run([*command, "--nodes", "1", "2", "--within", "1000"], capture_output=True, text=True, check=True)
+        self.assertRegex(done.stdout, r"^\d+ units, [\d.]+ core-hours, longest unit [\d.]+ hours\n +nodes .*\n +1 +2 .*\n +2 +4 .*\n +1 +2 .*\n$")
+        done = subprocess.run([*command, "--within", "0.00001"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (1, "no number of nodes is enough for 1e-05 hours\n"))
+        done = subprocess.run([*command, "--nodes", "1", "--pilot", "/nowhere"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (1, "cannot read /nowhere/plan.toml: No such file or directory\n"))
+        done = subprocess.run([*command[:2], "nothing", "--program", BINARY], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("there is no plan 'nothing'", done.stderr)
