@@ -2,12 +2,14 @@
 
 import os
 import pathlib
+import shutil
+import subprocess
 import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MOST_SUBJECTS = 25
-NOT_OURS = {"build", "__pycache__"}  # and names that begin with a dot
+NOT_OURS = {"build", "__pycache__", "node_modules"}  # and names that begin with a dot
 DATA = ("games/catalogue", "fuzz/corpora", "docs/spec")  # folders of files of one kind
 
 
@@ -19,7 +21,8 @@ def folders(root):
 
 
 def subjects(inside, files):
-    """The subjects of a folder. A header and its source are one; so is a folder."""
+    """The subjects of a folder. A header and its source are one; so is a folder. At the root, only folders count: readers and
+    tools look for its files there."""
     return {pathlib.Path(name).stem for name in files} | set(inside)
 
 
@@ -27,7 +30,7 @@ def crowded(root):
     """The folders with too many subjects, with their number."""
     found = {}
     for path, inside, files in folders(root):
-        count = len(subjects(inside, files))
+        count = len(subjects(inside, files if path.name else []))
         if count > MOST_SUBJECTS and not path.as_posix().startswith(DATA):
             found[path.as_posix()] = count
     return found
@@ -57,6 +60,12 @@ class Tree(unittest.TestCase):
 
     def test_no_folder_has_too_many_subjects(self):
         self.assertEqual(crowded(ROOT), {})
+
+    @unittest.skipUnless((ROOT / ".git").exists() and shutil.which("git"), "this is no checkout")
+    def test_nothing_that_is_ignored_is_in_the_tree(self):
+        command = ["git", "ls-files", "--cached", "--ignored", "--exclude-standard"]
+        listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+        self.assertEqual(listed.splitlines(), [])
 
     def test_no_link_leads_out(self):
         self.assertEqual(leaving_links(ROOT), [])

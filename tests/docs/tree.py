@@ -4,7 +4,7 @@ import os
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-NOT_OURS = {"build", "__pycache__"}  # and all that begin with a dot, but .github and .ci
+NOT_OURS = {"build", "__pycache__", "node_modules"}  # and all that begin with a dot, but .github and .ci
 
 
 def files(root=ROOT):
