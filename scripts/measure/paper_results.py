@@ -1,32 +1,22 @@
 #!/usr/bin/env python3
-"""Writes docs/results.md from folders of results, so that no figure is typed by hand.
+"""Writes docs/results.md from the figures of docs/results/figures, so that no figure is typed by hand.
 
-    paper_results.py FOLDER [--into FILE]
+    paper_results.py [FOLDER] [--into FILE]
 
-FOLDER has a folder of results for each plan of PLANS, as `racebeam experiment PLAN --into FOLDER/PLAN` makes it. Beside
-these it may have, and a section of the document is about each:
-
-    machine.txt             lines "KEY: VALUE": where and with what the plans were run
-    PLAN.verify             what `racebeam verify FOLDER/PLAN` printed; then a line "processor seconds: N"
-    PLAN.ale                what `scripts/check/verify-with-ale FOLDER/PLAN` printed
-    bench/GAME-search.json  what `racebeam bench --rom GAME --frame-skip 5 --search --json` printed
-    bench/GAME-none.json    what `racebeam bench --rom GAME --frame-skip 5 --screen none --json` printed
-
-A plan without results that are whole is said to be not run yet. Published scores are those of evaluation/.
+FOLDER has PLAN.json for plans of PLANS, as scripts/measure/plan_figures.py gathers them; docs/results/figures unless it is
+named. A plan without figures is said to be not run yet. Published scores are those of evaluation/.
 """
 
 import argparse
-import collections
-import csv
 import json
 import pathlib
 import re
 import statistics
 import sys
 import textwrap
-import tomllib
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from plan_figures import FIGURES, ROOT, table
+
 PUBLISHED = ROOT / "evaluation/racebeam_evaluation/data"
 WIDTH = 100
 
@@ -34,11 +24,7 @@ PLANS = ("baselines", "hour", "basic", "uct", "uct10", "uct50", "uct150", "full_
 LEARNERS = {"basic": 8000, "lsh": 4000, "disco": 3000, "bass": 1000, "ram": 500}  # decisions a second: the goals
 SEARCH_GOALS = {("uct", "boxing"): 95, ("uct", "asterix"): 100000, ("uct", "seaquest"): 2500}
 SIMULATIONS = {10: "uct10", 50: "uct50", 150: "uct150", 500: "uct"}
-
-
-def table(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
+MACHINE = ("processor", "version")  # of machine.txt: what the table of plans shows
 
 
 def published(name):
@@ -50,52 +36,6 @@ def published(name):
 def paper():
     learners, planners, successors = map(published, ("paper2013/learners", "paper2013/planners", "successors"))
     return {game: learners[game] | planners[game] | successors.get(game, {}) for game in learners}
-
-
-class Results:
-    """The results of one plan."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        self.plan = tomllib.loads((folder / "plan.toml").read_text())
-        self.rows = [row for row in table(folder / "results.csv") if row["end"] != "diverged"]
-        self.diverged = len(table(folder / "results.csv")) - len(self.rows)
-        self.times = {row["unit"]: {name: float(value) for name, value in row.items() if name != "unit"}
-                      for row in table(folder / "times.csv")}
-
-    def scores(self, agent):
-        """{game: score}: the mean over trials of the mean over their episodes."""
-        trials = {}
-        for row in self.rows:
-            if row["agent"] == agent:
-                trials.setdefault(row["game"], {}).setdefault(row["trial"], []).append(float(row["score"]))
-        return {game: statistics.mean(map(statistics.mean, each.values())) for game, each in trials.items()}
-
-    def best(self, kind):
-        """{game: (score, action)} of the best of the 18 agents of a kind."""
-        found = {}
-        for agent in dict.fromkeys(row["agent"] for row in self.rows if row["agent"].startswith(kind + "_")):
-            for game, score in self.scores(agent).items():
-                if game not in found or score > found[game][0]:
-                    found[game] = score, agent.removeprefix(kind + "_")
-        return found
-
-    def seconds(self):
-        return sum(times["training_seconds"] + times["evaluation_seconds"] for times in self.times.values())
-
-    def speeds(self, agent):
-        """Decisions a second of each game, training and evaluation."""
-        skip = self.plan["agent"][agent]["frame_skip"]
-        frames, seconds = collections.Counter(), collections.Counter()
-        for unit, game in {row["unit"]: row["game"] for row in self.rows if row["agent"] == agent}.items():
-            for part in ("training", "evaluation"):
-                frames[game] += self.times[unit][part + "_frames"]
-                seconds[game] += self.times[unit][part + "_seconds"]
-        return {game: frames[game] / skip / seconds[game] for game in frames}
-
-    def log_sizes(self, agents):
-        return [(self.folder / "logs" / row["unit"] / f"{row['episode']}.episode").stat().st_size
-                for row in self.rows if row["agent"] in agents]
 
 
 def number(value, digits=1):
@@ -113,11 +53,21 @@ def prose(text):
     return textwrap.fill(" ".join(text.split()), WIDTH, break_long_words=False, break_on_hyphens=False)
 
 
+def episodes(found):
+    return sum(count for games in found["episodes"].values() for count in games.values())
+
+
+def best(found, kind):
+    """{game: (score, action)} of the best of the 18 agents of a kind."""
+    scores = {agent.removeprefix(kind + "_"): each for agent, each in found["scores"].items() if agent.startswith(kind + "_")}
+    return {game: max(((each[game], action) for action, each in scores.items() if game in each), key=lambda pair: pair[0])
+            for game in found["games"]}
+
+
 class Document:
     def __init__(self, folder):
-        self.folder = folder
-        self.results = {name: Results(folder / name) for name in PLANS
-                        if (folder / name / "results.csv").exists() and not (folder / name / "work").exists()}
+        self.figures = {name: json.loads((folder / f"{name}.json").read_text()) for name in PLANS
+                        if (folder / f"{name}.json").exists()}
         self.paper = paper()
         self.parts = []
 
@@ -129,7 +79,7 @@ class Document:
 
     def lacks(self, *names):
         """Says which of the plans were not run, and returns whether one was not."""
-        missing = [name for name in names if name not in self.results]
+        missing = [name for name in names if name not in self.figures]
         for name in missing:
             self.say(f"Not run yet: `racebeam experiment {name}`.")
         return bool(missing)
@@ -151,22 +101,20 @@ class Document:
     def introduction(self):
         self.add("# Results of the paper's benchmark")
         self.say("""This document has the scores that racebeam's agents reach, beside those that were published. `scripts/measure/paper_results.py`
-            writes it from folders of results; no figure is typed by hand. "The paper" is Bellemare et al. 2013. Where it is
+            writes it from figures that `scripts/measure/plan_figures.py` gathered from the results of each plan; no figure is typed by hand. "The paper" is Bellemare et al. 2013. Where it is
             silent, [paper-notes.md](paper-notes.md) says what racebeam does.""")
 
     def conditions(self):
         self.add("## Commands, machine, versions")
-        machine = self.folder / "machine.txt"
-        if machine.exists():
-            self.add(rows_of(["what", "value"], *(line.split(": ", 1) for line in machine.read_text().splitlines())))
-        self.say("""The plans are part of the program. Each was run by `racebeam experiment PLAN --into FOLDER/PLAN --roms DIR`. Times are
+        self.say("""The plans are part of the program. `scripts/measure/paper_plans FOLDER PLAN` runs a plan, verifies its rows, and gathers its figures. Times are
             seconds of processor time, so that other programs hardly change them.""")
         rows = []
         for name in PLANS:
-            found = self.results.get(name)
-            rows.append([f"`{name}`", *([f"{len(found.times):,}", f"{len(found.rows):,}", str(found.diverged),
-                                         number(found.seconds() / 3600, 2)] if found else ["not run yet", "-", "-", "-"])])
-        self.add(rows_of(["plan", "units", "episodes", "trials that diverged", "core-hours"], *rows))
+            found = self.figures.get(name)
+            rows.append([f"`{name}`", *([f"{found['units']:,}", f"{episodes(found):,}", str(found["diverged"]),
+                                         number(found["seconds"] / 3600, 2), *(found["machine"].get(key, "-") for key in MACHINE)]
+                                        if found else ["not run yet", *["-"] * (3 + len(MACHINE))])])
+        self.add(rows_of(["plan", "units", "episodes", "trials that diverged", "core-hours", *MACHINE], *rows))
 
     def scale(self):
         self.add("## What was scaled down")
@@ -199,17 +147,17 @@ class Document:
         self.add("## Baselines")
         if self.lacks("baselines"):
             return
-        found = self.results["baselines"]
-        random, const, perturb = found.scores("random"), found.best("const"), found.best("perturb")
+        found = self.figures["baselines"]
+        random, const, perturb = found["scores"]["random"], best(found, "const"), best(found, "perturb")
         rows = []
-        for game in found.plan["games"]:
+        for game in found["games"]:
             theirs = self.paper.get(game, {})
             rows.append([game, number(random[game]), number(theirs.get("random")),
                          number(const[game][0]), const[game][1], number(theirs.get("const")),
                          number(perturb[game][0]), perturb[game][1], number(theirs.get("perturb"))])
         near = [game for game in random if game != "skiing" and game in self.paper and
                 abs(random[game] - self.paper[game]["random"]) <= abs(self.paper[game]["random"]) / 5]
-        self.say(f"""Means of {found.plan['agent']['random']['evaluation_episodes']} episodes. Const and Perturb are the best of 18 policies, with
+        self.say(f"""Means of {found['settings']['random']['evaluation_episodes']} episodes. Const and Perturb are the best of 18 policies, with
             its action. In {len(near)} of {len(random)} games, the score of Random is within a fifth of the paper's.""")
         self.add(rows_of(["game", "Random", "paper", "Const", "action", "paper's Const", "Perturb", "action of Perturb", "paper's Perturb"],
                          *rows))
@@ -218,21 +166,20 @@ class Document:
         self.add("## Learners, in an hour")
         if self.lacks("hour"):
             return
-        found = self.results["hour"]
-        agents = [agent for agent in found.plan["agents"] if agent in LEARNERS]
-        random = found.scores("random")
-        scores = {agent: found.scores(agent) for agent in agents}
-        trial = found.plan["agent"][agents[0]]
+        found = self.figures["hour"]
+        scores = found["scores"]
+        agents = [agent for agent in scores if agent in LEARNERS]
+        random, trial = scores["random"], found["settings"][agents[0]]
         self.say(f"""{trial['trials']} trials of {trial['training_frames'] // trial['frame_skip']:,} decisions and
-            {trial['evaluation_episodes']} evaluation episodes each. All took {number(found.seconds() / 7200, 2)} hours of processor time on
+            {trial['evaluation_episodes']} evaluation episodes each. All took {number(found["seconds"] / 7200, 2)} hours of processor time on
             each of two cores (goal: 1, at most 1.5), the discovery of backgrounds and classes not included. In brackets: the paper's
             scores, after 5,000 episodes.""")
         self.add(rows_of(["game", "Random", *agents], *(
             [game, f"{number(random[game])} ({number(self.paper[game]['random'])})",
              *(f"{number(scores[agent].get(game))} ({number(self.paper[game][agent])})" for agent in agents)]
-            for game in found.plan["games"])))
+            for game in found["games"])))
         self.say("Games in which each learner is better than Random (goal: at least three), and its speed, emulation included:")
-        speeds = {agent: found.speeds(agent) for agent in agents}
+        speeds = found["speeds"]
         self.add(rows_of(["learner", "games above Random", "decisions a second, mean of the games", "lowest", "highest", "goal"], *(
             [agent, str(sum(scores[agent].get(game, random[game]) > random[game] for game in random)),
              number(statistics.mean(speeds[agent].values()), 0), number(min(speeds[agent].values()), 0),
@@ -244,11 +191,11 @@ class Document:
         self.add("## Basic, for 2,000,000 decisions")
         if self.lacks("basic"):
             return
-        found = self.results["basic"]
-        scores, random = found.scores("basic"), found.scores("random")
+        found = self.figures["basic"]
+        scores, random = found["scores"]["basic"], found["scores"]["random"]
         self.add(rows_of(["game", "Basic", "paper's Basic", "Random"], *(
             [game, number(scores.get(game)), number(self.paper[game]["basic"]), number(random[game])]
-            for game in found.plan["games"])))
+            for game in found["games"])))
 
     def searches(self):
         self.add("## Search")
@@ -257,18 +204,17 @@ class Document:
         for name in ("uct", "full_tree", "iw1"):
             if self.lacks(name):
                 continue
-            found = self.results[name]
-            for row in found.rows:
-                times = found.times[row["unit"]]
-                seconds = times["evaluation_seconds"] / int(row["decisions"])
+            found = self.figures[name]
+            for episode in found["searches"]:
+                game, score = episode["game"], episode["score"]
+                seconds = episode["seconds"] / episode["decisions"]
                 if name == "uct":
                     seconds_of_uct.append(seconds)
-                speed = times["searched_frames"] / times["evaluation_seconds"]
-                bench = self.bench(row["game"], "search")
-                goal = SEARCH_GOALS.get((name, row["game"]))
-                rows.append([name, row["game"], number(float(row["score"])), number(self.paper[row["game"]].get(name)),
-                             number(goal, 0), f"{int(row['decisions']):,}", number(seconds, 2), number(speed, 0),
-                             number(speed / bench, 2) if bench else "-"])
+                speed = episode["searched_frames"] / episode["seconds"]
+                bench = found["bench"]["search"].get(game)
+                rows.append([name, game, number(score), number(self.paper[game].get(name)),
+                             number(SEARCH_GOALS.get((name, game)), 0), f"{episode['decisions']:,}", number(seconds, 2),
+                             number(speed, 0), number(speed / bench, 2) if bench else "-"])
         if rows:
             self.say("""One episode each, at the full budget of a decision. The last column compares with
                 `racebeam bench --search --frame-skip 5`.""")
@@ -278,19 +224,15 @@ class Document:
             self.say(f"""UCT takes {number(statistics.mean(seconds_of_uct), 2)} seconds a decision in the mean (goal: at most 1; the paper's
                 took 15).""")
 
-    def bench(self, game, kind):
-        path = self.folder / f"bench/{game}-{kind}.json"
-        return json.loads(path.read_text())["frames_per_second"] if path.exists() else None
-
     def simulations(self):
         self.add("## UCT: score against simulations")
-        if self.lacks(*(name for name in SIMULATIONS.values() if name != "uct")) or "uct" not in self.results:
+        if self.lacks(*(name for name in SIMULATIONS.values() if name != "uct")) or "uct" not in self.figures:
             return
         self.say("Means of the episodes, whose number is in brackets.")
-        each = {count: self.results[name] for count, name in SIMULATIONS.items()}
-        games = self.results[SIMULATIONS[10]].plan["games"]
+        each = {count: self.figures[name] for count, name in SIMULATIONS.items()}
+        games = each[10]["games"]
         self.add(rows_of(["game", *(f"{count} simulations" for count in each)], *(
-            [game, *(f"{number(found.scores('uct').get(game))} ({sum(row['game'] == game for row in found.rows)})"
+            [game, *(f"{number(found['scores']['uct'].get(game))} ({found['episodes']['uct'].get(game, 0)})"
                      for found in each.values())] for game in games)))
 
     def verification(self):
@@ -298,26 +240,20 @@ class Document:
         self.say("""`racebeam verify` plays each episode again from its log. It confirms score, frames, end and state hashes. That proves
             that these actions give this score, not which agent chose them ([episodes.md](episodes.md)).
             `scripts/check/verify-with-ale` plays the same logs in ALE.""")
-        rows = []
-        for name, found in self.results.items():
-            path = self.folder / f"{name}.verify"
-            if not path.exists():
-                continue
-            printed = path.read_text()
-            counts = re.search(r"(\d+) rows confirmed, (\d+) wrong, (\d+) could not be checked; (\d+) frames", printed)
-            seconds = float(re.search(r"processor seconds: ([0-9.]+)", printed)[1])
-            ale = self.folder / f"{name}.ale"
-            agreed = re.search(r"(\d+) rows agree with ALE, (\d+) do not, (\d+) have no image", ale.read_text()) if ale.exists() else None
-            rows.append([f"`{name}`", *(f"{int(count):,}" for count in counts.groups()[:3]), number(int(counts[4]) / seconds, 0),
-                         number(100 * seconds / found.seconds(), 1) + "%",
-                         f"{int(agreed[1]):,}" if agreed else "-", f"{int(agreed[2]):,}" if agreed else "-"])
+        rows, none = [], {}
+        for name, found in self.figures.items():
+            none |= found["bench"]["none"]
+            verified, ale = found["verified"], found["ale"] or {}
+            if verified:
+                rows.append([f"`{name}`", *(f"{verified[key]:,}" for key in ("confirmed", "wrong", "not_checked")),
+                             number(verified["frames"] / verified["seconds"], 0),
+                             number(100 * verified["seconds"] / found["seconds"], 1) + "%",
+                             *(f"{ale[key]:,}" if ale else "-" for key in ("agree", "differ"))])
         if not rows:
             self.say("Not run yet.")
             return
         self.add(rows_of(["plan", "confirmed", "wrong", "not checked", "frames a second and core", "of the time of the run",
                           "ALE agrees", "ALE does not"], *rows))
-        none = {path.name.split("-")[0]: self.bench(path.name.split("-")[0], "none")
-                for path in sorted(self.folder.glob("bench/*-none.json"))}
         if none:
             self.say("`racebeam bench --screen none --frame-skip 5`, frames a second: " +
                      ", ".join(f"{game} {number(speed, 0)}" for game, speed in none.items()) + ".")
@@ -325,24 +261,22 @@ class Document:
     def logs(self):
         self.add("## Logs")
         rows = []
-        for name, agents, goal, measure in (("baselines", ("random",), "at most 12,288", max),
-                                            ("hour", tuple(LEARNERS), "under 2,048", statistics.median)):
-            if name in self.results:
-                sizes = self.results[name].log_sizes(agents)
-                rows.append([f"`{name}`", ", ".join(agents), {max: "largest", statistics.median: "median"}[measure],
-                             number(measure(sizes), 0), goal])
+        for name, agents, measure, goal in (("baselines", ("random",), "largest", "at most 12,288"),
+                                            ("hour", tuple(LEARNERS), "median", "under 2,048")):
+            sizes = self.figures[name]["log_bytes"] if name in self.figures else {}
+            rows += [[f"`{name}`", agent, measure, number(sizes[agent][measure], 0), goal] for agent in agents if agent in sizes]
         if rows:
-            self.add(rows_of(["plan", "agents", "size of", "bytes", "goal"], *rows))
+            self.add(rows_of(["plan", "agent", "size of", "bytes", "goal"], *rows))
         else:
             self.say("Not run yet.")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("folder", type=pathlib.Path, nargs="?", default=FIGURES)
     parser.add_argument("--into", type=pathlib.Path, default=ROOT / "docs/results.md")
     options = parser.parse_args()
-    if not options.folder.is_dir():
+    if options.folder != FIGURES and not options.folder.is_dir():
         sys.exit(f"paper_results.py: there is no folder {options.folder}")
     options.into.write_text(Document(options.folder).text())
 

@@ -1,4 +1,4 @@
-"""scripts/measure/paper_results.py: what is in docs/results.md follows from the folders of results."""
+"""scripts/measure/plan_figures.py and paper_results.py: docs/results.md follows from the folders of results."""
 
 import json
 import pathlib
@@ -7,6 +7,7 @@ import tempfile
 import unittest
 
 import paper_results
+import plan_figures
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
 import layout  # noqa: E402
@@ -41,15 +42,24 @@ class PaperResults(unittest.TestCase):
         self.folder = pathlib.Path(place.name)
 
     def text(self):
-        return paper_results.Document(self.folder).text()
+        """The document, by way of the files of figures."""
+        figures = self.folder / "figures"
+        figures.mkdir(exist_ok=True)
+        for plan in self.folder.glob("*/plan.toml"):
+            (figures / f"{plan.parent.name}.json").write_text(json.dumps(plan_figures.Results(plan.parent).figures()))
+        return paper_results.Document(figures).text()
 
     def test_plans_without_whole_results_are_said_to_be_not_run(self):
-        results(self.folder / "uct", ["uct"], {"uct": [[5]]})
-        (self.folder / "uct/work").mkdir()
         text = self.text()
         for plan in paper_results.PLANS:
             self.assertIn(f"| `{plan}` | not run yet |", text)
         self.assertIn("Not run yet: `racebeam experiment uct`.", text)
+
+    def test_unfinished_results_are_refused(self):
+        results(self.folder / "uct", ["uct"], {"uct": [[5]]})
+        (self.folder / "uct/work").mkdir()
+        with self.assertRaisesRegex(SystemExit, "units are left"):
+            plan_figures.Results(self.folder / "uct")
 
     def test_baselines_stand_beside_the_paper(self):
         results(self.folder / "baselines", ["random", "const", "perturb"],
@@ -81,10 +91,11 @@ class PaperResults(unittest.TestCase):
         self.assertIn("| `iw1` | 1 | 0 | 0 | 20,000 | 2.0% | 1 | 0 |", self.text())
 
     def test_the_document_is_laid_out_as_all_are(self):
-        write(self.folder / "machine.txt", ["processor: one", "cores: 2"])
+        results(self.folder / "uct", ["uct"], {"uct": [[5]]})
+        write(self.folder / "machine.txt", ["processor: one", "version: 0.1.0"])
         text = self.text()
         self.assertEqual([*layout.width_faults(text), *layout.table_faults(text)], [])
-        self.assertIn("| processor | one |", text)
+        self.assertIn("| `uct` | 1 | 1 | 0 | 0.00 | one | 0.1.0 |", text)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""Gathers the figures of a plan's results into a small file that the tree keeps, for scripts/measure/paper_results.py.
+
+    plan_figures.py FOLDER/PLAN [--into FILE]
+
+FOLDER/PLAN is what `racebeam experiment PLAN --into FOLDER/PLAN` makes, and whole. FOLDER may have besides:
+
+    machine.txt             lines "KEY: VALUE": where and with what the plan was run
+    PLAN.verify             what `racebeam verify FOLDER/PLAN` printed; then a line "processor seconds: N"
+    PLAN.ale                what `scripts/check/verify-with-ale FOLDER/PLAN` printed
+    bench/GAME-search.json  what `racebeam bench --rom GAME --frame-skip 5 --search --json` printed
+    bench/GAME-none.json    what `racebeam bench --rom GAME --frame-skip 5 --screen none --json` printed
+
+FILE is docs/results/figures/PLAN.json unless it is named.
+"""
+
+import argparse
+import collections
+import csv
+import json
+import pathlib
+import re
+import statistics
+import sys
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FIGURES = ROOT / "docs/results/figures"
+PARTS = ("training", "evaluation")
+
+
+def table(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Results:
+    """The results of one plan. Rows of trials that diverged are counted, and left out of all else."""
+
+    def __init__(self, folder):
+        if not (folder / "results.csv").exists() or (folder / "work").exists():
+            sys.exit(f"plan_figures.py: {folder} has no results, or units are left: `racebeam experiment` finishes it")
+        self.folder = folder
+        self.plan = tomllib.loads((folder / "plan.toml").read_text())
+        rows = table(folder / "results.csv")
+        self.rows = [row for row in rows if row["end"] != "diverged"]
+        self.diverged = len(rows) - len(self.rows)
+        self.times = {row["unit"]: {name: float(value) for name, value in row.items() if name != "unit"}
+                      for row in table(folder / "times.csv")}
+        self.agents = list(dict.fromkeys(row["agent"] for row in self.rows))
+
+    def beside(self, name):
+        """The text of a file beside the folder of results, or nothing."""
+        path = self.folder.parent / name
+        return path.read_text() if path.exists() else None
+
+    def scores(self, agent):
+        """{game: score}: the mean over trials of the mean over their episodes."""
+        trials = {}
+        for row in self.rows:
+            if row["agent"] == agent:
+                trials.setdefault(row["game"], {}).setdefault(row["trial"], []).append(float(row["score"]))
+        return {game: statistics.mean(map(statistics.mean, each.values())) for game, each in trials.items()}
+
+    def settings(self, agent):
+        """The settings of an agent, or of all agents of its kind: const_noop has those of const."""
+        named = self.plan["agent"]
+        return named.get(agent) or named[agent.split("_")[0]]
+
+    def speeds(self, agent):
+        """Decisions a second in each game, training and evaluation together."""
+        frames, seconds = collections.Counter(), collections.Counter()
+        for unit, game in {row["unit"]: row["game"] for row in self.rows if row["agent"] == agent}.items():
+            for part in PARTS:
+                frames[game] += self.times[unit][part + "_frames"]
+                seconds[game] += self.times[unit][part + "_seconds"]
+        return {game: frames[game] / self.settings(agent)["frame_skip"] / seconds[game] for game in frames if seconds[game]}
+
+    def log_bytes(self, agent):
+        sizes = [(self.folder / "logs" / row["unit"] / f"{row['episode']}.episode").stat().st_size
+                 for row in self.rows if row["agent"] == agent]
+        return {"median": statistics.median(sizes), "largest": max(sizes)}
+
+    def searches(self):
+        """An entry for each episode of an agent that searches."""
+        return [{"agent": row["agent"], "game": row["game"], "score": float(row["score"]), "decisions": int(row["decisions"]),
+                 "seconds": times["evaluation_seconds"], "searched_frames": times["searched_frames"]}
+                for row in self.rows if (times := self.times[row["unit"]])["searched_frames"]]
+
+    def machine(self):
+        text = self.beside("machine.txt")
+        return dict(line.split(": ", 1) for line in text.splitlines()) if text else {}
+
+    def verified(self):
+        text = self.beside(f"{self.folder.name}.verify")
+        if text is None:
+            return None
+        names = ("confirmed", "wrong", "not_checked", "frames")
+        counts = re.search(r"(\d+) rows confirmed, (\d+) wrong, (\d+) could not be checked; (\d+) frames", text).groups()
+        seconds = float(re.search(r"processor seconds: ([0-9.]+)", text)[1])
+        return {**dict(zip(names, map(int, counts))), "seconds": seconds}
+
+    def ale(self):
+        text = self.beside(f"{self.folder.name}.ale")
+        if text is None:
+            return None
+        counts = re.search(r"(\d+) rows agree with ALE, (\d+) do not, (\d+) have no image", text).groups()
+        return dict(zip(("agree", "differ", "no_image"), map(int, counts)))
+
+    def bench(self, game, kind):
+        text = self.beside(f"bench/{game}-{kind}.json")
+        return json.loads(text)["frames_per_second"] if text else None
+
+    def figures(self):
+        return {
+            "machine": self.machine(),
+            "games": self.plan["games"],
+            "settings": {agent: {name: self.settings(agent).get(name) for name in
+                                 ("frame_skip", "trials", "training_frames", "evaluation_episodes")} for agent in self.plan["agents"]},
+            "units": len(self.times),
+            "episodes": {agent: dict(collections.Counter(row["game"] for row in self.rows if row["agent"] == agent))
+                         for agent in self.agents},
+            "diverged": self.diverged,
+            "seconds": sum(times[part + "_seconds"] for times in self.times.values() for part in PARTS),
+            "scores": {agent: self.scores(agent) for agent in self.agents},
+            "speeds": {agent: self.speeds(agent) for agent in self.agents},
+            "log_bytes": {agent: self.log_bytes(agent) for agent in self.agents},
+            "searches": self.searches(),
+            "bench": {kind: {game: speed for game in self.plan["games"] if (speed := self.bench(game, kind))}
+                      for kind in ("search", "none")},
+            "verified": self.verified(),
+            "ale": self.ale(),
+        }
+
+
+def rounded(value):
+    """The value with its numbers cut to six significant digits, so that the file is small."""
+    if isinstance(value, dict):
+        return {name: rounded(each) for name, each in value.items()}
+    if isinstance(value, list):
+        return [rounded(each) for each in value]
+    return float(f"{value:.6g}") if isinstance(value, float) else value
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--into", type=pathlib.Path)
+    options = parser.parse_args()
+    into = options.into or FIGURES / f"{options.folder.name}.json"
+    text = json.dumps(rounded(Results(options.folder).figures()), indent=1) + "\n"
+    into.parent.mkdir(parents=True, exist_ok=True)
+    into.write_text(text)
+
+
+if __name__ == "__main__":
+    main()
