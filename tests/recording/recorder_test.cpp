@@ -107,5 +107,5 @@ TEST_CASE("A recording that is never released does not hold up the end") {
     recorder.end(10ms);
     CHECK(!recorder.idle());
   }
-  CHECK(std::chrono::steady_clock::now() - start < 2s);
+  CHECK(std::chrono::steady_clock::now() - start < 20s);  // a machine may be busy; the fault would never end
 }
