@@ -105,7 +105,7 @@ class Connection(socketserver.StreamRequestHandler):
 
     def connections(self):
         """How many connections are open, this one counted: more than one if a client leaks them."""
-        until = time.monotonic() + 5
+        until = time.monotonic() + PATIENCE
         while (count := len(self.server.connections)) > 1 and time.monotonic() < until:
             time.sleep(0.01)
         return self.say(f"ok open={count}\n".encode())
@@ -136,10 +136,14 @@ class Server(socketserver.ThreadingTCPServer):
         return f"tcp://127.0.0.1:{self.server_address[1]}"
 
 
+TAKEN = []  # sockets that are bound but do not listen: no other program gets their ports
+
+
 def closed_address():
-    """Where nothing listens."""
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        return f"tcp://127.0.0.1:{free.getsockname()[1]}"
+    """Where nothing listens, as long as this process runs."""
+    TAKEN.append(socket.socket())
+    TAKEN[-1].bind(("127.0.0.1", 0))
+    return f"tcp://127.0.0.1:{TAKEN[-1].getsockname()[1]}"
 
 
 def start():

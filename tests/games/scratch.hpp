@@ -8,6 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace racebeam {
 
@@ -16,7 +17,10 @@ class Scratch {
   Scratch() : folder_((std::filesystem::temp_directory_path() / "racebeam-XXXXXX").string()) {
     if (!mkdtemp(folder_.data())) throw std::runtime_error("cannot make a temporary folder");
   }
-  ~Scratch() { std::filesystem::remove_all(folder_); }
+  ~Scratch() {
+    std::error_code ignored;  // a destructor must not throw
+    std::filesystem::remove_all(folder_, ignored);
+  }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 

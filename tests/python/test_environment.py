@@ -226,6 +226,8 @@ class BadInput(unittest.TestCase):
         self.refused(racebeam.InvalidInput, "there is no preset 'dqn'; there are ale,", make, "beamfall", preset="dqn")
         self.refused(racebeam.InvalidInput, "not a number", make, "beamfall", repeat_action_probability=float("nan"))
         self.refused(racebeam.InvalidInput, "beamfall has no mode for two", make, "beamfall", two_player=True)
+        for flag in ("two_player", "continuous", "sound", "sound_obs", "life_loss_ends", "full_action_space"):
+            self.refused(wrong, f"{flag} is array.*; it takes True or False", make, "beamfall", **{flag: np.ones(2, bool)})
 
     def test_actions(self):
         env = racebeam.AtariEnv("beamfall")

@@ -15,10 +15,10 @@ import racebeam
 from racebeam._core import View
 
 parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--calls", type=int, default=4000)
-parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(10**6))
+parser.add_argument("--calls", type=int, default=4000, help="of a run (default 4000)")
+parser.add_argument("--seed", type=int, default=1, help="of the first run; the next has one more (default 1)")
+parser.add_argument("--runs", type=int, default=8, help="default 8; scripts/check/python-fuzz draws others each time")
 options = parser.parse_args()
-print(f"seed {options.seed}")
 
 DOCUMENTED = (TypeError, racebeam.InvalidInput)
 LONGEST = 1000  # frames of an act
@@ -29,12 +29,11 @@ VALUES = [0, 1, -1, 2, 5, 17, 18, 99, 2**31 - 1, 2**31, 2**63, -2**70, 0.5, floa
           np.zeros(128, np.uint8), np.zeros(512, np.uint8), np.zeros((210, 160), np.uint8), np.zeros((210, 160, 3), np.uint8),
           np.zeros((420, 160), np.uint8)[::2], np.zeros((210, 160), np.int32)]
 
-chance = random.Random(options.seed)
+chance = random.Random()
 METHODS = [name for name in dir(racebeam.ALEInterface) if not name.startswith("_") and name != "saveScreenPNG"]
-states = []
 
 
-def arguments_of(method):
+def arguments_of(method, states):
     """Half of them sensible, so that games are played."""
     if chance.random() < 0.5:
         if method == "loadROM":
@@ -51,22 +50,32 @@ def is_too_long(method, arguments):
     return method == "step" and len(arguments) > 2 and isinstance(arguments[2], int) and arguments[2] > LONGEST
 
 
-ale = racebeam.ALEInterface()
-returned = refused = 0
-for call in range(options.calls):
-    method = chance.choice(METHODS)
-    arguments = arguments_of(method)
-    if is_too_long(method, arguments):
-        continue
-    try:
-        value = getattr(ale, method)(*arguments)
-        returned += 1
-    except DOCUMENTED:
-        refused += 1
-        continue
-    if isinstance(value, racebeam.ALEState):
-        states = [*states[-8:], chance.choice([value, racebeam.ALEState(value.serialize()), pickle.loads(pickle.dumps(value))])]
-    if call % 50 == 0:
-        ale = pickle.loads(pickle.dumps(ale))
-print(f"{returned} calls returned, {refused} were refused")
-sys.exit(not returned or not refused)
+def run():
+    """How many calls returned, and how many were refused."""
+    ale, states = racebeam.ALEInterface(), []
+    returned = refused = 0
+    for call in range(options.calls):
+        method = chance.choice(METHODS)
+        arguments = arguments_of(method, states)
+        if is_too_long(method, arguments):
+            continue
+        try:
+            value = getattr(ale, method)(*arguments)
+            returned += 1
+        except DOCUMENTED:
+            refused += 1
+            continue
+        if isinstance(value, racebeam.ALEState):
+            states = [*states[-8:], chance.choice([value, racebeam.ALEState(value.serialize()), pickle.loads(pickle.dumps(value))])]
+        if call % 50 == 0:
+            ale = pickle.loads(pickle.dumps(ale))
+    return returned, refused
+
+
+for seed in range(options.seed, options.seed + options.runs):
+    chance.seed(seed)
+    print(f"seed {seed}", flush=True)
+    returned, refused = run()
+    print(f"{returned} calls returned, {refused} were refused")
+    if not returned or not refused:
+        sys.exit(1)

@@ -15,13 +15,13 @@ import racebeam
 from racebeam import AtariVectorEnv
 
 parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--calls", type=int, default=1500)
-parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(10**6))
+parser.add_argument("--calls", type=int, default=1500, help="of a run (default 1500)")
+parser.add_argument("--seed", type=int, default=1, help="of the first run; the next has one more (default 1)")
+parser.add_argument("--runs", type=int, default=24, help="default 24; scripts/check/python-fuzz draws others each time")
 options = parser.parse_args()
-print(f"seed {options.seed}")
 
 DOCUMENTED = (TypeError, IndexError, racebeam.InvalidInput, Error)
-chance = random.Random(options.seed)
+chance = random.Random()
 
 # Sensible values of the arguments, so that most environments can be made.
 ARGUMENTS = {
@@ -53,23 +53,33 @@ def sensible_call(envs, states):
     return chance.choice(calls)
 
 
-returned = refused = 0
-envs, states = None, []
-for call in range(options.calls):
-    try:
-        if envs is None or chance.random() < 0.03:
-            envs = made()
-        method, arguments = sensible_call(envs, states)
-        named = {}
-        if chance.random() < 0.3:
-            arguments = [chance.choice(SENSELESS) for _ in arguments]
-            named = {name: chance.choice(SENSELESS) for name in ("seed", "options", "out") if method == "reset" and chance.random() < 0.5}
-        value = getattr(envs, method)(*arguments, **named)
-        returned += 1
-    except DOCUMENTED:
-        refused += 1
-        continue
-    if method == "save":
-        states = [*states[-8:], value]
-print(f"{returned} calls returned, {refused} were refused")
-sys.exit(not returned or not refused)
+def run():
+    """How many calls returned, and how many were refused."""
+    returned = refused = 0
+    envs, states = None, []
+    for _ in range(options.calls):
+        try:
+            if envs is None or chance.random() < 0.03:
+                envs = made()
+            method, arguments = sensible_call(envs, states)
+            named = {}
+            if chance.random() < 0.3:
+                arguments = [chance.choice(SENSELESS) for _ in arguments]
+                named = {name: chance.choice(SENSELESS) for name in ("seed", "options", "out") if method == "reset" and chance.random() < 0.5}
+            value = getattr(envs, method)(*arguments, **named)
+            returned += 1
+        except DOCUMENTED:
+            refused += 1
+            continue
+        if method == "save":
+            states = [*states[-8:], value]
+    return returned, refused
+
+
+for seed in range(options.seed, options.seed + options.runs):
+    chance.seed(seed)
+    print(f"seed {seed}", flush=True)
+    returned, refused = run()
+    print(f"{returned} calls returned, {refused} were refused")
+    if not returned or not refused:
+        sys.exit(1)

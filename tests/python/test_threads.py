@@ -3,6 +3,7 @@
 import gc
 import operator
 import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -26,6 +27,17 @@ def loaded(**settings):
         ale.setInt(key, value)
     ale.loadROM("builtin:beamfall")
     return ale
+
+
+def await_work(process):
+    """Waits until a process, which does nothing else, has worked for a fifth of a second."""
+    until = time.monotonic() + PATIENCE
+    def ticks():
+        fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+        return int(fields[11]) + int(fields[12])
+    goal = ticks() + os.sysconf("SC_CLK_TCK") // 5
+    while ticks() < goal and time.monotonic() < until:
+        time.sleep(0.01)
 
 
 class Threads(unittest.TestCase):
@@ -70,7 +82,7 @@ class Threads(unittest.TestCase):
                   "except KeyboardInterrupt: print('ended', env.ale.getFrameNumber() > 0)")
         process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
         self.assertEqual(process.stdout.readline(), "begins\n")
-        time.sleep(0.3)
+        await_work(process)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.communicate(timeout=PATIENCE)[0], "ended True\n")
 
@@ -89,7 +101,9 @@ class Threads(unittest.TestCase):
     def test_a_game_that_another_thread_used_at_the_fork_is_refused(self):
         script = ("import os, racebeam, threading, time\n"
                   "ale = racebeam.ALEInterface(); ale.setInt('frame_skip', 200_000_000); ale.loadROM('builtin:beamfall')\n"
-                  "thread = threading.Thread(target=ale.act, args=(1,)); thread.start(); time.sleep(0.1)\n"
+                  "thread = threading.Thread(target=ale.act, args=(1,)); thread.start()\n"
+                  "begin = time.process_time()\n"
+                  "while time.process_time() < begin + 0.05 and thread.is_alive(): time.sleep(0.001)\n"  # until it plays
                   "child = os.fork()\n"
                   "if child == 0:\n"
                   "    try: ale.getRAM()\n"

@@ -21,6 +21,7 @@ from gymnasium.wrappers.vector import DictInfoToList, RecordEpisodeStatistics
 import racebeam
 from racebeam import AtariVectorEnv, InvalidInput, ale_py
 
+FLAGS = ("full_action_space", "continuous", "grayscale", "maxpool", "episodic_life", "life_loss_info", "reward_clipping", "use_fire_reset")
 SHORT = {"max_num_frames_per_episode": 12, "noop_max": 0}  # three steps an episode
 
 
@@ -310,7 +311,7 @@ class BadInput(unittest.TestCase):
             "img_width": (-1, "84"), "stack_num": (0, 17), "noop_max": (-1, 1001), "repeat_action_probability": (-0.1, 1.1, float("nan"), "x"),
             "autoreset_mode": ("Never", None, 3), "lives": ("hurts",), "start": ("ale",), "stack_start": ("x",), "obs_type": ("sound",),
             "rules": ("x",), "render_mode": ("human",), "seed": (-1, 2**32, "x"), "mode": (-1, "x"), "thread_affinity_offset": (-2,),
-            "max_num_frames_per_episode": (-1, 2**31),
+            "max_num_frames_per_episode": (-1, 2**31), **{flag: (np.ones(2, bool), np.zeros((2, 3))) for flag in FLAGS},
         }.items():
             for value in values:
                 with self.subTest(**{name: value}), self.assertRaisesRegex(Error, name):

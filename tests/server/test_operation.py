@@ -61,13 +61,13 @@ class Limits(unittest.TestCase):
             wire.close()
 
     def test_a_session_that_is_idle_is_told_so_and_closed(self):
-        with serve("--idle", "1") as server:
+        with serve("--idle", "2") as server:
             busy, idle, stuck = (connect_tcp(server.port()) for _ in range(3))
             stuck.send(LOAD + b"observe rgb:hex\n" + b"look\n" * 200)  # never read
-            for _ in range(8):
+            for _ in range(14):
                 self.assertTrue(ask(busy, b"hello").startswith(b"ok "))
-                time.sleep(0.25)
-            self.assertTrue(idle.rest().startswith(b"error idle nothing came or went for 1 seconds"))
+                time.sleep(0.25)  # far less than the two seconds, though the machine is busy
+            self.assertTrue(idle.rest().startswith(b"error idle nothing came or went for 2 seconds"))
             server.wait_for("closed, it did not read")
             for wire in (busy, idle, stuck):
                 wire.close()
@@ -115,7 +115,7 @@ class Stopping(unittest.TestCase):
             self.assertEqual(server.wait(), 0)
 
     def test_sessions_that_stay_are_told_when_the_grace_is_over(self):
-        with serve("--grace", "1") as server:
+        with serve("--grace", "2") as server:
             wire = connect_tcp(server.port())
             ask(wire, b"hello")
             start = time.monotonic()
@@ -124,7 +124,7 @@ class Stopping(unittest.TestCase):
             self.assertEqual(wire.rest(), b"error stopping the server stops\n")
             wire.close()
             self.assertEqual(server.wait(), 0)
-            self.assertGreater(time.monotonic() - start, 0.9)
+            self.assertGreater(time.monotonic() - start, 1.9)
 
     def test_who_is_in_the_middle_of_a_request_is_told_too(self):
         with serve("--grace", "0", "--max-request-frames", "10000000") as server:

@@ -71,6 +71,8 @@ class Limits(unittest.TestCase):
 
 
 class Others(unittest.TestCase):
+    MOST = 0.2  # seconds, on a busy machine; the pictures of one request of the other client take longer than a second
+
     def test_they_do_not_wait_for_pictures(self):
         with serve("--threads", "1", "--record-dir", ".", "--max-request-frames", "100000000") as server:
             recorder, other = connect_tcp(server.port()), connect_tcp(server.port())
@@ -86,7 +88,7 @@ class Others(unittest.TestCase):
                 start = time.monotonic()
                 ask(other, b"act NOOP")
                 times.append(time.monotonic() - start)
-            self.assertLess(statistics.median(times), 0.04)
+            self.assertLess(statistics.median(times), self.MOST)
             recorder.close()
             other.close()
 

@@ -134,19 +134,21 @@ class RlGlue(unittest.TestCase):
         self.assertEqual(steps[3:], steps[2:5])
 
     def test_a_core_that_comes_late_is_waited_for(self):
-        with socket.create_server(("127.0.0.1", 0)) as taken:
-            port = taken.getsockname()[1]
+        listener = socket.socket()
+        self.addCleanup(listener.close)
+        listener.settimeout(PATIENCE)
+        listener.bind(("127.0.0.1", 0))  # no other program gets the port, and nothing listens yet
+        port = listener.getsockname()[1]
         environment = subprocess.Popen([BINARY, "classic", "-game_controller", "rlglue", *SETTINGS, GAME], text=True,
                                        stderr=subprocess.PIPE, env={**os.environ, "RLGLUE_PORT": str(port)})
         with environment:
             self.addCleanup(environment.kill)
             waiting = next(line for line in environment.stderr if "waiting" in line)
             self.assertIn(f"127.0.0.1:{port}", waiting)
-            with socket.create_server(("127.0.0.1", port)) as listener:
-                listener.settimeout(PATIENCE)
-                link, _ = listener.accept()
-                with link:
-                    self.assertEqual(link.recv(8, socket.MSG_WAITALL), struct.pack(">2I", 3, 0))
+            listener.listen()
+            link, _ = listener.accept()
+            with link:
+                self.assertEqual(link.recv(8, socket.MSG_WAITALL), struct.pack(">2I", 3, 0))
             self.assertEqual(environment.wait(PATIENCE), 0)
 
     def refuse(self, hint, kind, payload=b"", size=None):

@@ -28,6 +28,7 @@ double bound() {
 
 constexpr double kSuspicious = 1.3;  // measured again, more often
 constexpr int kSteps = 120, kRounds = 3, kMoreRounds = 25, kShown = 12;
+constexpr int kAttempts = 4;  // other work disturbs a measurement; what costs too much does so each time
 
 struct Result {
   std::string name;
@@ -41,6 +42,8 @@ class Report {
   void add(const std::string& name, const Program& program) {
     Cost cost = cost_of(program, steps_, look_, kRounds);
     if (cost.ratio() > kSuspicious) cost = cost_of(program, steps_, look_, kMoreRounds);
+    for (int attempt = 1; attempt < kAttempts && cost.ratio() > bound(); ++attempt)
+      cost = cost_of(program, steps_, look_, kMoreRounds);
     results_.push_back({name, cost});
     const Cost step = longest_step(program, std::min(steps_, 60), look_, kRounds);
     if (step.interpreted > longest_[0].cost.interpreted) longest_[0] = {name, step};

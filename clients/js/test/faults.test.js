@@ -13,7 +13,7 @@ import { connect, launch, LostError, RefusedError, TimeoutError } from "../src/i
 const HELLO = "ok server=test protocol=1\n";
 
 /** A session of a server that answers each line as it is told; undefined closes the connection. Both end with the test. */
-async function served(context, answer, options = { timeout: 500, longestReply: 65536 }) {
+async function served(context, answer, options = { timeout: 2000, longestReply: 65536 }) { // a busy machine may greet late
   const sockets = new Set();
   const server = net.createServer((socket) => {
     sockets.add(socket.on("error", () => {}).on("close", () => sockets.delete(socket)));

@@ -43,6 +43,14 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
     return number
 
 
+def flag(name: str, value: Any) -> bool:
+    """What Python takes for true or false. An array of several values is neither."""
+    try:
+        return bool(value)
+    except (TypeError, ValueError):
+        raise error.Error(f"{name} is {value!r}; it takes True or False") from None
+
+
 def share(name: str, value: Any) -> float:
     """A number from 0 to 1."""
     try:

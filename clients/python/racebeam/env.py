@@ -16,7 +16,7 @@ from gymnasium.utils import seeding
 
 from . import images
 from ._core import Action, ALEState, View
-from .arguments import check_choice, either, listed
+from .arguments import check_choice, either, flag, listed
 from .errors import InvalidInput
 from .interface import ALEInterface
 from .presets import preset as preset_of
@@ -114,6 +114,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         images.check_name(game)
         check_choice("obs_type", obs_type, tuple(VIEWS))
         check_choice("render_mode", render_mode, RENDER_MODES)
+        two_player, continuous = flag("two_player", two_player), flag("continuous", continuous)
         if two_player and continuous:
             raise error.Error("two_player and continuous are both True; a game for two takes indices of actions alone")
         self._game, self._rom = game, rom
@@ -125,9 +126,9 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self._two_player = two_player
         self.continuous = continuous
         self.continuous_action_threshold = continuous_action_threshold
-        self.sound_obs = sound_obs
+        self.sound_obs = flag("sound_obs", sound_obs)
         self.render_mode = render_mode
-        self._sound = sound and render_mode == "human"
+        self._sound = flag("sound", sound) and render_mode == "human"
         self._window: Window | None = None
         self._is_closed = False
         _check_frameskip(self._frameskip)
@@ -138,11 +139,11 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             rules,
             either(repeat_action_probability, usual.repeat_action_probability),
             either(max_num_frames_per_episode, usual.max_num_frames_per_episode),
-            bool(either(life_loss_ends, usual.life_loss_ends)),
+            flag("life_loss_ends", either(life_loss_ends, usual.life_loss_ends)),
         )
         self.seed_game()
         self.load_game()
-        self._set_spaces(bool(either(full_action_space, usual.full_action_space)))
+        self._set_spaces(flag("full_action_space", either(full_action_space, usual.full_action_space)))
         self._open_window()
 
     def _set_keys(self, rules: str, sticky: float, limit: int | None, life_loss_ends: bool) -> None:

@@ -14,7 +14,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from . import _core, images, xla
-from .arguments import either, whole
+from .arguments import either, flag, whole
 from .errors import InvalidInput
 from .vector_results import Bools, Numbers, Pixels, Results
 from .vector_settings import SEEDS, autoreset_of, settings_of
@@ -140,7 +140,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self.metadata = {**type(self).metadata, "autoreset_mode": self.autoreset_mode}
         self.render_mode = render_mode
         self.grayscale: bool = not settings["rgb"]
-        self.continuous, self.continuous_action_threshold = continuous, float(continuous_action_threshold)
+        self.continuous, self.continuous_action_threshold = flag("continuous", continuous), float(continuous_action_threshold)
         self._shows_ram = obs_type == "ram"
         self._machines: Any = _machines(names, game_of_env, rom, settings, server, token, timeout)
         self._make_spaces(settings)

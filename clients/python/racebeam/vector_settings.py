@@ -13,7 +13,7 @@ from gymnasium import error
 from gymnasium.vector import AutoresetMode
 
 from . import _core
-from .arguments import check_choice, either, member, share, whole
+from .arguments import check_choice, either, flag, member, share, whole
 from .presets import vector_preset
 
 OBS_TYPES = (None, "rgb", "grayscale", "ram")
@@ -56,25 +56,29 @@ def _optional(given: Mapping[str, Any], name: str) -> int | None:
     return None if given[name] is None else whole(name, given[name], 0, MOST)
 
 
+def _flag(given: Mapping[str, Any], name: str) -> bool:
+    return flag(name, given[name])
+
+
 def _of_steps(given: Mapping[str, Any]) -> dict[str, Any]:
-    all_legal = given["full_action_space"] or given["continuous"]
-    low, high = (-1, 1) if given["reward_clipping"] else (-MOST - 1, MOST)
+    all_legal = _flag(given, "full_action_space") or _flag(given, "continuous")
+    low, high = (-1, 1) if _flag(given, "reward_clipping") else (-MOST - 1, MOST)
     return {
         "frame_skip": whole("frameskip", given["frameskip"], 1, 1000),
         "sticky": share("repeat_action_probability", given["repeat_action_probability"]),
         "action_set": _core.ActionSet.LEGAL if all_legal else _core.ActionSet.MINIMAL,
         "reward_min": low,
         "reward_max": high,
-        "pool": bool(given["maxpool"]),
+        "pool": _flag(given, "maxpool"),
     }
 
 
 def _of_episodes(given: Mapping[str, Any]) -> dict[str, Any]:
-    lives = "restart" if given["episodic_life"] else "told" if given["life_loss_info"] else given["lives"]
+    lives = "restart" if _flag(given, "episodic_life") else "told" if _flag(given, "life_loss_info") else given["lives"]
     return {
         "max_episode_frames": whole("max_num_frames_per_episode", given["max_num_frames_per_episode"], 0, MOST),
         "noop_max": whole("noop_max", given["noop_max"], 0, 1000),
-        "fire": bool(given["use_fire_reset"]),
+        "fire": _flag(given, "use_fire_reset"),
         "start": member("start", given["start"], _core.ResetOrder),
         "lives": member("lives", lives, _core.LifeLoss),
         "stack_start": member("stack_start", given["stack_start"], _core.StackStart),
@@ -89,5 +93,5 @@ def _of_observations(given: Mapping[str, Any]) -> dict[str, Any]:
         "stack": 0 if obs_type == "ram" else whole("stack_num", given["stack_num"], 1, 16),
         "width": whole("img_width", given["img_width"], *SIDES) if is_small else 0,
         "height": whole("img_height", given["img_height"], *SIDES) if is_small else 0,
-        "rgb": not given["grayscale"] if is_small else obs_type == "rgb",
+        "rgb": not _flag(given, "grayscale") if is_small else obs_type == "rgb",
     }

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "environment/observe/area_resize.hpp"
+#include "system/resources.hpp"
 #include "tests/environment/steered.hpp"
 
 namespace racebeam {
@@ -325,8 +326,9 @@ TEST_CASE("A batch says what it can't do, and goes on") {
   refuses([](auto& s) { s.stack.depth = -1; }, "the stack has -1 screens");
   refuses([](auto& s) { s.stack.width = 200; }, "the width of an observation is 200; it takes 1 to 160");
   CHECK_THROWS_WITH(Batch({}, short_episodes()), "there are 0 machines; there must be 1 or more");
-  CHECK_THROWS_WITH(Batch(copies(100'000'000), short_episodes()),
-                    Catch::Contains("100000000 machines take about"));
+  const std::size_t too_many = usable_memory().amount >> 17;  // each takes more than 128 KiB
+  CHECK_THROWS_WITH(Batch(copies(too_many), short_episodes()),
+                    Catch::Contains(std::to_string(too_many) + " machines take about"));
 }
 
 // Rows that repeat, and noise.

@@ -1,4 +1,8 @@
-"""Watchers that behave badly, or that are many: neither the session that they watch nor the others notice."""
+"""Watchers that behave badly, or that are many: neither the session that they watch nor the others notice.
+
+On a busy machine some acts take long, whoever watches. An act that waits for watchers would take long each time: the tests
+compare the fastest tenth.
+"""
 
 import contextlib
 import os
@@ -14,6 +18,7 @@ from harness import PATIENCE, Server, ask, connect_tcp, main
 from web_socket import WebSocket
 
 REQUEST = b"watch room screen:raw"
+LONGEST = 3  # seconds of an act on a busy machine
 
 
 def number(reply, key):
@@ -27,7 +32,7 @@ class Agent:
         self.wire = connect_tcp(port)
         ask(self.wire, b"load beamfall seed=1 sticky=0 autoreset=1")
         ask(self.wire, b"share room")
-        self.acts, self.worst, self.stops = 0, 0.0, threading.Event()
+        self.acts, self.times, self.stops = 0, [], threading.Event()
         self.thread = threading.Thread(target=self.play)
         self.thread.start()
 
@@ -35,15 +40,22 @@ class Agent:
         while not self.stops.is_set():
             begin = time.monotonic()
             ask(self.wire, b"act FIRE")
-            self.worst = max(self.worst, time.monotonic() - begin)
+            self.times.append(time.monotonic() - begin)
             self.acts += 1
             time.sleep(0.002)
 
-    def rate(self, seconds):
-        """Acts a second from now on; the slowest counts anew."""
-        self.worst, before = 0.0, self.acts
+    def measure(self, seconds):
+        """How long acts take from now on, in seconds: that which nine of ten exceed, and the slowest."""
+        self.times = []
         time.sleep(seconds)
-        return (self.acts - before) / seconds
+        times = sorted(self.times)
+        return times[len(times) // 10], times[-1]
+
+    def go_on(self):
+        """Waits for some acts."""
+        goal, end = self.acts + 3, time.monotonic() + PATIENCE
+        while self.acts < goal and time.monotonic() < end:
+            time.sleep(0.001)
 
     def stop(self):
         self.stops.set()
@@ -60,6 +72,12 @@ class Watchers(unittest.TestCase):
         agent = Agent(server.port())
         self.addCleanup(agent.stop)
         return agent
+
+    def check_not_held_up(self, agent, alone):
+        """For a second. `alone`: how long an act takes that nobody watches."""
+        usual, slowest = agent.measure(1)
+        self.assertLess(usual, 2 * alone + 0.002)
+        self.assertLess(slowest, LONGEST)
 
     def watcher(self):
         wire = WebSocket(self.port)
@@ -79,7 +97,7 @@ class Watchers(unittest.TestCase):
     def test_a_tab_that_sleeps_holds_up_nothing_and_goes_on_when_it_wakes(self):
         agent, sleeper, other = self.serve(), self.watcher(), self.watcher()
         self.watch(other)
-        rate = agent.rate(1)
+        alone, _ = agent.measure(1)
         sleeper.send(b"hello")
         sleeper.line()
         before = self.memory()
@@ -87,12 +105,11 @@ class Watchers(unittest.TestCase):
             sleeper.send(REQUEST)
         seen = [self.watch(other)]
         for _ in range(5):
-            asleep = agent.rate(1)
-            self.assertGreater(asleep, rate / 2)
-            self.assertLess(agent.worst, 1)
+            self.check_not_held_up(agent, alone)
             seen.append(self.watch(other))
         self.assertEqual(seen, sorted(set(seen)))
         self.assertLess(self.memory() - before, 8 << 20)
+        agent.go_on()
         frames = []
         for _ in range(1000):
             frames.append(number(sleeper.line(), "frame"))
@@ -108,33 +125,33 @@ class Watchers(unittest.TestCase):
         for _ in range(1000):
             sleeper.send(REQUEST)
         end = time.monotonic() + PATIENCE
-        agent.rate(2.5)
-        self.assertLess(agent.worst, 1)
+        _, slowest = agent.measure(2.5)
+        self.assertLess(slowest, LONGEST)
         with contextlib.suppress(OSError, TypeError):
             while sleeper.message() is not None:
                 self.assertLess(time.monotonic(), end)
 
     def test_a_thousand_watchers_of_one_session(self):
         agent = self.serve("--max-sessions", "1100")
-        alone = agent.rate(1)
+        alone, _ = agent.measure(1)
         before = self.memory()
         crowd = [self.watcher() for _ in range(1000)]
         seen = set()
         for _ in range(3):
-            agent.worst = 0.0
+            agent.times = []
             for wire in crowd:
                 wire.send(b"watch room screen:delta")
             for wire in crowd:
                 reply = wire.line()
                 self.assertTrue(reply.startswith(b"ok game=beamfall "), reply[:80])
                 seen.add(number(reply, "frame"))
-            self.assertLess(agent.worst, 1)
+            self.assertLess(max(agent.times, default=0), LONGEST)
         self.assertGreater(len(seen), 3)
         refused = self.watcher().ask(b"watch room")
         self.assertTrue(refused.startswith(b"error limit "), refused)
         grown = (self.memory() - before) / 1000
         self.assertLess(grown, 150 << 10)
-        self.assertGreater(agent.rate(1), alone / 2)  # those that do not ask cost nothing
+        self.check_not_held_up(agent, alone)  # those that do not ask cost nothing
 
 
 if __name__ == "__main__":

@@ -105,6 +105,21 @@ export async function until(condition: () => Promise<boolean>, what: string): Pr
   }
 }
 
+/** Waits until the game is paused, and the frame that the page shows stays. */
+export async function paused(page: Page): Promise<void> {
+  await page.locator('#pause[aria-pressed="true"]').waitFor();
+  await until(async () => await numberIn(page, "#frame") === (await page.waitForTimeout(200), await numberIn(page, "#frame")), "a stop");
+}
+
+/** The first measurement between the bounds, or the last of several: a busy machine disturbs some, a fault all. */
+export async function measured(measure: () => Promise<number>, least: number, most: number): Promise<number> {
+  let found = NaN;
+  for (let attempt = 0; attempt < 10 && !(found > least && found < most); ++attempt) {
+    found = await measure();
+  }
+  return found;
+}
+
 /** Logs of episodes of Beamfall that a random agent played: how often actions stick is a setting. Returns the files' paths. */
 export function recordedEpisodes(folder: string, sticky: number, count: number): string[] {
   const plan = path.join(folder, `plan${sticky}.toml`);

@@ -4,7 +4,7 @@ import { after, afterEach, before, describe, test } from "node:test";
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import type { Page } from "playwright-core";
-import { numberIn, Server, Tabs, until } from "./harness.js";
+import { numberIn, paused, Server, Tabs, until } from "./harness.js";
 
 describe("the panels of Inspect", () => {
   const server = new Server();
@@ -39,15 +39,14 @@ describe("the panels of Inspect", () => {
     await until(async () => await numberIn(page, "#score") > before, "a score");
     await page.keyboard.press("KeyP");
     await page.keyboard.up("Space");
-    await page.waitForTimeout(300);
+    await paused(page);
   }
 
   test("the grid shows RAM, where the score is", async () => {
     await score();
-    const [tens, units] = [await byte(0x83), await byte(0x84)];
     const bcd = (value: number) => 10 * (value >> 4) + (value & 15);
-    assert.equal(100 * bcd(tens) + bcd(units), await numberIn(page, "#score"));
-    assert.equal(await byte(0x81), await numberIn(page, "#lives"));
+    await until(async () => 100 * bcd(await byte(0x83)) + bcd(await byte(0x84)) === await numberIn(page, "#score"), "the score in RAM");
+    await until(async () => await byte(0x81) === await numberIn(page, "#lives"), "the lives in RAM");
   });
 
   test("the search finds the score", async () => {
@@ -88,16 +87,15 @@ describe("the panels of Inspect", () => {
     await page.keyboard.down("ArrowUp");
     await page.locator("#action").getByText("UP", { exact: true }).waitFor();
     await page.keyboard.up("ArrowUp");
-    await page.waitForTimeout(500);
     const colours = (selector: string) => page.locator(selector).evaluate((canvas: HTMLCanvasElement) =>
       new Set(new Uint32Array(canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size);
     for (const oldest of [0, 3]) {
-      assert.ok(await colours(`#agent canvas >> nth=${oldest}`) > 3);
+      await until(async () => await colours(`#agent canvas >> nth=${oldest}`) > 3, `what the agent sees, ${oldest}`);
     }
-    assert.ok(await colours("#palette") > 100);
-    assert.ok(await page.locator("#used li").count() > 3);
+    await until(async () => await colours("#palette") > 100, "the palette");
+    await until(async () => await page.locator("#used li").count() > 3, "the colours that are used");
     for (const plot of ["#score-plot", "#reward-plot", "#lives-plot", "#wave"]) {
-      assert.ok(await colours(plot) > 1, plot);
+      await until(async () => await colours(plot) > 1, plot);
     }
   });
 });

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, afterEach, before, describe, test } from "node:test";
 import type { Page } from "playwright-core";
-import { recordedEpisodes, Server, Tabs, until } from "./harness.js";
+import { measured, paused, recordedEpisodes, Server, Tabs, until } from "./harness.js";
 
 describe("the view Replay", () => {
   const server = new Server();
@@ -26,14 +26,14 @@ describe("the view Replay", () => {
   const place = async () => Number(/frame (\d+) of/.exec(await page.locator("#place").textContent() ?? "")?.[1]);
   const scrub = (frame: number) => page.locator("#timeline").fill(String(frame));
 
-  /** Waits until the deck shows the picture of its place. */
+  /** Waits until the deck shows the picture of its place: one that stays for several looks. */
   async function settled(deck = 0): Promise<string> {
-    let before = "";
+    let [before, looks] = ["", 0];
     await until(async () => {
       const now = `${await facts(deck)} ${await screen(deck)}`;
-      const same = now === before;
+      looks = now === before ? looks + 1 : 0;
       before = now;
-      return same;
+      return looks === 5;
     }, "a picture that stays");
     return before;
   }
@@ -54,23 +54,25 @@ describe("the view Replay", () => {
     }
     await page.getByRole("button", { name: "Forward" }).last().click();
     assert.equal(await place(), 500);
-    assert.equal(await settled(), seen);
+    await until(async () => await settled() === seen, "the picture as it was");
   });
 
   test("the end has the score of the log", async () => {
     await page.locator("#timeline").press("End");
-    await settled();
-    assert.match(await facts() ?? "", /^score (\d+) of \1 · /);
+    await until(async () => /^score (\d+) of \1 · /.test(await facts() ?? ""), "the score of the log");
   });
 
   test("it runs at the speed that is chosen", async () => {
-    await scrub(0);
     await page.locator("#speed").selectOption("2");
-    const begun = Date.now();
-    await page.locator("#run").click();
-    await until(async () => await place() >= 180, "180 frames");
-    const rate = (1000 * await place()) / (Date.now() - begun);
-    await page.locator("#run").click();
+    const rate = await measured(async () => {
+      await scrub(0);
+      const begun = Date.now();
+      await page.locator("#run").click();
+      await until(async () => await place() >= 180, "180 frames");
+      const found = (1000 * await place()) / (Date.now() - begun);
+      await page.locator("#run").click();
+      return found;
+    }, 90, 135);
     assert.ok(rate > 90 && rate < 135, `${rate} frames a second`);
   });
 
@@ -79,8 +81,7 @@ describe("the view Replay", () => {
     await page.getByRole("button", { name: "Next reward" }).click();
     const first = await place();
     assert.ok(first > 0);
-    await settled();
-    assert.match(await facts() ?? "", /^score [1-9]/);
+    await until(async () => /^score [1-9]/.test(await facts() ?? ""), "a score");
     await page.getByRole("button", { name: "Next reward" }).click();
     assert.ok(await place() > first);
     await page.getByRole("button", { name: "Reward before" }).click();
@@ -125,10 +126,10 @@ describe("the view Replay", () => {
     await until(async () => Number(await page.locator("#score").textContent()) > 0, "a score");
     await page.keyboard.up("Space");
     await page.keyboard.press("KeyP");
-    await page.waitForTimeout(200);
+    await paused(page);
     const [score, frame] = [await page.locator("#score").textContent(), await page.locator("#frame").textContent()];
     await page.getByRole("button", { name: "Replay this episode" }).click();
     await page.locator("#place").filter({ hasText: `of ${frame}` }).waitFor();
-    assert.match(await facts() ?? "", new RegExp(`^score 0 of ${score} `));
+    await until(async () => (await facts() ?? "").startsWith(`score 0 of ${score} `), "the score of the episode");
   });
 });

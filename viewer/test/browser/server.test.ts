@@ -5,7 +5,8 @@ import { writeFileSync } from "node:fs";
 import path from "node:path";
 import { after, before, describe, test } from "node:test";
 import type { Page } from "playwright-core";
-import { numberIn, Server, Tabs, until } from "./harness.js";
+import { isDeepStrictEqual } from "node:util";
+import { numberIn, paused, Server, Tabs, until } from "./harness.js";
 
 const TOKEN = "a-token-of-the-tests-0123456789";
 
@@ -67,7 +68,7 @@ describe("the server", () => {
     await until(async () => await numberIn(page, "#score") > 0 && await numberIn(page, "#frame") > 90, "a score");
     await page.keyboard.press("KeyP");
     await page.keyboard.up("Space");
-    await page.waitForTimeout(300);
+    await paused(page);
     const seen = async () => [await numberIn(page, "#frame"), await numberIn(page, "#score"), await numberIn(page, "#lives"),
       await page.locator("#screen").evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL())];
     const before = await seen();
@@ -76,8 +77,8 @@ describe("the server", () => {
     await page.locator("#status").getByText("Trying again").waitFor();
     await server.start([], port);
     await page.getByRole("button", { name: "Continue" }).waitFor();
-    assert.deepEqual(await seen(), before);
-    assert.equal(await page.locator("#status").textContent(), "");
+    await until(async () => isDeepStrictEqual(await seen(), before), "the game where it was");
+    await until(async () => await page.locator("#status").textContent() === "", "no more to be told");
     await page.getByRole("button", { name: "Continue" }).click();
     await until(async () => await numberIn(page, "#frame") > Number(before[0]) + 10, "more frames");
     await page.context().close();

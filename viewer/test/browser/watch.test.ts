@@ -91,13 +91,11 @@ describe("the view Watch", () => {
 
   test("a hidden view asks for nothing", async () => {
     await page.getByRole("link", { name: "Play", exact: true }).click();
-    await page.waitForTimeout(200);
     let sent = 0;
     const devtools = await page.context().newCDPSession(page);
     await devtools.send("Network.enable");
     devtools.on("Network.webSocketFrameSent", ({ response }) => (sent += Number(response.payloadData.startsWith("watch"))));
-    await page.waitForTimeout(500);
-    assert.equal(sent, 0);
+    await until(async () => (sent = 0, await page.waitForTimeout(500), sent === 0), "a half second without requests");
     await page.getByRole("link", { name: "Watch" }).click();
     await until(() => Promise.resolve(sent > 10), "requests");
   });

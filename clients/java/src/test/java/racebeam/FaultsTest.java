@@ -32,6 +32,9 @@ import org.junit.jupiter.api.io.TempDir;
 class FaultsTest {
   private static final String HELLO = "ok server=test protocol=1\n";
 
+  /** For replies that never come. The greeting has to come in time, though its classes are loaded first and the machine is busy. */
+  private static final Duration TIMEOUT = Duration.ofSeconds(3);
+
   /** A server that answers each line as it is told; null closes the connection. */
   private static final class Server implements AutoCloseable {
     private final ServerSocket listener;
@@ -72,7 +75,7 @@ class FaultsTest {
 
   private static void endsWith(Class<? extends IOException> kind, String answer) throws IOException {
     try (Server server = new Server(line -> answer);
-        Session session = server.connect(Options.DEFAULT.withTimeout(Duration.ofMillis(500)).withLongestReply(1 << 16))) {
+        Session session = server.connect(Options.DEFAULT.withTimeout(TIMEOUT).withLongestReply(1 << 16))) {
       assertTimeoutPreemptively(Duration.ofSeconds(20), () -> {
         assertThrows(kind, () -> session.request("act FIRE"));
         assertThrows(IOException.class, () -> session.request("act FIRE"), "the session has ended");
@@ -193,8 +196,7 @@ class FaultsTest {
           return;
         }
       });
-      Options options = Options.DEFAULT.withTimeout(Duration.ofMillis(300));
-      try (Session session = Racebeam.connect("unix:" + path, options)) {
+      try (Session session = Racebeam.connect("unix:" + path, Options.DEFAULT.withTimeout(TIMEOUT))) {
         assertThrows(SocketTimeoutException.class, () -> session.request("act FIRE"));
       }
     }
