@@ -34,7 +34,7 @@ from racebeam import _core
 PATIENCE = 120  # seconds
 LONGEST = 200  # frames of an act
 DOCUMENTED = (TypeError, IndexError, racebeam.InvalidInput, Error, ClosedEnvironmentError)
-DELIBERATE = re.compile("has no answer where|each must be -1, 0 or 1|has no xla|truth value of an array|must be a float32 array")  # of other types
+DELIBERATE = re.compile("has no answer where|each must be -1, 0 or 1|has no xla|must be a float32 array")  # of other types
 KEYS = ("random_seed", "reward_min", "sound_obs", "rules", "max_num_frames_per_episode", "repeat_action_probability", "color_averaging")
 
 LEFT_OUT = ("saveScreenPNG", "xla", "get_wrapper_attr", "set_wrapper_attr")  # writes files; needs JAX (test_xla.py); Gymnasium's

@@ -195,6 +195,16 @@ class Found(unittest.TestCase):
         self.assertRaises(InvalidInput, envs.render, np.zeros(0, np.int32))
         self.assertRaises(IndexError, envs.render, [99])
 
+    def test_numbers_of_environments_that_are_none(self):
+        envs = make()
+        envs.reset()
+        for env_id in ([[0], [0, 1, 2]], [99], [-1], [0.5], np.zeros((1, 3), int), "0"):
+            with self.subTest(env_id=env_id):
+                self.assertRaisesRegex(InvalidInput, "env_id is .* takes whole numbers from 0 to 2", envs.reset, env_id)
+                self.assertRaisesRegex(InvalidInput, "env_id is .* takes whole numbers from 0 to 2", envs.step, np.zeros(3, int), env_id)
+        self.assertRaisesRegex(InvalidInput, "options is .* takes a dictionary", envs.reset, options=np.ones(3))
+        envs.step(np.zeros(3, int), env_id=np.array([2, 0, 1]))
+
     def test_an_action_without_its_part(self):
         envs = make()
         envs.reset()

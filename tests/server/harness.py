@@ -21,7 +21,7 @@ BINARY = os.environ.get("RACEBEAM_BINARY", os.path.join(SOURCE, "build", "releas
 GAME = "builtin:beamfall"
 LOAD = b"load beamfall seed=1 sticky=0 max_episode_frames=0\nsave root\nobserve frame\n"
 TRANSPORTS = ("stdio", "pipes", "tcp", "unix")
-PATIENCE = float(os.environ.get("RACEBEAM_PATIENCE", 20))  # seconds until something counts as hanging; more for slow builds
+PATIENCE = float(os.environ.get("RACEBEAM_PATIENCE", 60))  # seconds until something counts as hanging; more for slow builds
 SKIPPED = 77     # exit status that ctest reads as "skipped"
 
 

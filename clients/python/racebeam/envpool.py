@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 import sys
 import warnings
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import gymnasium
@@ -181,9 +182,11 @@ class _Pool:
         return seeds
 
     def _reset(self, env_id: Any, options: dict[str, Any] | None) -> tuple[Any, Any, Any, Any, Info]:
+        if not isinstance(options, (Mapping, type(None))):
+            raise InvalidInput(f"options is {options!r}; it takes a dictionary, or None")
         mask = (options or {}).get("reset_mask")
         if env_id is not None:
-            mask = np.isin(self.all_env_ids, env_id)
+            mask = np.isin(self.all_env_ids, self._ids(env_id))
         self._envs.begin(np.ones(self.num_envs, np.bool_) if mask is None else mask)
         observations, info = self._envs.reset(seed=self._first_seeds(), options=None if mask is None else {"reset_mask": mask})
         nothing = np.zeros(len(observations), np.bool_)
@@ -205,11 +208,21 @@ class _Pool:
             action = action.astype(np.int64)
         if env_id is None:
             return action
-        received = self._envs.received
-        order = np.argsort(env_id)
-        if not np.array_equal(np.sort(env_id), np.sort(received)):
+        received, ids = self._envs.received, self._ids(env_id)
+        order = np.argsort(ids)
+        if not np.array_equal(ids[order], np.sort(received)):
             raise InvalidInput(f"env_id is {env_id!r}; it takes the environments that were received last: {received.tolist()}")
-        return np.asarray(action)[order][np.searchsorted(np.asarray(env_id)[order], received)]
+        return np.asarray(action)[order][np.searchsorted(ids[order], received)]
+
+    def _ids(self, env_id: Any) -> npt.NDArray[np.integer[Any]]:
+        """Numbers of environments, checked."""
+        try:
+            ids = np.atleast_1d(env_id)
+        except ValueError:  # of rows of several lengths
+            ids = np.empty(0)
+        if ids.ndim != 1 or ids.dtype.kind not in "iu" or not np.isin(ids, self.all_env_ids).all():
+            raise InvalidInput(f"env_id is {env_id!r}; it takes whole numbers from 0 to {self.num_envs - 1}, in one row")
+        return ids
 
     def _shown(self, shown: tuple[Any, ...], mask: Any = None) -> tuple[Any, Any, Any, Any, Info]:
         observations, rewards, terminated, truncated, info = shown
