@@ -87,7 +87,10 @@ VECTOR = {"num_envs": (1, 2, 3), "batch_size": (0, 1, 2), "num_threads": (1, 2),
 ENV = {"obs_type": ("rgb", "grayscale", "ram"), "frameskip": (1, (2, 5)), "continuous": (True, False), "render_mode": (None, "rgb_array"),
        "sound_obs": (True, False), "two_player": (True, False), "preset": tuple(racebeam.presets.PRESETS)}
 POOL = {"num_envs": (1, 2, 3), "batch_size": (0, 1, 2), "gray_scale": (True, False), "episodic_life": (True, False),
-        "env_type": ("gym", "gymnasium", "dm"), "max_episode_steps": (3, 100)}
+        "env_type": ("gym", "gymnasium", "dm"), "max_episode_steps": (3, 100), "env_seed": ([], [1, 2]), "seed": (1, [1, 2]),
+        "use_fire_reset": (True, False), "zero_discount_on_life_loss": (True, False), "max_num_players": (1,),
+        "gym_reset_return_info": (None, True), "mode": (-1, 0), "difficulty": (-1, 0), "repeat_action_probability": (0.0, 0.25),
+        "img_height": (84, 21), "noop_max": (0, 30), "stack_num": (1, 4), "thread_affinity_offset": (-1, 0), "num_threads": (0, 1)}
 
 
 def arguments_of(table):

@@ -189,6 +189,15 @@ class Found(unittest.TestCase):
             with self.subTest(**config), self.assertRaises(gymnasium.error.Error):
                 make(**config)
 
+    def test_arrays_for_single_values(self):
+        many = np.ones(3)
+        for config in ({"episodic_life": many}, {"mode": many}, {"max_num_players": many}, {"use_inter_area_resize": many}):
+            with self.subTest(**config), self.assertRaises((gymnasium.error.Error, InvalidInput)):
+                make(**config)
+        envs = make()
+        envs.async_reset()
+        self.assertRaisesRegex(gymnasium.error.Error, "reset is .* takes True or False", envs.recv, many)
+
     def test_pictures_of_no_environment(self):
         envs = make()
         envs.reset()

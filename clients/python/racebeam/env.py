@@ -317,7 +317,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         if left_center_right not in SIDES or down_center_up not in HEIGHTS:
             raise LookupError(f"left_center_right is {left_center_right} and down_center_up is {down_center_up}; "
                               "each must be -1, 0 or 1")
-        name = HEIGHTS[down_center_up] + SIDES[left_center_right] + ("FIRE" if fire else "")
+        name = HEIGHTS[down_center_up] + SIDES[left_center_right] + ("FIRE" if flag("fire", fire) else "")
         return Action[name or "NOOP"]
 
     def get_action_meanings(self) -> list[str]:

@@ -21,7 +21,7 @@ from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 
 from . import ale_games, images
-from .arguments import whole
+from .arguments import flag, whole
 from .envpool_spec import EnvSpec, whole_config
 from .errors import InvalidInput, UnknownGame
 from .interface import ALEInterface
@@ -115,7 +115,7 @@ class _Envs(AtariVectorEnv):
 
 
 def _optional(number: int) -> int | None:
-    return None if number == -1 else number
+    return None if np.array_equal(number, -1) else number
 
 
 class _Pool:
@@ -125,7 +125,7 @@ class _Pool:
         game, self.config = _game(task_id), whole_config(task_id, config)
         self._envs = _Envs(game, self.config)
         self.num_envs, self.batch_size = self._envs.num_envs, self._envs.batch_size
-        self._seeds: Any = self.config["env_seed"] or self.config["seed"]
+        self._seeds: Any = self.config["env_seed"] if np.size(self.config["env_seed"]) else self.config["seed"]
         self._is_new = True
         self.action_space = self.single_action_space = self._envs.single_action_space
         actions = self._envs.machines().numbers_of_actions()[0]
@@ -263,7 +263,7 @@ class GymnasiumEnvPool(_Pool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any])
 
     def recv(self, reset: bool = False, return_info: bool = True) -> Any:
         observations, *rest, info = self._recv()
-        return (observations, info) if reset else (observations, *rest, info)
+        return (observations, info) if flag("reset", reset) else (observations, *rest, info)
 
 
 class GymEnvPool(_Pool):
@@ -277,7 +277,7 @@ class GymEnvPool(_Pool):
 
     def recv(self, reset: bool = False, return_info: bool = True) -> Any:
         shown = self._recv()
-        return shown[0] if reset else self._joined(shown)
+        return shown[0] if flag("reset", reset) else self._joined(shown)
 
     @staticmethod
     def _joined(shown: tuple[Any, Any, Any, Any, Info]) -> tuple[Any, Any, Any, Info]:
@@ -346,7 +346,7 @@ def make_gymnasium(task_id: str, **config: Any) -> GymnasiumEnvPool:
 
 
 def make_gym(task_id: str, **config: Any) -> GymEnvPool | GymnasiumEnvPool:
-    return (GymnasiumEnvPool if config.get("gym_reset_return_info") else GymEnvPool)(task_id, config)
+    return (GymnasiumEnvPool if flag("gym_reset_return_info", config.get("gym_reset_return_info")) else GymEnvPool)(task_id, config)
 
 
 def make_dm(task_id: str, **config: Any) -> DmEnvPool:

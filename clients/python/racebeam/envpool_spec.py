@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from gymnasium import spaces
 
+from .arguments import flag
 from .errors import InvalidInput
 
 __all__ = ["CONFIG", "ArraySpec", "EnvSpec", "whole_config"]
@@ -53,9 +54,15 @@ def whole_config(task_id: str, given: Mapping[str, Any]) -> dict[str, Any]:
     for name, value in given.items():
         if name not in CONFIG:
             raise InvalidInput(f"there is no setting {name!r}; there are {', '.join(CONFIG)}")
-        if name in FIXED and value != FIXED[name]:
+        if name in FIXED and not _is(value, FIXED[name]):
             raise InvalidInput(f"{name} is {value!r}; racebeam has {FIXED[name]!r} alone")
-    return {**CONFIG, **given, "task": task_id}
+    flags = {name: flag(name, value) for name, value in given.items() if isinstance(CONFIG[name], bool)}
+    return {**CONFIG, **given, **flags, "task": task_id}
+
+
+def _is(value: Any, wanted: Any) -> bool:
+    """An array of several values is not the one that is wanted."""
+    return bool(np.array_equal(value, wanted))
 
 
 class ArraySpec(NamedTuple):
