@@ -129,7 +129,7 @@ class Conversation {
 
   void show_screen() {
     const auto shown = session_.look("screen:zlib", "palette");
-    const Picture picture{shown.bytes("screen"), shown.bytes("palette")};
+    const TerminalPicture picture{shown.bytes("screen"), shown.bytes("palette")};
     Room room;
     if (editor_.interactive()) ask_terminal(room);
     room.rows = Room::kNoLimit;

@@ -19,7 +19,10 @@ constexpr auto kKeysLine = "  arrows+space, wasd+g  p pause  n new game  q quit"
 class TerminalPlayer {
  public:
   TerminalPlayer(client::Session session, std::string game, Graphics graphics)
-      : session_(std::move(session)), game_(std::move(game)), display_(graphics), joysticks_(display_.tells_releases()) {}
+      : session_(std::move(session)),
+        game_(std::move(game)),
+        display_(graphics),
+        joysticks_(display_.tells_releases()) {}
 
   void play() {
     begin_game();
@@ -68,7 +71,8 @@ class TerminalPlayer {
 
   void draw() {
     picture_.pixels = session_.look("screen:raw").bytes("screen");
-    std::string line = printable(game_) + "  score " + std::to_string(score_) + "  lives " + std::to_string(lives_);
+    std::string line =
+        printable(game_) + "  score " + std::to_string(score_) + "  lives " + std::to_string(lives_);
     if (is_paused_) line.append("  paused");
     if (is_over_) line.append("  game over");
     display_.show(&picture_, line.append(kKeysLine));
@@ -79,7 +83,7 @@ class TerminalPlayer {
   std::string game_;
   Display display_;
   Joysticks joysticks_;
-  Picture picture_;
+  TerminalPicture picture_;
   std::chrono::nanoseconds period_{};  // of a frame
   Clock::time_point next_act_;
   std::int64_t score_ = 0;

@@ -129,7 +129,7 @@ class Watcher {
   std::string name_;  // of the shared session; empty: none
   std::optional<std::string> frame_;
   std::string line_;  // what is said of it
-  Picture picture_;
+  TerminalPicture picture_;
 };
 
 void open_page(const WatchOptions& options) {

@@ -9,20 +9,23 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using Kind = TerminalEvent::Kind;
 
-constexpr auto kPatience = 500ms;  // for answers
-constexpr auto kLost = 2s;         // an answer that has not come by then does not come
+constexpr auto kPatience = 500ms;   // for answers
+constexpr auto kLost = 2s;          // an answer that has not come by then does not come
 constexpr auto kUnanswered = 33ms;  // between pictures for a terminal that does not answer
 constexpr int kMostUnderWay = 2;
 
 constexpr std::string_view kEnter = "\x1b[?1049h\x1b[?25l\x1b[2J", kLeave = "\x1b[0m\x1b[?25h\x1b[?1049l";
-constexpr std::string_view kReleases = "\x1b[>11u", kNoReleases = "\x1b[<u";  // all keys, as press and release
+constexpr std::string_view kReleases = "\x1b[>11u",
+                           kNoReleases = "\x1b[<u";  // all keys, as press and release
 constexpr std::string_view kDeletePictures = "\x1b_Ga=d,d=A,q=2\x1b\\";
 // The terminal shows what is between the two at once, if it knows them. kEndOfAny ends what a signal cut off.
 constexpr std::string_view kBegin = "\x1b[?2026h", kEnd = "\x1b[?2026l", kEndOfAny = "\x1b\\\x1b[?2026l";
 constexpr std::string_view kClear = "\x1b[2J", kToEndOfLine = "\x1b[K";
 
 // Whether a list of numbers, separated by semicolons, has 4: sixel graphics.
-bool lists_sixel(const std::string& attributes) { return (";" + attributes + ";").find(";4;") != std::string::npos; }
+bool lists_sixel(const std::string& attributes) {
+  return (";" + attributes + ";").find(";4;") != std::string::npos;
+}
 
 void note(TerminalAbilities& abilities, const TerminalEvent& event) {
   switch (event.kind) {
@@ -79,7 +82,7 @@ bool Display::is_ready() {
   return abilities_.answers ? under_way_ < kMostUnderWay : now >= shown_ + kUnanswered;
 }
 
-void Display::show(const Picture* picture, const std::string& line) {
+void Display::show(const TerminalPicture* picture, const std::string& line) {
   Room room = tty_.room();
   std::string text(kBegin);
   if (room.columns != room_.columns || room.rows != room_.rows) {

@@ -24,8 +24,8 @@ TerminalAbilities ask_abilities(Tty& tty);
 // The form that `wanted` leads to.
 Graphics choose_graphics(Graphics wanted, const TerminalAbilities& abilities);
 
-// Takes the whole terminal for its lifetime. Pictures that the line does not carry in time are to be left out:
-// the terminal says which have arrived, and at most two are under way.
+// Takes the whole terminal for its lifetime. Pictures that the line does not carry in time are to be left
+// out: the terminal says which have arrived, and at most two are under way.
 class Display {
  public:
   using Time = Tty::Time;
@@ -41,10 +41,10 @@ class Display {
   bool is_ready();
 
   // Only when it is_ready(). `line` stands below the picture. Without a picture, only the line is drawn.
-  void show(const Picture* picture, const std::string& line);
+  void show(const TerminalPicture* picture, const std::string& line);
 
-  // Waits until keys come, the terminal becomes ready, or the time has come. Returns keys. Ends the process as
-  // Ctrl-C does, if that is pressed.
+  // Waits until keys come, the terminal becomes ready, or the time has come. Returns keys. Ends the process
+  // as Ctrl-C does, if that is pressed.
   std::vector<TerminalEvent> wait(Time until);
 
  private:

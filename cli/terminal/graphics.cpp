@@ -7,17 +7,18 @@
 namespace racebeam {
 
 void add_graphics_option(Subcommand& command, Graphics& graphics) {
-  command.choice<Graphics>("--graphics", graphics,
-                           {{"auto", Graphics::kAuto},
-                            {"blocks", Graphics::kBlocks},
-                            {"sixel", Graphics::kSixel},
-                            {"kitty", Graphics::kKitty}},
-                           "auto",
-                           "How pictures are drawn in the terminal: blocks are characters in 24-bit colours; auto is the "
-                           "best that the terminal says it has");
+  command.choice<Graphics>(
+      "--graphics", graphics,
+      {{"auto", Graphics::kAuto},
+       {"blocks", Graphics::kBlocks},
+       {"sixel", Graphics::kSixel},
+       {"kitty", Graphics::kKitty}},
+      "auto",
+      "How pictures are drawn in the terminal: blocks are characters in 24-bit colours; auto is the "
+      "best that the terminal says it has");
 }
 
-std::string inline_picture(Graphics graphics, const Picture& picture, const Room& room) {
+std::string inline_picture(Graphics graphics, const TerminalPicture& picture, const Room& room) {
   switch (graphics) {
     case Graphics::kKitty: return kitty_picture(picture, room, false) + "\n";
     case Graphics::kSixel: return sixel(picture, room) + "\n";
@@ -25,7 +26,7 @@ std::string inline_picture(Graphics graphics, const Picture& picture, const Room
   }
 }
 
-std::string Painter::paint(const Picture& picture, const Room& room) {
+std::string Painter::paint(const TerminalPicture& picture, const Room& room) {
   constexpr auto kHome = "\x1b[H";
   switch (graphics_) {
     case Graphics::kKitty: return kHome + kitty_picture(picture, room, true);

@@ -16,14 +16,14 @@ enum class Graphics { kAuto, kBlocks, kSixel, kKitty };  // kAuto: the best that
 void add_graphics_option(Subcommand& command, Graphics& graphics);  // --graphics
 
 // A picture at the cursor, among text.
-std::string inline_picture(Graphics graphics, const Picture& picture, const Room& room);
+std::string inline_picture(Graphics graphics, const TerminalPicture& picture, const Room& room);
 
 // Pictures that follow each other in the upper left corner. `graphics` is not kAuto.
 class Painter {
  public:
   explicit Painter(Graphics graphics) : graphics_(graphics) {}
 
-  std::string paint(const Picture& picture, const Room& room);
+  std::string paint(const TerminalPicture& picture, const Room& room);
   void forget() { shown_ = {}; }  // the terminal was cleared
 
  private:

@@ -13,7 +13,7 @@ constexpr int kCharacter = 38, kBehindIt = 48;  // the two colours of a cell
 constexpr auto kUpperHalf = "\u2580";
 
 // The mean of the pixels in a part of the screen, which has at least one.
-Colour mean(const Picture& picture, std::size_t left, std::size_t right, std::size_t top,
+Colour mean(const TerminalPicture& picture, std::size_t left, std::size_t right, std::size_t top,
             std::size_t bottom) {
   Colour sum{};
   for (std::size_t y = top; y < bottom; ++y) {
@@ -55,7 +55,7 @@ class Pen {
 
 }  // namespace
 
-Cells cells_of(const Picture& picture, const Room& room) {
+Cells cells_of(const TerminalPicture& picture, const Room& room) {
   const std::size_t height = picture.height();
   const std::size_t columns =
       std::clamp<std::size_t>(std::min(room.columns, 4 * room.rows * kPixelsARow / height), 1, kMostColumns);

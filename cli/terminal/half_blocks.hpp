@@ -22,7 +22,7 @@ struct Cells {
 
 // The largest picture for the room, at most 320 columns wide. Its height keeps the proportions of a
 // television, on which a pixel is twice as wide as high, if a cell is twice as high as wide.
-Cells cells_of(const Picture& picture, const Room& room);
+Cells cells_of(const TerminalPicture& picture, const Room& room);
 
 // Rows of text, each with a newline.
 std::string as_lines(const Cells& cells);

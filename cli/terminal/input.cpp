@@ -29,7 +29,9 @@ std::string_view part(std::string_view text, char separator, std::size_t index) 
   return text.substr(0, text.find(separator));
 }
 
-int lower(int character) { return character >= 'A' && character <= 'Z' ? character + ('a' - 'A') : character; }
+int lower(int character) {
+  return character >= 'A' && character <= 'Z' ? character + ('a' - 'A') : character;
+}
 
 // A key of the keyboard protocol of kitty: CSI code:... ; modifiers:event ; ... u
 TerminalEvent key_of(int key, std::string_view parameters) {

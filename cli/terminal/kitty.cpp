@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostCharacters = 4096;  // of the data of one sequence
 
-std::vector<std::uint8_t> packed_colours(const Picture& picture) {
+std::vector<std::uint8_t> packed_colours(const TerminalPicture& picture) {
   std::vector<std::uint8_t> colours;
   colours.reserve(3 * picture.pixels.size());
   for (const std::uint8_t value : picture.pixels) {
@@ -28,7 +28,7 @@ std::vector<std::uint8_t> packed_colours(const Picture& picture) {
 
 }  // namespace
 
-std::string kitty_picture(const Picture& picture, const Room& room, bool in_place) {
+std::string kitty_picture(const TerminalPicture& picture, const Room& room, bool in_place) {
   const std::size_t height = picture.height();
   const std::size_t width_of_rows = room.rows * room.cell_height * 2 * kPixelsARow / height / room.cell_width;
   const std::size_t columns = std::max<std::size_t>(1, std::min(room.columns, width_of_rows));

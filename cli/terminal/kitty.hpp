@@ -9,6 +9,6 @@ namespace racebeam {
 
 // At the cursor, as large as the room admits with the proportions of a television. in_place: the cursor stays
 // where it is, and the picture replaces the last one of this kind.
-std::string kitty_picture(const Picture& picture, const Room& room, bool in_place);
+std::string kitty_picture(const TerminalPicture& picture, const Room& room, bool in_place);
 
 }  // namespace racebeam

@@ -11,7 +11,7 @@ namespace racebeam {
 
 constexpr std::size_t kPixelsARow = 160;
 
-struct Picture {
+struct TerminalPicture {
   std::vector<std::uint8_t> pixels;   // rows of kPixelsARow, as the line protocol's field screen
   std::vector<std::uint8_t> colours;  // 256 x 3: red, green, blue of each value of a pixel
 

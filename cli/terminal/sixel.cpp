@@ -13,7 +13,7 @@ constexpr char kNoPixel = '?';           // the character of six pixels that sta
 // Of each value of a pixel: the six pixels of each column that have it, as bits, the uppermost first.
 using Band = std::array<std::array<std::uint8_t, kPixelsARow>, 256>;
 
-std::string colours_of(const Picture& picture, const std::array<bool, 256>& used) {
+std::string colours_of(const TerminalPicture& picture, const std::array<bool, 256>& used) {
   std::string text;
   for (std::size_t value = 0; value < used.size(); ++value) {
     if (!used[value]) continue;
@@ -29,7 +29,8 @@ void write_runs(std::string& text, const std::array<std::uint8_t, kPixelsARow>& 
   std::size_t end = columns.size();
   while (end > 0 && columns[end - 1] == 0) --end;
   for (std::size_t at = 0; at < end;) {
-    const auto next = std::find_if(columns.begin() + static_cast<std::ptrdiff_t>(at), columns.begin() + static_cast<std::ptrdiff_t>(end),
+    const auto next = std::find_if(columns.begin() + static_cast<std::ptrdiff_t>(at),
+                                   columns.begin() + static_cast<std::ptrdiff_t>(end),
                                    [&](std::uint8_t bits) { return bits != columns[at]; });
     const auto stop = static_cast<std::size_t>(next - columns.begin());
     const std::size_t run = (stop - at) * width;
@@ -44,7 +45,7 @@ void write_runs(std::string& text, const std::array<std::uint8_t, kPixelsARow>& 
 }
 
 // Six rows of the enlarged picture, from `top` on.
-void write_band(std::string& text, const Picture& picture, std::size_t top, std::size_t scale) {
+void write_band(std::string& text, const TerminalPicture& picture, std::size_t top, std::size_t scale) {
   Band band{};
   std::array<bool, 256> used{};
   for (std::size_t bit = 0; bit < kBandHeight; ++bit) {
@@ -67,7 +68,7 @@ void write_band(std::string& text, const Picture& picture, std::size_t top, std:
 
 }  // namespace
 
-std::string sixel(const Picture& picture, const Room& room) {
+std::string sixel(const TerminalPicture& picture, const Room& room) {
   const std::size_t across = room.columns * room.cell_width / (2 * kPixelsARow);
   const std::size_t down = room.rows * room.cell_height / picture.height();
   const std::size_t scale = std::max<std::size_t>(1, std::min(across, down));

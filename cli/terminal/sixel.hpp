@@ -8,6 +8,6 @@
 namespace racebeam {
 
 // At the cursor. As large as whole multiples of the pixels fit into the room, a pixel twice as wide as high.
-std::string sixel(const Picture& picture, const Room& room);
+std::string sixel(const TerminalPicture& picture, const Room& room);
 
 }  // namespace racebeam

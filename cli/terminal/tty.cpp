@@ -16,7 +16,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::array kDeadly = {SIGHUP, SIGINT,  SIGQUIT, SIGTERM, SIGPIPE, SIGALRM, SIGUSR1,
+constexpr std::array kDeadly = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM, SIGPIPE, SIGALRM, SIGUSR1,
                                 SIGUSR2, SIGABRT, SIGSEGV, SIGBUS,  SIGFPE,  SIGILL};
 constexpr int kMostWait = 500;  // milliseconds for the last bytes
 
@@ -30,7 +30,8 @@ struct Before {
 };
 Before kept;
 
-// Calls only what a signal handler may call. Output that is still on its way may end within a sequence: ST ends it.
+// Calls only what a signal handler may call. Output that is still on its way may end within a sequence: ST
+// ends it.
 void restore() {
   if (kept.descriptor < 0) return;
   ::tcflush(kept.descriptor, TCOFLUSH);
@@ -52,7 +53,7 @@ void restore_and_end(int number) {
 }
 
 void handle_signals() {
-  struct sigaction action{};
+  struct sigaction action {};
   action.sa_handler = restore_and_end;
   action.sa_flags = SA_NODEFER;
   for (std::size_t i = 0; i < kDeadly.size(); ++i) {
@@ -138,9 +139,11 @@ std::string Tty::wait(Time until, bool writes_too) {
     if (ready < 0 && errno != EINTR) fail("cannot wait for the terminal");
     if (ready == 0) return {};
     if (ready < 0) continue;
-    if ((state.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0) throw std::runtime_error("the terminal is gone");
+    if ((state.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0)
+      throw std::runtime_error("the terminal is gone");
     if ((state.revents & POLLOUT) != 0) flush();
-    const ssize_t count = (state.revents & POLLIN) != 0 ? ::read(kept.descriptor, bytes.data(), bytes.size()) : 0;
+    const ssize_t count =
+        (state.revents & POLLIN) != 0 ? ::read(kept.descriptor, bytes.data(), bytes.size()) : 0;
     if (count > 0) return {bytes.data(), static_cast<std::size_t>(count)};
     if (writes_too && writes && waiting_.empty()) return {};
   }

@@ -174,6 +174,8 @@ const Cases kWithDuel = {
     {"record png", "record png a", "record gif a"},
     {"record gif", "record gif a", "record y4m a"},
     {"record y4m", "record y4m a", "record gif a"},
+    {"record webm", "record webm a", "record mp4 a"},
+    {"record mp4", "record mp4 a", "record gif a"},
     {"record wav", "load duel sound=1\nrecord wav a", "load duel sound=1\nrecord gif a"},
     {"record NAME", "record gif a", "record gif b"},
     {"record machine", kUneven + "record png a machine=1", kUneven + "record png a", kFourSteps},

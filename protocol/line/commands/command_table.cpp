@@ -113,7 +113,7 @@ constexpr std::array kCommands = {
             "with a seed, the machines are powered on anew", "restart 0110", 0, 2, Needs::kMachines,
             run_restart},
     Command{"close", "", "close the machines", "", "", 0, 0, Needs::kMachines, run_close},
-    Command{"record", "png|gif|y4m|wav[,...] NAME [machine=N] | stop",
+    Command{"record", "png|gif|y4m|wav|webm|mp4[,...] NAME [machine=N] | stop",
             "record frames, sound or both into the server's folder",
             "machine= takes one of open, 0 the first", "record gif first", 1, 3, Needs::kGame, run_record},
     Command{"share", "NAME [watchers=N]", "let other sessions watch the game under this name",
