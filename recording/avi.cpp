@@ -13,7 +13,6 @@ constexpr std::size_t kWidth = 160;
 constexpr int kBitsAPixel = 8, kBitsASample = 8;
 constexpr std::size_t kColours = 256;
 
-
 // Numbers of this many bytes, the lowest byte first.
 void put(std::string& out, int bytes, std::initializer_list<std::size_t> numbers) {
   for (const std::size_t number : numbers)
@@ -31,7 +30,8 @@ void put_chunk(std::string& out, std::string_view name, std::string_view content
   if (content.size() % 2 != 0) out.push_back(0);
 }
 
-std::string list(std::string_view kind, std::initializer_list<std::pair<std::string_view, std::string>> chunks) {
+std::string list(std::string_view kind,
+                 std::initializer_list<std::pair<std::string_view, std::string>> chunks) {
   std::string content;
   content.append(kind);
   for (const auto& [name, chunk] : chunks) put_chunk(content, name, chunk);
@@ -46,7 +46,8 @@ std::string main_header(std::size_t rate, std::size_t height) {
 }
 
 // A stream of `rate` units a second; a sample has `sample` bytes, or any number if it is 0.
-std::string stream_header(std::string_view kind, std::string_view handler, std::size_t rate, std::size_t sample) {
+std::string stream_header(std::string_view kind, std::string_view handler, std::size_t rate,
+                          std::size_t sample) {
   std::string header;
   header.append(kind);
   header.append(handler);
@@ -80,14 +81,16 @@ std::string sound_format(std::size_t rate) {
 
 std::string avi_header(const Footage& footage) {
   const auto rate = static_cast<std::size_t>(footage.rate), sound_rate = rate * kSamplesPerBlock;
-  const std::string picture = list("strl", {{"strh", stream_header("vids", "DIB ", rate, 0)}, {"strf", picture_format(footage)}});
+  const std::string picture =
+      list("strl", {{"strh", stream_header("vids", "DIB ", rate, 0)}, {"strf", picture_format(footage)}});
   const std::string sound = list("strl", {{"strh", stream_header("auds", {"\0\0\0\0", 4}, sound_rate, 1)},
-                                    {"strf", sound_format(sound_rate)}});
+                                          {"strf", sound_format(sound_rate)}});
   std::string out;
   out.append("RIFF");
   put(out, 4, {kUnknown});
   out.append("AVI ");
-  put_chunk(out, "LIST", list("hdrl", {{"avih", main_header(rate, footage.height)}, {"LIST", picture}, {"LIST", sound}}));
+  put_chunk(out, "LIST",
+            list("hdrl", {{"avih", main_header(rate, footage.height)}, {"LIST", picture}, {"LIST", sound}}));
   out.append("LIST");
   put(out, 4, {kUnknown});
   out.append("movi");
@@ -95,7 +98,8 @@ std::string avi_header(const Footage& footage) {
 }
 
 // A bitmap has its lowest row first.
-std::string avi_frame(std::span<const std::uint8_t> pixels, std::size_t height, std::span<const std::uint8_t> samples) {
+std::string avi_frame(std::span<const std::uint8_t> pixels, std::size_t height,
+                      std::span<const std::uint8_t> samples) {
   std::string bitmap;
   bitmap.reserve(pixels.size());
   for (std::size_t row = height; row-- > 0;) {

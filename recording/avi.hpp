@@ -14,6 +14,6 @@ std::string avi_header(const Footage& footage);
 
 // A picture of `height` rows, and the sound with it.
 std::string avi_frame(std::span<const std::uint8_t> pixels, std::size_t height,
-                                    std::span<const std::uint8_t> samples);
+                      std::span<const std::uint8_t> samples);
 
 }  // namespace racebeam

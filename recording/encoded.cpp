@@ -11,10 +11,12 @@
 namespace racebeam {
 namespace {
 
-// What ffmpeg may still write when its input ends: frames that it has not encoded, and an index of all frames.
+// What ffmpeg may still write when its input ends: frames that it has not encoded, and an index of all
+// frames.
 constexpr std::size_t kUnwritten = 200'000, kIndexBytesAFrame = 32;
 
-// The encoders hold no frame back, and write what they have, so that the size of the file says what frames take.
+// The encoders hold no frame back, and write what they have, so that the size of the file says what frames
+// take.
 constexpr std::string_view kWebm =
     "-c:v libvpx-vp9 -deadline realtime -cpu-used 6 -lag-in-frames 0 -b:v 0 -crf 20 -c:a libopus "
     "-f webm -cluster_size_limit 50000 -flush_packets 1";

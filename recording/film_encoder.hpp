@@ -17,10 +17,10 @@ class EncoderFailed : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Not thread-safe. The program has only its standard descriptors, in a process group of its own. It reads what
-// write() sends. Its standard output is lost, and its last line on standard error is the reason of a failure.
-// All throw EncoderFailed if the program is not there, fails, or does nothing for the time of `patience`, or if
-// the caller has given up.
+// Not thread-safe. The program has only its standard descriptors, in a process group of its own. It reads
+// what write() sends. Its standard output is lost, and its last line on standard error is the reason of a
+// failure. All throw EncoderFailed if the program is not there, fails, or does nothing for the time of
+// `patience`, or if the caller has given up.
 class FilmEncoder {
  public:
   // `words`: the program, found as a shell does, and its arguments.

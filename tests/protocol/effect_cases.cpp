@@ -78,6 +78,7 @@ const Cases kWithDuel = {
     {"set N", "set difficulty=1", "set difficulty=2", "difficulties"},
     {"modes", "modes", "load beamfall\nmodes"},
     {"difficulties", "difficulties", "load beamfall\ndifficulties"},
+    {"names", "names", "load beamfall\nnames"},
     {"actions", "actions", "load beamfall\nactions"},
     {"observe", "observe frame", "", "act NOOP"},
     {"observe FIELD", "observe frame", "observe lives", "act NOOP"},

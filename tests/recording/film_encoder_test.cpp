@@ -65,7 +65,8 @@ TEST_CASE("An encoder that fails is an error with its last words") {
   CHECK(reason("cat > /dev/null; exit 3", 1000) == "sh failed: it did not succeed");
   CHECK(reason("exec <&-; sleep 0.05", 10'000'000) == "sh failed: it does not read any more");
   CHECK(reason("sleep 30", 10'000'000) == "sh does nothing any more");
-  CHECK_THROWS_WITH(FilmEncoder(shell("sleep 30"), [] { return true; }).finish(), "sh is not waited for any more");
+  CHECK_THROWS_WITH(FilmEncoder(shell("sleep 30"), [] { return true; }).finish(),
+                    "sh is not waited for any more");
   CHECK(reason("sleep 30", 1000) == "sh does not end");
   CHECK(reason("yes 'much to say' >&2; cat > /dev/null", 1000) == "no failure");  // what is not read is lost
   CHECK_THROWS_WITH(FilmEncoder({"no-such-program"}), "no-such-program is not installed on the server");

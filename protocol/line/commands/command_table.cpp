@@ -18,6 +18,7 @@ void run_set(Session&, Words);
 void run_modes(Session&, Words);
 void run_difficulties(Session&, Words);
 void run_actions(Session&, Words);
+void run_names(Session&, Words);
 
 // command_play.cpp
 void run_observe(Session&, Words);
@@ -73,6 +74,7 @@ constexpr std::array kCommands = {
     Command{"difficulties", "", "the game's difficulties", "", "", 0, 0, Needs::kGame, run_difficulties},
     Command{"actions", "", "list the actions that act accepts, and the game's legal and minimal ones", "", "",
             0, 0, Needs::kGame, run_actions},
+    Command{"names", "", "names for bytes of the fields ram and tia", "", "", 0, 0, Needs::kGame, run_names},
     Command{"observe", "[FIELD[:ENCODING]...|none]", "select the fields of replies",
             "help fields has the fields and encodings", "observe reward ends screen:rle", 0, kAnyNumber,
             Needs::kAdmission, run_observe},
