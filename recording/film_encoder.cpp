@@ -16,7 +16,9 @@
 
 #include "system/printable.hpp"
 
-extern char** environ;
+#if defined(__APPLE__)
+extern char** environ;  // elsewhere, unistd.h declares it
+#endif
 
 namespace racebeam {
 namespace {

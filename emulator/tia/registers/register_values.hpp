@@ -22,8 +22,8 @@ inline constexpr std::array<std::string_view, kTiaValues> kTiaValueNames = {
 #undef REGISTER
     "CXM0P", "CXM1P", "CXP0FB", "CXP1FB", "CXM0FB", "CXM1FB", "CXBLPF", "CXPPMM"};
 
-// In that order. Bits that the TIA does not keep are 0. RESP0 to RESBL have the position of their object, 0 to 159;
-// other registers that only trigger something have 0. The latches are in the bits 7 and 6.
+// In that order. Bits that the TIA does not keep are 0. RESP0 to RESBL have the position of their object, 0
+// to 159; other registers that only trigger something have 0. The latches are in the bits 7 and 6.
 std::array<std::uint8_t, kTiaValues> tia_values(const State& state, const Sound& sound);
 
 }  // namespace racebeam

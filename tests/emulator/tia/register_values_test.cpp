@@ -11,8 +11,8 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// A program that writes a value into each register from VBLANK to RESMP1, but for the strobes of positions, once in
-// a frame. Before, it strobes RESP0 and RESBL at different places of a line.
+// A program that writes a value into each register from VBLANK to RESMP1, but for the strobes of positions,
+// once in a frame. Before, it strobes RESP0 and RESBL at different places of a line.
 Bytes writer(std::uint8_t value) {
   Bytes program = {0xA9, 0x02, 0x85, VSYNC, 0x85, WSYNC, 0x85, WSYNC, 0x85, WSYNC, 0xA9, 0x00, 0x85, VSYNC};
   for (int nops = 0; nops < 15; ++nops) program.push_back(0xEA);
@@ -42,12 +42,28 @@ std::array<std::uint8_t, kTiaValues> values_after(std::uint8_t value) {
 // The bits that the TIA keeps, from NUSIZ0 to RESMP1 (docs/spec/tia.md, 4).
 std::uint8_t kept(std::size_t reg) {
   switch (reg) {
-    case NUSIZ0: case NUSIZ1: case CTRLPF: return 0x37;
-    case COLUP0: case COLUP1: case COLUPF: case COLUBK: return 0xFE;
-    case REFP0: case REFP1: return 0x08;
-    case ENAM0: case ENAM1: case ENABL: case RESMP0: case RESMP1: return 0x02;
-    case HMP0: case HMP1: case HMM0: case HMM1: case HMBL: return 0xF0;
-    case VDELP0: case VDELP1: case VDELBL: return 0x01;
+    case NUSIZ0:
+    case NUSIZ1:
+    case CTRLPF: return 0x37;
+    case COLUP0:
+    case COLUP1:
+    case COLUPF:
+    case COLUBK: return 0xFE;
+    case REFP0:
+    case REFP1: return 0x08;
+    case ENAM0:
+    case ENAM1:
+    case ENABL:
+    case RESMP0:
+    case RESMP1: return 0x02;
+    case HMP0:
+    case HMP1:
+    case HMM0:
+    case HMM1:
+    case HMBL: return 0xF0;
+    case VDELP0:
+    case VDELP1:
+    case VDELBL: return 0x01;
     default: return 0xFF;
   }
 }
