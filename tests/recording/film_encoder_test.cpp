@@ -12,7 +12,6 @@
 #include "tests/recording/film.hpp"
 
 using namespace racebeam;
-using Catch::Matchers::Contains;
 
 namespace {
 
