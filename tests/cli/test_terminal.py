@@ -79,6 +79,13 @@ class InTerminal(unittest.TestCase):
         self.assertEqual(terminal.end(), 0)
         self.assertTrue(terminal.is_restored(), terminal.modes)
 
+    def press(self, terminal, wire, name, keys, action):
+        """Types keys, as a key that is held repeats itself, until they have become an action."""
+        def acts():
+            terminal.type(keys)
+            return self.action(wire, name) == action
+        terminal.wait_until(acts, action)
+
     def action(self, wire, name):
         return wire.ask(f"watch {name} ram")["action"]
 
@@ -132,11 +139,9 @@ class Keys(InTerminal):
         terminal, wire, name = self.play(rows=60)
         self.action(wire, name)
         for keys, action in ((b" ", "FIRE"), (b"\x1b[A", "UP"), (b"\x1bOC", "RIGHT"), (b"\x1b[B\x1b[D ", "DOWNLEFTFIRE")):
-            terminal.type(keys)
-            terminal.wait_until(lambda: self.action(wire, name) == action, action)
+            self.press(terminal, wire, name, keys, action)
             terminal.wait_until(lambda: self.action(wire, name) == "NOOP", "released")
-        terminal.type(b"\x1b[A\x1b[B")  # a direction ends the opposite one
-        terminal.wait_until(lambda: self.action(wire, name) == "DOWN", "down")
+        self.press(terminal, wire, name, b"\x1b[A\x1b[B", "DOWN")  # a direction ends the opposite one
         self.quit(terminal)
 
     def test_releases_are_told_where_the_keyboard_protocol_is(self):
