@@ -156,13 +156,17 @@ class Encoded(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         return done.stdout.splitlines()
 
+    def decoded(self, name, *options):
+        return subprocess.run(["ffmpeg", "-v", "error", "-i", os.path.join(self.films, name), *options, "pipe:1"], capture_output=True,
+                              check=True, timeout=PATIENCE).stdout
+
     def frames(self, name):
-        """The frames of a film, decoded: 640 x 420 pixels of red, green and blue."""
-        raw = subprocess.run(["ffmpeg", "-v", "error", "-i", os.path.join(self.films, name), "-f", "rawvideo", "-pix_fmt", "rgb24",
-                              "pipe:1"], capture_output=True, check=True, timeout=PATIENCE).stdout
-        size = 3 * 640 * 420
-        self.assertEqual(len(raw) % size, 0)
-        return [raw[at:at + size] for at in range(0, len(raw), size)]
+        """How many frames a film has."""
+        return len(re.findall(rb"^0,", self.decoded(name, "-map", "0:v", "-c", "copy", "-f", "framecrc"), re.MULTILINE))
+
+    def last_frame(self, name):
+        """The last frame of a film, decoded: 640 x 420 pixels of red, green and blue."""
+        return self.decoded(name, "-f", "rawvideo", "-pix_fmt", "rgb24")[-3 * 640 * 420:]
 
     def test_ffmpeg_gets_every_frame_and_writes_only_the_file(self):
         self.install('echo "$@" > "$(dirname "$0")/words"; ' + COPY)
@@ -223,13 +227,12 @@ class Encoded(unittest.TestCase):
         seen = bytes.fromhex(lines[-2].split(b"rgb=")[1].split()[0].decode())
         for name in ("film.webm", "film.mp4"):
             with self.subTest(name):
-                frames = self.frames(name)
-                self.assertEqual(len(frames), 60)
-                shown = [frames[-1][3 * (640 * (2 * row) + 4 * column + 1) + part]
+                self.assertEqual(self.frames(name), 60)
+                frame = self.last_frame(name)
+                shown = [frame[3 * (640 * (2 * row) + 4 * column + 1) + part]
                          for row in range(210) for column in range(160) for part in range(3)]
                 self.assertLess(statistics.mean(abs(a - b) for a, b in zip(shown, seen)), 8)
-                sound = subprocess.run(["ffmpeg", "-v", "error", "-i", os.path.join(self.films, name), "-f", "u8", "-ar", "30720",
-                                        "pipe:1"], capture_output=True, check=True, timeout=PATIENCE).stdout
+                sound = self.decoded(name, "-f", "u8", "-ar", "30720")
                 self.assertAlmostEqual(len(sound) / 30720, 1, delta=0.1)
                 self.assertGreater(max(sound) - min(sound), 10)
 
@@ -242,7 +245,7 @@ class Encoded(unittest.TestCase):
             size = os.path.getsize(os.path.join(self.films, f"film.{kind}"))
             self.assertLessEqual(size, 400000)
             frames = int(re.search(rb" frames=(\d+) bytes=%d " % size, lines[-1])[1])
-            self.assertEqual(len(self.frames(f"film.{kind}")), frames)
+            self.assertEqual(self.frames(f"film.{kind}"), frames)
 
     @WITH_FFMPEG
     def test_a_full_disk_is_an_error_that_leaves_nothing(self):
