@@ -8,6 +8,7 @@
 
 #include "emulator/base/mersenne_twister.hpp"
 #include "emulator/tia/palette.hpp"
+#include "emulator/tia/registers/register_values.hpp"
 #include "environment/impl.hpp"
 #include "environment/reset/classic_power_on.hpp"
 #include "system/invalid_input.hpp"
@@ -166,6 +167,11 @@ void Environment::set_ram(int index, std::uint8_t value) {
   const std::size_t at = ram_index(index);
   impl_->console.set_ram(index, value);
   impl_->play.stale_ram[at] = value;
+}
+
+void Environment::tia_values(std::vector<std::uint8_t>& values) const {
+  const auto found = racebeam::tia_values(impl_->console.state(), sound());
+  values.assign(found.begin(), found.end());
 }
 
 void Environment::screen_rgb(std::vector<std::uint8_t>& rgb) const {

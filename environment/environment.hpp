@@ -104,11 +104,12 @@ class Environment {
   std::span<const std::uint8_t> previous_screen() const;  // a frame ago; never averaged
   Format format() const;                                  // never Format::kAuto
   std::span<const std::uint8_t, kRamSize> ram() const;
-  std::span<const std::uint8_t, kAudioSize> audio() const;  // of the last act; zeros without Settings::sound
-  const Sound& sound() const;                               // the two channels that make it
-  void set_ram(int index, std::uint8_t value);              // index 0-127, else std::out_of_range
-  void screen_rgb(std::vector<std::uint8_t>& rgb) const;    // height x 160 x 3
-  void screen_grey(std::vector<std::uint8_t>& grey) const;  // height x 160
+  std::span<const std::uint8_t, kAudioSize> audio() const;   // of the last act; zeros without Settings::sound
+  const Sound& sound() const;                                // the two channels that make it
+  void set_ram(int index, std::uint8_t value);               // index 0-127, else std::out_of_range
+  void tia_values(std::vector<std::uint8_t>& values) const;  // emulator/tia/registers/register_values.hpp
+  void screen_rgb(std::vector<std::uint8_t>& rgb) const;     // height x 160 x 3
+  void screen_grey(std::vector<std::uint8_t>& grey) const;   // height x 160
 
   // The same into the caller's memory, which must have exactly that size.
   void screen_rgb(std::span<std::uint8_t> rgb) const;

@@ -102,6 +102,15 @@ void AtomicFile::overwrite(std::size_t place, std::span<const std::uint8_t> byte
   write_all(descriptor_, place, text_of(bytes), path_);
 }
 
+void AtomicFile::count_growth() {
+  struct stat facts {};
+  if (::fstat(descriptor_, &facts) != 0) fail("read", path_);
+  const auto size = static_cast<std::size_t>(facts.st_size);
+  if (size <= size_) return;
+  budget_.take(size - size_);
+  size_ = size;
+}
+
 // Removes data that was written in part. The tail already had its space on the disk, so writing it needs no
 // more.
 void AtomicFile::commit() {

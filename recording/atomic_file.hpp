@@ -1,12 +1,15 @@
 // Files and folders that appear whole or not at all: written under a temporary name, synced, renamed.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace racebeam {
 
@@ -18,13 +21,19 @@ class BudgetSpent : public std::runtime_error {
 // Limits the bytes that may be written in total.
 class DiskBudget {
  public:
-  explicit DiskBudget(std::size_t bytes) : most_(bytes) {}
+  using Flag = std::shared_ptr<const std::atomic<bool>>;
+
+  // `given_up` may be set by another thread: nothing needs to be written any more.
+  explicit DiskBudget(std::size_t bytes, Flag given_up = nullptr)
+      : most_(bytes), given_up_(std::move(given_up)) {}
   void take(std::size_t bytes);  // throws BudgetSpent if less is left
   void give_back(std::size_t bytes) { taken_ -= bytes; }
   std::size_t taken() const { return taken_; }
+  bool is_given_up() const { return given_up_ && *given_up_; }
 
  private:
   std::size_t most_, taken_ = 0;
+  Flag given_up_;
 };
 
 // All throw BudgetSpent, or std::runtime_error with a sentence if the system refuses to write.
@@ -42,6 +51,11 @@ class AtomicFile {
   void write(std::string_view text);
   void overwrite(std::size_t place, std::span<const std::uint8_t> bytes);  // bytes that were written before
   void commit();  // refuses to replace an existing file
+
+  // For another program, which writes the file instead: its name until commit(), and a call that counts the
+  // bytes that the file has now.
+  const std::string& temporary() const { return temporary_; }
+  void count_growth();
 
  private:
   std::string path_, temporary_;

@@ -11,8 +11,9 @@ struct Form {
   decltype(&make_png) make;
 };
 
-constexpr std::array kForms = {Form{"png", "", make_png}, Form{"gif", ".gif", make_gif},
-                               Form{"y4m", ".y4m", make_y4m}, Form{"wav", ".wav", make_wav}};
+constexpr std::array kForms = {Form{"png", "", make_png},        Form{"gif", ".gif", make_gif},
+                               Form{"y4m", ".y4m", make_y4m},    Form{"wav", ".wav", make_wav},
+                               Form{"webm", ".webm", make_webm}, Form{"mp4", ".mp4", make_mp4}};
 
 const Form& form(MediaKind kind) { return kForms[static_cast<std::size_t>(kind)]; }
 
@@ -23,6 +24,8 @@ std::optional<MediaKind> media_kind(std::string_view name) {
   if (found == kForms.end()) return std::nullopt;
   return static_cast<MediaKind>(found - kForms.begin());
 }
+
+bool is_encoded(MediaKind kind) { return kind == MediaKind::kWebm || kind == MediaKind::kMp4; }
 
 std::string file_name(MediaKind kind, const std::string& name) {
   return name + std::string(form(kind).ending);

@@ -1,4 +1,4 @@
-// A recording of frames or of sound, in one of four forms.
+// A recording of frames or of sound, in one of six forms.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,8 @@ class Media {
   virtual ~Media() = default;
 
   // Both throw BudgetSpent, or std::runtime_error if the system refuses to write. Nothing of this frame is
-  // then recorded, and the frames before it can still be committed.
+  // then recorded, and the frames before it can still be committed; except after EncoderFailed
+  // (recording/film_encoder.hpp).
   virtual void frame(std::span<const std::uint8_t> pixels) = 0;  // height x 160 palette indices
   virtual void sound(std::span<const std::uint8_t> samples) = 0;
 
@@ -36,13 +37,15 @@ class Media {
   virtual void commit() = 0;
 };
 
-enum class MediaKind { kPng, kGif, kY4m, kWav };
-std::optional<MediaKind> media_kind(std::string_view name);  // png gif y4m wav
+enum class MediaKind { kPng, kGif, kY4m, kWav, kWebm, kMp4 };
+std::optional<MediaKind> media_kind(std::string_view name);  // png gif y4m wav webm mp4
 
-// The name of the file, or of the folder of PNGs: NAME/, NAME.gif, NAME.y4m, NAME.wav.
+bool is_encoded(MediaKind kind);  // by ffmpeg, a process of its own
+
+// The name of the file, or of the folder of PNGs: NAME/, NAME.gif and so on.
 std::string file_name(MediaKind kind, const std::string& name);
 
-// `folder` must exist.
+// `folder` must exist. Throws std::runtime_error.
 std::unique_ptr<Media> make_media(MediaKind kind, const std::string& folder, const std::string& name,
                                   const Footage& footage, DiskBudget& budget);
 
@@ -50,5 +53,8 @@ std::unique_ptr<Media> make_png(const std::string& path, const Footage& footage,
 std::unique_ptr<Media> make_gif(const std::string& path, const Footage& footage, DiskBudget& budget);
 std::unique_ptr<Media> make_y4m(const std::string& path, const Footage& footage, DiskBudget& budget);
 std::unique_ptr<Media> make_wav(const std::string& path, const Footage& footage, DiskBudget& budget);
+
+std::unique_ptr<Media> make_webm(const std::string& path, const Footage& footage, DiskBudget& budget);
+std::unique_ptr<Media> make_mp4(const std::string& path, const Footage& footage, DiskBudget& budget);
 
 }  // namespace racebeam

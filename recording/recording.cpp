@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "recording/film_encoder.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -12,6 +14,7 @@ constexpr std::size_t kMostPictures = 16, kMostSounds = 1024;
 
 // The most memory that encoders need: buffers of six bytes a pixel, their output, and zlib's own memory.
 constexpr std::size_t kEncoderBytesAPixel = 12, kEncoderBytes = 1 << 19;
+constexpr std::size_t kEncoderProcess = 80 << 20;  // of ffmpeg, as measured
 
 constexpr const char* kStopping = "the server stops";
 
@@ -31,7 +34,13 @@ std::size_t queue_length(const std::vector<MediaKind>& kinds) {
 
 }  // namespace
 
-std::string_view name_of(Recording::Cut cut) { return cut == Recording::Cut::kLimit ? "limit" : "disk"; }
+std::string_view name_of(Recording::Cut cut) {
+  switch (cut) {
+    case Recording::Cut::kLimit: return "limit";
+    case Recording::Cut::kDisk: return "disk";
+    default: return "encoder";
+  }
+}
 
 std::vector<std::string> Order::file_names() const {
   std::vector<std::string> names;
@@ -42,7 +51,8 @@ std::vector<std::string> Order::file_names() const {
 std::size_t Order::memory() const {
   const std::size_t pixels = has_pictures(kinds) ? footage.height * kScreenWidth : 0;
   return queue_length(kinds) * (sizeof(RecordedFrame) + pixels) +
-         kinds.size() * (kEncoderBytesAPixel * pixels + kEncoderBytes);
+         kinds.size() * (kEncoderBytesAPixel * pixels + kEncoderBytes) +
+         static_cast<std::size_t>(std::ranges::count_if(kinds, is_encoded)) * kEncoderProcess;
 }
 
 Recording::Recording(Order order, std::unique_ptr<Claim> claim, Post post,
@@ -53,7 +63,7 @@ Recording::Recording(Order order, std::unique_ptr<Claim> claim, Post post,
       post_(std::move(post)),
       given_up_(std::move(given_up)),
       queue_(queue_length(order_.kinds)),
-      budget_(order_.most_bytes),
+      budget_(order_.most_bytes, given_up_),
       claim_(std::move(claim)) {}
 
 void Recording::begin() { post(&Recording::open); }
@@ -135,6 +145,9 @@ void Recording::write(const RecordedFrame& frame) {
     ++result_.frames;
   } catch (const BudgetSpent&) {
     cut_off(Cut::kLimit);
+  } catch (const EncoderFailed& error) {
+    result_.failure = error.what();
+    cut_off(Cut::kEncoder);
   } catch (const std::exception& error) {
     result_.failure = error.what();
     cut_off(Cut::kDisk);
@@ -162,6 +175,9 @@ void Recording::commit() {
     try {
       media_[i]->commit();
       kept.push_back(order_.file_names()[i]);
+    } catch (const EncoderFailed& error) {
+      result_.failure = error.what();
+      change([this] { cut_ = Cut::kEncoder; });
     } catch (const std::exception& error) {
       result_.failure = error.what();
       change([this] { cut_ = Cut::kDisk; });

@@ -45,7 +45,7 @@ using Charge = std::function<std::shared_ptr<const void>(std::size_t bytes)>;
 class Recording : public std::enable_shared_from_this<Recording> {
  public:
   // Why it ended early. What was written before is committed.
-  enum class Cut { kLimit, kDisk };
+  enum class Cut { kLimit, kDisk, kEncoder };
 
   struct Result {
     std::string names;  // of the committed files, such as "a.gif" or "a.y4m,a.wav"; empty: none
@@ -115,6 +115,6 @@ class Recording : public std::enable_shared_from_this<Recording> {
   std::optional<Cut> cut_;
 };
 
-std::string_view name_of(Recording::Cut cut);  // limit, disk
+std::string_view name_of(Recording::Cut cut);  // limit, disk, encoder
 
 }  // namespace racebeam

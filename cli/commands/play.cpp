@@ -1,6 +1,10 @@
 #include "cli/commands/play.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -10,6 +14,7 @@
 #include "cli/commands/supervisor.hpp"
 #include "cli/connect/browser.hpp"
 #include "cli/connect/page_address.hpp"
+#include "cli/connect/player.hpp"
 #include "games/catalogue.hpp"
 #include "games/similar.hpp"
 
@@ -28,9 +33,24 @@ To play on another machine, start racebeam play there, with --listen ws://127.0.
   ssh -L 7800:127.0.0.1:7800 HOST racebeam play --listen ws://127.0.0.1:7800
 Then open the address that it prints, here.
 
+With --terminal, draws the game in the terminal, without sound; without GAME, it is Beamfall. Keys: the arrows and Space
+are player A, W A S D and G are player B, p pauses, n begins a new game, q quits. Many terminals do not tell when a key
+is released: a key then counts as pressed for 0.2 s, and again with each repetition. Pictures that the line does not
+carry in time are left out. The server's log is shown at the end.
+
 Examples:
   racebeam play
-  racebeam play pong --roms ~/atari)";
+  racebeam play pong --roms ~/atari
+  racebeam play --terminal beamfall)";
+
+constexpr auto kUsualGame = "beamfall";
+
+struct PlayOptions {
+  ServeOptions serve;
+  std::string game;
+  bool terminal = false;
+  Graphics graphics = Graphics::kAuto;
+};
 
 void check_for_page(const ServeOptions& options) {
   const auto refuse = [](const std::string& option) {
@@ -60,31 +80,86 @@ std::string page_of(const std::filesystem::path& announce, const std::string& ga
   return page.append("#token=").append(token);
 }
 
-int run(ServeOptions& options, const std::vector<Setting>& settings, const std::string& game) {
-  check_for_page(options);
-  check_game(game);
+// The standard error of the server, which would be drawn over by pictures.
+class KeptLog {
+ public:
+  explicit KeptLog(const PrivateFolder& folder) : path_(folder.path() / "log") {}
+
+  void take() const {  // by the server's process
+    const int file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+    if (file < 0 || ::dup2(file, STDERR_FILENO) < 0)
+      throw std::runtime_error("cannot write " + path_.string());
+    ::close(file);
+  }
+
+  void show() const {
+    std::ifstream log(path_);
+    if (log.peek() != std::ifstream::traits_type::eof()) std::cerr << log.rdbuf();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+int play_in_browser(PlayOptions& options, const std::vector<Setting>& settings) {
   Supervisor supervisor;
   const PrivateFolder folder;
-  options.server.announce = folder.path() / "announce";
-  if (options.addresses.empty()) options.addresses = {"ws://127.0.0.1:0"};
-  if (is_default(settings, "log_level")) options.log_level = LogLevel::kWarning;
-  if (supervisor.fork_server()) return run_server(options, settings);
-  if (const int status = supervisor.wait_until_ready(options.server.announce); status != 0) return status;
-  const std::string page = page_of(options.server.announce, game);
+  ServeOptions& serve = options.serve;
+  serve.server.announce = folder.path() / "announce";
+  if (serve.addresses.empty()) serve.addresses = {"ws://127.0.0.1:0"};
+  if (supervisor.fork_server()) return run_server(serve, settings);
+  if (const int status = supervisor.wait_until_ready(serve.server.announce); status != 0) return status;
+  const std::string page = page_of(serve.server.announce, options.game);
   std::cout << page << std::endl;
   if (const auto command = browser_command(page)) supervisor.start(*command);
   return supervisor.wait();
 }
 
+int play_here(PlayOptions& options, const std::vector<Setting>& settings) {
+  if (::isatty(STDIN_FILENO) == 0 || ::isatty(STDOUT_FILENO) == 0)
+    throw UsageError("--terminal: standard input and output must be a terminal");
+  Supervisor supervisor;
+  const PrivateFolder folder;
+  const KeptLog log(folder);
+  ServeOptions& serve = options.serve;
+  serve.server.announce = folder.path() / "announce";
+  const std::string address = "unix:" + (folder.path() / "socket").string();
+  serve.addresses.push_back(address);
+  if (supervisor.fork_server()) {
+    log.take();
+    return run_server(serve, settings);
+  }
+  int status = supervisor.wait_until_ready(serve.server.announce);
+  if (status == 0) {
+    if (supervisor.fork_command()) {
+      play_in_terminal(address, options.game.empty() ? kUsualGame : options.game, options.graphics);
+      return 0;
+    }
+    status = supervisor.wait_for_command();
+    supervisor.stop_server();
+  }
+  log.show();
+  return status;
+}
+
+int run(PlayOptions& options, const std::vector<Setting>& settings) {
+  check_for_page(options.serve);
+  check_game(options.game);
+  if (is_default(settings, "log_level")) options.serve.log_level = LogLevel::kWarning;
+  return options.terminal ? play_here(options, settings) : play_in_browser(options, settings);
+}
+
 }  // namespace
 
 void add_play(Subcommand& program) {
-  Subcommand command = program.add_subcommand("play", "Play in a browser, on this machine", kPlayFooter);
-  const auto options = std::make_shared<ServeOptions>();
-  const auto game = std::make_shared<std::string>();
-  add_serve_options(command, *options);
-  command.option("GAME", *game, "The game that the page begins with");
-  command.exits_with([options, game, command] { return run(*options, complete(command), *game); });
+  Subcommand command =
+      program.add_subcommand("play", "Play in a browser or in the terminal, on this machine", kPlayFooter);
+  const auto options = std::make_shared<PlayOptions>();
+  add_serve_options(command, options->serve);
+  command.option("GAME", options->game, "The game to begin with");
+  command.flag("--terminal", options->terminal, "Play in the terminal");
+  add_graphics_option(command, options->graphics);
+  command.exits_with([options, command] { return run(*options, complete(command)); });
 }
 
 }  // namespace racebeam

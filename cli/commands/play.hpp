@@ -1,4 +1,4 @@
-// racebeam play: a server on this machine, and its page in a browser.
+// racebeam play: a server on this machine, and its page in a browser, or a game in the terminal.
 #pragma once
 
 namespace racebeam {

@@ -1,9 +1,5 @@
 #include "cli/commands/render.hpp"
 
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -12,13 +8,11 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "agents/experiment/episode_log.hpp"
 #include "agents/experiment/play.hpp"
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/subcommand.hpp"
-#include "cli/commands/supervisor.hpp"
 #include "emulator/tia/sound.hpp"
 #include "recording/footage.hpp"
 #include "recording/media.hpp"
@@ -50,36 +44,30 @@ struct RenderOptions {
   ImageOptions images;
 };
 
-// Writes the frames of a machine in several forms.
+// Writes the frames of a machine.
 class Film {
  public:
   // `path` is without its ending.
-  Film(const fs::path& path, const std::vector<MediaKind>& kinds, const Environment& machine) {
-    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
-    for (const MediaKind kind : kinds)
-      media_.push_back(make_media(kind, folder, path.filename().string(), footage_of(machine), budget_));
-  }
+  Film(const fs::path& path, MediaKind kind, const Environment& machine)
+      : media_(make_media(kind, path.has_parent_path() ? path.parent_path().string() : ".",
+                          path.filename().string(), footage_of(machine), budget_)) {}
 
   void add(const Environment& machine) {
     std::array<std::uint8_t, kSamplesPerBlock> samples;
     sound_.registers = machine.sound().registers;
     sound_.generate(samples);
-    for (const auto& medium : media_) {
-      medium->sound(samples);
-      medium->frame(machine.screen());
-    }
+    media_->sound(samples);
+    media_->frame(machine.screen());
     ++frames_;
   }
 
-  void commit() {
-    for (const auto& medium : media_) medium->commit();
-  }
+  void commit() { media_->commit(); }
 
   std::int64_t frames() const { return frames_; }
 
  private:
   DiskBudget budget_{std::numeric_limits<std::size_t>::max()};
-  std::vector<std::unique_ptr<Media>> media_;
+  std::unique_ptr<Media> media_;
   Sound sound_;  // a copy, which does not change the machine's
   std::int64_t frames_ = 0;
 };
@@ -93,14 +81,13 @@ Cartridge cartridge_of(const EpisodeLog& log, const Images& images) {
 }
 
 // Plays the log, and writes the frames to `path`. Returns their number.
-std::int64_t film(const EpisodeLog& log, const RenderOptions& options, const fs::path& path,
-                  const std::vector<MediaKind>& kinds) {
+std::int64_t film(const EpisodeLog& log, const RenderOptions& options, const fs::path& path, MediaKind kind) {
   PlaySettings settings = settings_of(log);
   settings.machine.cpu = options.images.cpu;
   Stage stage(cartridge_of(log, images_of(options.images)), settings, Drawing::kEvery);
   stage.begin(settings.machine.random_seed);
   Environment& machine = stage.machine();
-  Film film(path, kinds, machine);
+  Film film(path, kind, machine);
   machine.watch([&] { film.add(machine); });
   std::int64_t score = 0;
   for (const int action : log.actions) {
@@ -117,40 +104,6 @@ std::int64_t film(const EpisodeLog& log, const RenderOptions& options, const fs:
   return film.frames();
 }
 
-// Throws std::runtime_error if ffmpeg is not installed, or fails.
-void encode(const fs::path& raw, const fs::path& to) {
-  const std::string picture = raw.string() + ".y4m", sound = raw.string() + ".wav", file = to.string();
-  const bool webm = to.extension() == ".webm";
-  std::vector<std::string> words = {"ffmpeg",
-                                    "-nostdin",
-                                    "-n",
-                                    "-loglevel",
-                                    "error",
-                                    "-i",
-                                    picture,
-                                    "-i",
-                                    sound,
-                                    "-c:v",
-                                    webm ? "libvpx-vp9" : "libx264",
-                                    "-pix_fmt",
-                                    "yuv420p",
-                                    "-crf",
-                                    "20",
-                                    "-c:a",
-                                    webm ? "libopus" : "aac",
-                                    file};
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  pid_t process = 0;
-  if (::posix_spawnp(&process, "ffmpeg", nullptr, nullptr, arguments.data(), environ) != 0)
-    throw std::runtime_error("cannot run ffmpeg, which makes " + to.extension().string() +
-                             " files; .gif and .y4m need no other program");
-  int status = 0;
-  ::waitpid(process, &status, 0);
-  if (status != 0) throw std::runtime_error("ffmpeg did not make " + file);
-}
-
 void refuse_existing(const fs::path& path) {
   if (fs::exists(path)) throw InvalidInput(path.string() + " exists; no file is replaced");
 }
@@ -162,21 +115,14 @@ void run(const RenderOptions& options) {
   if (!to.has_filename()) to = to.parent_path();  // NAME/
   refuse_existing(to);
   const std::string ending = to.extension();
-  std::int64_t frames = 0;
-  if (ending == ".webm" || ending == ".mp4") {
-    const PrivateFolder folder;
-    frames = film(log, options, folder.path() / "film", {MediaKind::kY4m, MediaKind::kWav});
-    encode(folder.path() / "film", to);
-  } else {
-    const auto kind = ending.empty() ? MediaKind::kPng : media_kind(ending.substr(1));
-    if (!kind || ending == ".png") {
-      throw UsageError(
-          "--to: '" + options.to +
-          "' has an ending that is not known; accepted are .gif, .y4m, .wav, .webm, .mp4, and none "
-          "for a folder of PNGs");
-    }
-    frames = film(log, options, to.replace_extension(), {*kind});
+  const auto kind = ending.empty() ? MediaKind::kPng : media_kind(ending.substr(1));
+  if (!kind || ending == ".png") {
+    throw UsageError(
+        "--to: '" + options.to +
+        "' has an ending that is not known; accepted are .gif, .y4m, .wav, .webm, .mp4, and none "
+        "for a folder of PNGs");
   }
+  const std::int64_t frames = film(log, options, to.replace_extension(), *kind);
   std::cout << options.to << ": " << frames << " frames\n";
 }
 

@@ -101,13 +101,21 @@ int Supervisor::wait_until_ready(const std::filesystem::path& announce) {
   return 0;
 }
 
-void Supervisor::start(const std::vector<std::string>& command) {
+bool Supervisor::fork_command() {
   command_.process = fork_child();
-  if (command_.process == 0) execute(command);
+  return command_.process == 0;
+}
+
+void Supervisor::start(const std::vector<std::string>& command) {
+  if (fork_command()) execute(command);
 }
 
 int Supervisor::run(const std::vector<std::string>& command) {
   start(command);
+  return wait_for_command();
+}
+
+int Supervisor::wait_for_command() {
   bool serves = server_.process != 0;
   while (command_.process != 0) {
     const siginfo_t signal = next_signal();

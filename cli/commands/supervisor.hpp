@@ -45,6 +45,13 @@ class Supervisor {
   // found, 126 if it cannot be executed. Throws std::system_error.
   int run(const std::vector<std::string>& command);
 
+  // Makes the command's process, for a function of this program. Returns true there. Throws
+  // std::system_error.
+  bool fork_command();
+
+  // Waits until the command ends, as run() does, and returns its exit status.
+  int wait_for_command();
+
   // Starts a command, and does not wait for it. Throws std::system_error.
   void start(const std::vector<std::string>& command);
 

@@ -1,6 +1,5 @@
 #include "cli/connect/connect.hpp"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,8 +12,8 @@
 #include <string>
 
 #include "cli/arguments/subcommand.hpp"
-#include "cli/connect/half_blocks.hpp"
 #include "cli/connect/line_editor.hpp"
+#include "cli/terminal/display.hpp"
 #include "system/input_file.hpp"
 #include "system/printable.hpp"
 
@@ -25,7 +24,7 @@ constexpr auto kConnectFooter =
     R"(Sends each line to a server of the line protocol, and prints its reply. On a terminal, lines can be edited, and
 earlier lines are recalled with the arrow keys; a value of more than 200 characters is shown by its length. Lines
 that begin with a colon are for this program:
-  :screen     show the screen in colours, as the half blocks of a terminal with 24-bit colours
+  :screen     show the screen in colours, as --graphics says
   :help       list these lines; help is the server's
   :quit       end, as the end of the input does
 
@@ -42,7 +41,6 @@ constexpr auto kLocalHelp =
     ":screen shows the screen, :quit ends, and other lines go to the server; help explains its commands";
 
 constexpr std::size_t kLongestShown = 200;  // characters of a value on a terminal
-constexpr std::size_t kUsualColumns = 80, kMostColumns = 160;
 constexpr std::size_t kMostTokenFile = 1 << 16;
 
 struct ConnectOptions {
@@ -50,6 +48,7 @@ struct ConnectOptions {
   client::Options client;
   double timeout = 0;  // seconds; 0: none
   bool strict = false;
+  Graphics graphics = Graphics::kAuto;
 };
 
 // The first token of a file of the form that serve --token-file reads.
@@ -60,12 +59,6 @@ std::string token_in(const std::string& path) {
     if (!line.empty() && !line.starts_with('#')) return line;
   }
   throw std::invalid_argument("the token file " + path + " has no token");
-}
-
-std::size_t terminal_columns() {
-  winsize size{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsualColumns;
-  return std::min<std::size_t>(size.ws_col, kMostColumns);
 }
 
 // A reply in which long values are replaced by their lengths.
@@ -88,8 +81,11 @@ std::string shortened(std::string_view line) {
 
 class Conversation {
  public:
-  Conversation(client::Session session, bool strict)
-      : session_(std::move(session)), strict_(strict), editor_("racebeam> ", commands(session_)) {}
+  Conversation(client::Session session, const ConnectOptions& options)
+      : session_(std::move(session)),
+        strict_(options.strict),
+        graphics_(options.graphics),
+        editor_("racebeam> ", commands(session_)) {}
 
   // Returns the exit status.
   int hold() {
@@ -133,11 +129,23 @@ class Conversation {
 
   void show_screen() {
     const auto shown = session_.look("screen:zlib", "palette");
-    std::cout << half_blocks(shown.bytes("screen"), shown.bytes("palette"), terminal_columns()) << std::flush;
+    const TerminalPicture picture{shown.bytes("screen"), shown.bytes("palette")};
+    Room room;
+    if (editor_.interactive()) ask_terminal(room);
+    room.rows = Room::kNoLimit;
+    std::cout << inline_picture(graphics_, picture, room) << std::flush;
+  }
+
+  // Its size, and once, what it can show.
+  void ask_terminal(Room& room) {
+    Tty tty;
+    if (graphics_ == Graphics::kAuto) graphics_ = choose_graphics(graphics_, ask_abilities(tty));
+    room = tty.room();
   }
 
   client::Session session_;
   bool strict_;
+  Graphics graphics_;
   LineEditor editor_;
 };
 
@@ -145,7 +153,7 @@ int connect(ConnectOptions options) {
   if (!options.token_file.empty()) options.client.token = token_in(options.token_file);
   if (options.timeout > 0)
     options.client.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * options.timeout));
-  return Conversation(client::connect(options.address, options.client), options.strict).hold();
+  return Conversation(client::connect(options.address, options.client), options).hold();
 }
 
 }  // namespace
@@ -162,6 +170,7 @@ void add_connect(Subcommand& program) {
   command.option("--timeout", options->timeout, "Seconds to wait for a connection or a reply; 0: for ever")
       .check(number(0, 1e6))
       .shows_default();
+  add_graphics_option(command, options->graphics);
   command.flag("--strict", options->strict, "End with status 1 at the first error");
   command.exits_with([options] { return connect(*options); });
 }

@@ -1,12 +1,9 @@
 #include "cli/connect/watch.hpp"
 
-#include <poll.h>
-#include <sys/ioctl.h>
-#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <chrono>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -16,20 +13,22 @@
 
 #include "cli/arguments/subcommand.hpp"
 #include "cli/connect/browser.hpp"
-#include "cli/connect/half_blocks.hpp"
 #include "cli/connect/page_address.hpp"
+#include "cli/terminal/display.hpp"
 #include "system/printable.hpp"
 
 namespace racebeam {
 namespace {
 
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
 constexpr auto kWatchFooter =
     R"(Shows the sessions whose clients have said `share`, or all with serve --watch all.
 
-With --terminal, draws one of them in the terminal, as half blocks in 24-bit colours, as fast as the terminal and the
-connection take them. Keys: n the next session, p the one before, q the end. ADDRESS is then that of
-racebeam connect: tcp://HOST:PORT, tls://HOST:PORT, unix:PATH or file:PATH. If standard output is no terminal, one
-picture is written.
+With --terminal, draws one of them in the terminal, as --graphics says. Pictures that the line does not carry in time
+are left out. Keys: n the next session, p the one before, q the end. ADDRESS is then that of racebeam connect:
+tcp://HOST:PORT, tls://HOST:PORT, unix:PATH or file:PATH. If standard output is no terminal, one picture is written.
 
 Without --terminal, opens the server's page in a browser, and prints its address; ADDRESS is then ws://HOST:PORT,
 wss://HOST:PORT, http://HOST:PORT or https://HOST:PORT.
@@ -42,123 +41,95 @@ Examples:
   racebeam watch --terminal tcp://127.0.0.1:7801
   racebeam watch --terminal --session room file:announce)";
 
-constexpr int kBetweenLooks = 33;    // milliseconds
-constexpr int kBetweenLists = 1000;  // while nothing is shared
-constexpr auto kHome = "\x1b[H", kClear = "\x1b[2J", kHideCursor = "\x1b[?25l", kShowCursor = "\x1b[?25h",
-               kToEndOfLine = "\x1b[K\n";
+constexpr auto kBetweenLooks = 16ms;
+constexpr auto kBetweenLists = 1s;  // while nothing is shared
 
 struct WatchOptions {
   std::string address, session;
   bool terminal = false;
+  Graphics graphics = Graphics::kAuto;
 };
-
-// While it lives, each key is read at once, and is not shown.
-class Keys {
- public:
-  Keys() {
-    if (::tcgetattr(STDIN_FILENO, &before_) != 0) return;
-    termios now = before_;
-    now.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-    is_set_ = ::tcsetattr(STDIN_FILENO, TCSANOW, &now) == 0;
-  }
-  ~Keys() {
-    if (is_set_) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-  }
-  Keys(const Keys&) = delete;
-  Keys& operator=(const Keys&) = delete;
-
-  // Waits up to this time. Returns a key, 'q' at the end of the input, or 0.
-  char wait(int milliseconds) const {
-    pollfd state{STDIN_FILENO, POLLIN, 0};
-    if (::poll(&state, 1, milliseconds) <= 0) return 0;
-    char key = 'q';
-    return ::read(STDIN_FILENO, &key, 1) == 1 ? key : 'q';
-  }
-
- private:
-  termios before_{};
-  bool is_set_ = false;
-};
-
-std::size_t picture_columns() {
-  constexpr std::size_t kUsual = 80, kMost = 160;
-  winsize size{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsual;
-  const std::size_t rows = size.ws_row > 2 ? size.ws_row - 2U : 1;
-  return std::clamp<std::size_t>(rows * 4 * 160 / 210, 1, std::min<std::size_t>(size.ws_col, kMost));
-}
 
 class Watcher {
  public:
   Watcher(client::Session session, std::string name) : session_(std::move(session)), name_(std::move(name)) {}
 
   // Draws until the user ends it.
-  void watch() {
-    const Keys keys;
-    std::cout << kHideCursor << kClear;
-    for (char key = 0; key != 'q'; key = keys.wait(name_.empty() ? kBetweenLists : kBetweenLooks)) {
-      if (key == 'n' || key == 'p') choose(key == 'n' ? 1 : -1);
-      if (name_.empty()) choose(0);
-      std::cout << kHome << look() << std::flush;
+  void watch(Graphics graphics) {
+    Display display(graphics);
+    bool ended = false;
+    while (!ended) {
+      if (display.is_ready()) {
+        const bool is_new = look();
+        display.show(is_new ? &picture_ : nullptr, line_);
+      }
+      const auto next = Clock::now() + (name_.empty() ? kBetweenLists : kBetweenLooks);
+      do {
+        for (const TerminalEvent& event : display.wait(next)) ended = ended || handle(event);
+      } while (!ended && Clock::now() < next);
     }
-    std::cout << kShowCursor << std::flush;
   }
 
   // Writes one picture.
-  void show() {
-    if (name_.empty()) choose(0);
-    std::cout << look();
+  void show(Graphics graphics) {
+    if (look()) std::cout << inline_picture(graphics, picture_, {.rows = Room::kNoLimit});
+    std::cout << line_ << std::endl;
   }
 
  private:
+  // Returns whether the key ends the program.
+  bool handle(const TerminalEvent& event) {
+    if (event.kind != TerminalEvent::Kind::kPress) return false;
+    if (event.key == 'n' || event.key == 'p') choose(event.key == 'n' ? 1 : -1);
+    return event.key == 'q';
+  }
+
   // Goes this many sessions on in the list.
   void choose(std::ptrdiff_t steps) {
     std::vector<std::string> names;
     const client::Reply shared = session_.request("shared");
     for (const client::Group& group : shared.rest()) names.push_back(group.text("name"));
-    picture_.clear();
     frame_.reset();
     if (names.empty()) return name_.clear();
     const auto count = std::ssize(names), here = std::ranges::find(names, name_) - names.begin();
     name_ = names[static_cast<std::size_t>(((here == count ? 0 : here) + steps + count) % count)];
   }
 
-  // What the terminal is to show.
-  std::string look() {
-    if (name_.empty()) return std::string("no session is shared").append(kToEndOfLine);
+  // Asks for the newest picture. Returns whether there is another one.
+  bool look() {
+    if (name_.empty()) choose(0);
+    if (name_.empty()) return say("no session is shared");
     try {
-      std::string request = "watch " + name_;
-      if (frame_) request.append(" since=").append(*frame_);
-      const client::Reply reply = session_.request(request.append(" screen:zlib palette"));
-      const client::Group& seen = reply.first();
-      frame_ = seen.text("frame");
-      if (seen.has("screen")) picture_ = draw(seen);
-      return picture_ + describe(seen);
+      return take(
+          session_.request("watch " + name_ + (frame_ ? " since=" + *frame_ : "") + " screen:zlib palette"));
     } catch (const client::Refused& refused) {
-      const std::string sentence = refused.sentence();
       choose(0);
-      if (name_.empty()) return std::string(kClear).append(kHome).append(sentence).append(kToEndOfLine);
-      return {};
+      return say(printable(refused.sentence()));
     }
   }
 
-  static std::string draw(const client::Group& seen) {
-    const auto screen = client::decode(client::Encoding::kZlib, seen.text("screen"));
-    const auto colours = client::decode(client::Encoding::kHex, seen.text("palette"));
-    return half_blocks(screen, colours, picture_columns());
+  bool say(std::string line) {
+    line_ = std::move(line);
+    return false;
   }
 
-  std::string describe(const client::Group& seen) const {
-    std::string line = printable(name_);
+  bool take(const client::Reply& reply) {
+    const client::Group& seen = reply.first();
+    frame_ = seen.text("frame");
+    line_ = printable(name_);
     for (const std::string key : {"game", "score", "lives", "episode", "action"})
-      line.append("  ").append(key).append(" ").append(printable(seen.text(key)));
-    return line.append(kToEndOfLine);
+      line_.append("  ").append(key).append(" ").append(printable(seen.text(key)));
+    if (!seen.has("screen")) return false;
+    picture_.pixels = client::decode(client::Encoding::kZlib, seen.text("screen"));
+    picture_.colours = client::decode(client::Encoding::kHex, seen.text("palette"));
+    return true;
   }
 
   client::Session session_;
   std::string name_;  // of the shared session; empty: none
   std::optional<std::string> frame_;
-  std::string picture_;
+  std::string line_;  // what is said of it
+  TerminalPicture picture_;
 };
 
 void open_page(const WatchOptions& options) {
@@ -181,7 +152,7 @@ void open_page(const WatchOptions& options) {
 void watch(const WatchOptions& options) {
   if (!options.terminal) return open_page(options);
   Watcher watcher(client::connect(options.address), options.session);
-  ::isatty(STDOUT_FILENO) != 0 ? watcher.watch() : watcher.show();
+  ::isatty(STDOUT_FILENO) != 0 ? watcher.watch(options.graphics) : watcher.show(options.graphics);
 }
 
 }  // namespace
@@ -192,6 +163,7 @@ void add_watch(Subcommand& program) {
       program.add_subcommand("watch", "Look at the shared sessions of a server", kWatchFooter);
   command.option("ADDRESS", options->address, "Where the server is").variable("RACEBEAM_ADDRESS").required();
   command.flag("--terminal", options->terminal, "Draw in the terminal");
+  add_graphics_option(command, options->graphics);
   command.option("--session", options->session, "Begin with the session of this name").value_name("NAME");
   command.runs([options] { watch(*options); });
 }

@@ -20,7 +20,7 @@ racebeam_sent=()                       # requests without a reply
 racebeam_height=0
 declare -A racebeam_encodings=() racebeam_arrays=()  # of fields; of `MACHINE FIELD`: what deltas have made, as digits
 
-declare -rA racebeam_usual=([ram]=hex [screen]=rle [rgb]=zlib [grey]=zlib [palette]=hex [audio]=hex)
+declare -rA racebeam_usual=([ram]=hex [tia]=hex [screen]=rle [rgb]=zlib [grey]=zlib [palette]=hex [audio]=hex)
 
 _racebeam_fail() { racebeam_error=$2; return "$1"; }
 
@@ -189,7 +189,7 @@ _racebeam_size() {
     echo $((BASH_REMATCH[2] * BASH_REMATCH[3] * BASH_REMATCH[4] * (${#BASH_REMATCH[1]} == 3 ? 3 : 1)))
   else
     case $field in
-      ram) echo 128 ;; palette) echo 768 ;; audio) echo 512 ;;
+      ram) echo 128 ;; tia) echo 53 ;; palette) echo 768 ;; audio) echo 512 ;;
       rgb) echo $((racebeam_height * 480)) ;; *) echo $((racebeam_height * 160)) ;;
     esac
   fi

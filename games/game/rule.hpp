@@ -29,12 +29,19 @@ struct Variable {
   bool kept = false;         // it persists over resets; 0 before its first assignment
 };
 
+// A byte of RAM that a rule reads, and the variable that it goes into.
+struct NamedByte {
+  int index;  // 0-127
+  std::string name;
+};
+
 // The rule of a game file, compiled.
 struct RuleProgram {
   std::vector<Variable> variables;  // variable n is RuleState::values[n]
   Program step;
-  Program terminal, lives;      // for queries; they read variables only
-  std::optional<int> reward_b;  // the variable with player B's reward, if the rule has one
+  Program terminal, lives;       // for queries; they read variables only
+  std::optional<int> reward_b;   // the variable with player B's reward, if the rule has one
+  std::vector<NamedByte> bytes;  // in the order of their indices; where several variables read one, the first
 };
 
 class Rule {

@@ -75,15 +75,30 @@ void ProgramBuilder::drop_unused() {
 }
 
 // Operands have lower numbers than the instructions that use them.
-std::vector<bool> ProgramBuilder::used_code() {
+std::vector<bool> ProgramBuilder::used_code() const {
   std::vector<bool> used(program_.code.size());
   for (const Output& output : program_.outputs) used[output.from] = true;
   if (program_.outputs.empty()) used[program_.result] = true;
+  mark_operands(used);
+  return used;
+}
+
+void ProgramBuilder::mark_operands(std::vector<bool>& used) const {
   for (std::size_t i = used.size(); i-- > 0;) {
     if (!used[i]) continue;
-    for (const Register* operand : operands(program_.code[i])) used[*operand] = true;
+    Instruction instruction = program_.code[i];
+    for (const Register* operand : operands(instruction)) used[*operand] = true;
   }
-  return used;
+}
+
+std::set<int> ProgramBuilder::ram_bytes(Register from) const {
+  std::vector<bool> used(program_.code.size());
+  used[from] = true;
+  mark_operands(used);
+  std::set<int> bytes;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i] && program_.code[i].op == Op::kRam) bytes.insert(program_.code[i].value);
+  return bytes;
 }
 
 }  // namespace racebeam

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "games/game/program.hpp"
@@ -16,13 +17,16 @@ class ProgramBuilder {
   Register emit(const Instruction& instruction);  // throws std::length_error if the program gets too long
 
   std::optional<std::int32_t> constant_value(Register from) const;
+  std::set<int> ram_bytes(
+      Register from) const;  // the bytes of RAM, at fixed places, that this value depends on
   void output(int slot, Register from) { program_.outputs.push_back({slot, from}); }
   Program finish(Register result = 0);
 
  private:
   bool can_fold(Instruction instruction) const;
   void drop_unused();
-  std::vector<bool> used_code();
+  std::vector<bool> used_code() const;
+  void mark_operands(std::vector<bool>& used) const;  // of code that is marked
 
   Program program_;
   std::map<Instruction, Register> known_;

@@ -50,6 +50,7 @@ void RuleCompiler::assignment(TokenReader& reader) {
   const Register value = compile_expression(reader, step_scope_, step_);
   reader.expect_separator();
   step_scope_.values[name] = value;
+  for (const int byte : step_.ram_bytes(value)) bytes_.try_emplace(byte, name);
 }
 
 void RuleCompiler::imply_reward(const char* reward, const char* score) {
@@ -78,6 +79,7 @@ ModeProgram RuleCompiler::mode_program(std::string_view source) {
 RuleProgram RuleCompiler::finish() {
   if (assigns("reward_b")) rule_.reward_b = names_.slot("reward_b");
   rule_.variables = names_.variables();
+  for (const auto& [index, name] : bytes_) rule_.bytes.push_back({index, name});
   for (const auto& [name, value] : step_scope_.values)
     if (const std::optional<int> slot = names_.slot_if_used(name)) step_.output(*slot, value);
   rule_.step = step_.finish();

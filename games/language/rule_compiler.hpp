@@ -44,6 +44,7 @@ class RuleCompiler {
   VariableNames names_;
   Scope step_scope_{Purpose::kStep, names_};
   ProgramBuilder step_;
+  std::map<int, std::string> bytes_;  // of RAM, by their index: the first variable that reads them
   RuleProgram rule_;
   std::optional<std::int32_t> modulus_;
 };

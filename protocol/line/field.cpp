@@ -39,6 +39,13 @@ constexpr std::array kFields = {
     NUMBER("frames", true, o.frames, "frames that the request ran"),
     FieldRow{"ram", "128 bytes", false, nullptr,
              [](const Environment& e, Scratch&) -> Bytes { return e.ram(); }, Encoding::kHex},
+    FieldRow{"tia", "53 bytes: the registers of the TIA and its collision latches; names has their names",
+             false, nullptr,
+             [](const Environment& e, Scratch& scratch) -> Bytes {
+               e.tia_values(scratch);
+               return scratch;
+             },
+             Encoding::kHex},
     FieldRow{"screen", "height x 160 palette indices, row by row", false, nullptr,
              [](const Environment& e, Scratch&) { return e.screen(); }, Encoding::kRunLength, Drawing::kLast},
     FieldRow{"rgb", "height x 160 x 3: red, green, blue", false, nullptr,

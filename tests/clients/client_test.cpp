@@ -84,6 +84,7 @@ TEST_CASE("Each command has a method") {
     CHECK(game.set("difficulty=1").number("difficulty") == 1);
     CHECK(game.modes() == std::vector<int>{0});
     CHECK(game.difficulties() == std::vector<int>{0, 1});
+    CHECK(game.names().list("tia_names").size() == game.look("tia").bytes("tia").size());
     CHECK(game.actions().at(17) == "DOWNLEFTFIRE");
     CHECK(game.observe("reward", "ends", "frame") ==
           std::vector<std::string>{"reward", "terminated", "truncated", "frame"});

@@ -12,7 +12,7 @@ import client as racebeam  # noqa: E402
 from harness import BINARY, GAME, PATIENCE, Server, main  # noqa: E402
 
 ENCODINGS = ("hex", "rle", "delta", "base64", "zlib", "raw")
-CONTENTS = {"ram": 128, "screen": 33600, "rgb": 100800, "grey": 33600, "grey84x3": 3 * 84 * 84, "palette": 768, "audio": 512}
+CONTENTS = {"ram": 128, "tia": 53, "screen": 33600, "rgb": 100800, "grey": 33600, "grey84x3": 3 * 84 * 84, "palette": 768, "audio": 512}
 
 
 def over_each_transport(test):
@@ -63,6 +63,8 @@ class PythonClient(unittest.TestCase):
         self.assertEqual(session.settings()["seed"], 3)
         self.assertEqual(session.set(difficulty=1)["difficulty"], 1)
         self.assertEqual((session.modes(), session.difficulties()), ([0], [0, 1]))
+        bytes_of_ram, registers = session.names()
+        self.assertEqual((bytes_of_ram[1], registers[6], len(registers)), ("lives", "COLUP0", len(session.look("tia")["tia"])))
         self.assertEqual(session.actions()[17], "DOWNLEFTFIRE")
         self.assertEqual(session.observe("reward", "ends", "frame"), ["reward", "terminated", "truncated", "frame"])
         self.assertEqual(session.act("UP", "FIRE*2")["frame"], 15)

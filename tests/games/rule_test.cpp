@@ -198,3 +198,12 @@ TEST_CASE("player B's reward is the change of score_b or what the rule says, and
   CHECK(zero_sum.has_second_reward());
   CHECK_FALSE(none.has_second_reward());
 }
+
+TEST_CASE("A rule names the bytes of RAM that it reads, each by the first variable that it goes into") {
+  const Game game = game_with_step(
+      "digits = bcd(0x90, 0x8F)\nlives = ram[0x81] & 7\nscore = 10 * digits + ram[0x81]\n"
+      "all = sum(i, 0, 1, ram[0xA0 + i]) + ram[ram[0xB0]]\nterminal = lives == 0 || mem[0x1234]");
+  std::string named;
+  for (const auto& [index, name] : game.rule->bytes) named += std::to_string(index) + ":" + name + " ";
+  CHECK(named == "1:lives 15:digits 16:digits 32:all 33:all 48:all ");
+}

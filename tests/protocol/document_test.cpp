@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "emulator/tia/registers/register_values.hpp"
 #include "protocol/encoding/encoding.hpp"
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
@@ -107,4 +108,13 @@ TEST_CASE("Documents that count the encodings count all of them") {
 
 TEST_CASE("A code's place in the table is its number") {
   for (std::size_t i = 0; i < codes().size(); ++i) CHECK(static_cast<std::size_t>(codes()[i].code) == i);
+}
+
+TEST_CASE("The document lists the bytes of the field tia in their order") {
+  std::string names;
+  for (const std::string_view name : kTiaValueNames) (names += names.empty() ? "" : " ") += name;
+  CHECK_THAT(std::regex_replace(document(), std::regex("\\s+"), " "), Contains(names));
+  const auto rows = field_rows();
+  const auto row = std::ranges::find(rows, "tia", &FieldRow::name);
+  CHECK(row->summary.starts_with(std::to_string(kTiaValues) + " bytes: "));
 }

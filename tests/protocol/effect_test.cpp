@@ -3,6 +3,8 @@
 // here or in effect_cases.cpp. A server that ignored it would fail that case.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -27,10 +29,21 @@ using test::value;
 
 namespace {
 
-struct Room {  // where conversations are held
-  Scratch folder;
+struct Room {  // where conversations are held, with a script in the place of ffmpeg
+  Scratch folder, tools;
   LineService service = duel_service();
-  Room() { service.recorder = std::make_shared<Recorder>(folder.path("")); }
+  Room() {
+    service.recorder = std::make_shared<Recorder>(folder.path(""));
+    const std::string script = tools.write("ffmpeg", "#!/bin/sh\nexec cat > /dev/null\n");
+    std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+    ::setenv("PATH", (tools.path("") + ":" + path).c_str(), 1);
+  }
+  ~Room() { ::setenv("PATH", path.c_str(), 1); }
+  Room(const Room&) = delete;
+  Room& operator=(const Room&) = delete;
+
+ private:
+  const std::string path = std::getenv("PATH");
 };
 
 // The reply to the last line.

@@ -1,8 +1,8 @@
 import { applyDelta, base64, hex, rle, zlib } from "./decode.js";
 
 const DECODERS = { hex, rle, base64, zlib };
-const USUAL = { ram: "hex", screen: "rle", rgb: "zlib", grey: "zlib", palette: "hex", audio: "hex" };
-const SIZES = { ram: 128, palette: 768, audio: 512 };
+const USUAL = { ram: "hex", tia: "hex", screen: "rle", rgb: "zlib", grey: "zlib", palette: "hex", audio: "hex" };
+const SIZES = { ram: 128, tia: 53, palette: 768, audio: 512 };
 const WIDTH = 160;
 const NUMBER = /^-?(0|[1-9]\d{0,14})(\.\d+)?$/;
 

@@ -76,6 +76,8 @@ export class Session {
   difficulties(): Promise<number[]>;
   /** Names by number. */
   actions(): Promise<Map<number, string>>;
+  /** Names for bytes of the fields ram, by their indices, and tia, in their order. */
+  names(): Promise<{ ram: Map<number, string>; tia: string[] }>;
   observe(...fields: string[]): Promise<string[]>;
   look(...fields: string[]): Promise<Group>;
   /** The colour of each value of a pixel, 0xAABBGGRR: what a Uint32Array over the bytes of an ImageData takes. */

@@ -146,6 +146,12 @@ export class Session {
     return new Map(named.map(([number, name]) => [Number(number), name]));
   }
 
+  async names() {
+    const { ram_names: ram, tia_names: tia } = await this.#first("names");
+    const named = list(ram).map((pair) => pair.split(":"));
+    return { ram: new Map(named.map(([index, name]) => [Number(index), name])), tia: list(tia) };
+  }
+
   observe(...fields) {
     return this.#list("fields", "observe", ...fields);
   }

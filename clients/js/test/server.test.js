@@ -26,6 +26,9 @@ test("each command has a method", { skip }, async (context) => {
   assert.equal((await game.set({ difficulty: 1 })).difficulty, 1);
   assert.deepEqual(await game.modes(), [0]);
   assert.deepEqual(await game.difficulties(), [0, 1]);
+  const { ram, tia } = await game.names();
+  assert.equal(ram.get(1), "lives");
+  assert.equal(tia.length, (await game.look("tia")).tia.length);
   assert.equal((await game.actions()).get(17), "DOWNLEFTFIRE");
   assert.deepEqual(await game.observe("reward", "ends", "frame"), ["reward", "terminated", "truncated", "frame"]);
   assert.equal((await game.act("UP", "FIRE*2")).frame, 15);

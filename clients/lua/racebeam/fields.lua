@@ -2,8 +2,8 @@
 
 local decode = require("racebeam.decode")
 
-local USUAL = { ram = "hex", screen = "rle", rgb = "zlib", grey = "zlib", palette = "hex", audio = "hex" }
-local SIZES = { ram = 128, palette = 768, audio = 512 }
+local USUAL = { ram = "hex", tia = "hex", screen = "rle", rgb = "zlib", grey = "zlib", palette = "hex", audio = "hex" }
+local SIZES = { ram = 128, tia = 53, palette = 768, audio = 512 }
 local WIDTH = 160
 
 -- Width, height, depth and bytes a pixel of fields such as grey84x4 and rgb40x30x2; nil for others.

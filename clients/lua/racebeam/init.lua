@@ -244,6 +244,10 @@ function Session:modes()
   return numbers(split(first(self, "modes").modes))
 end
 
+function Session:names()
+  return first(self, "names")
+end
+
 function Session:difficulties()
   return numbers(split(first(self, "difficulties").difficulties))
 end

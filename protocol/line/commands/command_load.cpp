@@ -1,4 +1,4 @@
-// games, load, settings, set, modes, difficulties, actions
+// games, load, settings, set, modes, difficulties, actions, names
 #include <unistd.h>
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "emulator/tia/registers/register_values.hpp"
 #include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/line/play_settings.hpp"
@@ -37,6 +38,16 @@ void append_names(std::string& out, const Names& names) {
 void append_numbered(std::string& out, std::string_view key, const std::vector<int>& numbers) {
   append_pair(out, key, "");
   append_list(out, numbers);
+}
+
+template <typename List>
+void append_words(std::string& out, std::string_view key, const List& words) {
+  append_pair(out, key, "");
+  std::string_view separator;
+  for (const auto& word : words) {
+    out.append(separator).append(word);
+    separator = ",";
+  }
 }
 
 std::string_view format_name(Format format) {
@@ -247,6 +258,16 @@ void run_actions(Session& session, Words) {
   }
   append_numbered(out, "minimal", game.minimal_actions);
   append_numbered(out, "legal", game.legal_actions);
+}
+
+void run_names(Session& session, Words) {
+  const Game& game = session.loaded->machine().game();
+  std::vector<std::string> bytes;
+  if (game.rule)
+    for (const auto& [index, name] : game.rule->bytes) bytes.push_back(std::to_string(index) + ':' + name);
+  session.out += "ok";
+  append_words(session.out, "ram_names", bytes);
+  append_words(session.out, "tia_names", kTiaValueNames);
 }
 
 }  // namespace racebeam

@@ -11,8 +11,8 @@ namespace racebeam {
 namespace {
 
 constexpr std::string_view kTaken =
-    "record takes png, gif, y4m, wav or several as in y4m,wav, and a name, or stop";
-constexpr std::array<std::string_view, 5> kWords = {"png", "gif", "y4m", "wav", "stop"};
+    "record takes png, gif, y4m, wav, webm, mp4 or several as in y4m,wav, and a name, or stop";
+constexpr std::array<std::string_view, 7> kWords = {"png", "gif", "y4m", "wav", "webm", "mp4", "stop"};
 
 void stop(Session& session) {
   if (!session.recording) throw RequestError(ErrorCode::kRecording, "nothing is being recorded");

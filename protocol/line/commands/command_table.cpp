@@ -18,6 +18,7 @@ void run_set(Session&, Words);
 void run_modes(Session&, Words);
 void run_difficulties(Session&, Words);
 void run_actions(Session&, Words);
+void run_names(Session&, Words);
 
 // command_play.cpp
 void run_observe(Session&, Words);
@@ -73,6 +74,7 @@ constexpr std::array kCommands = {
     Command{"difficulties", "", "the game's difficulties", "", "", 0, 0, Needs::kGame, run_difficulties},
     Command{"actions", "", "list the actions that act accepts, and the game's legal and minimal ones", "", "",
             0, 0, Needs::kGame, run_actions},
+    Command{"names", "", "names for bytes of the fields ram and tia", "", "", 0, 0, Needs::kGame, run_names},
     Command{"observe", "[FIELD[:ENCODING]...|none]", "select the fields of replies",
             "help fields has the fields and encodings", "observe reward ends screen:rle", 0, kAnyNumber,
             Needs::kAdmission, run_observe},
@@ -113,7 +115,7 @@ constexpr std::array kCommands = {
             "with a seed, the machines are powered on anew", "restart 0110", 0, 2, Needs::kMachines,
             run_restart},
     Command{"close", "", "close the machines", "", "", 0, 0, Needs::kMachines, run_close},
-    Command{"record", "png|gif|y4m|wav[,...] NAME [machine=N] | stop",
+    Command{"record", "png|gif|y4m|wav|webm|mp4[,...] NAME [machine=N] | stop",
             "record frames, sound or both into the server's folder",
             "machine= takes one of open, 0 the first", "record gif first", 1, 3, Needs::kGame, run_record},
     Command{"share", "NAME [watchers=N]", "let other sessions watch the game under this name",

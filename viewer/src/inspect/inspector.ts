@@ -6,6 +6,7 @@ import { PaletteView } from "./palette.js";
 import { plot } from "./plot.js";
 import { RamGrid } from "./ram_grid.js";
 import { SearchPanel } from "./search_panel.js";
+import { TiaView } from "./tia_view.js";
 
 const KEPT = 1800; // moments of the plots
 const PLOT_EVERY = 4; // pictures
@@ -14,7 +15,8 @@ const PLOT_EVERY = 4; // pictures
 export class Inspector {
   readonly search = new SearchPanel();
   readonly #element = byId("inspector", HTMLElement);
-  readonly #ram = new RamGrid(byId("ram", HTMLTableElement));
+  readonly #ram = new RamGrid(byId("ram", HTMLTableElement), byId("ram-names", HTMLElement));
+  readonly #tia = new TiaView(byId("tia", HTMLElement));
   readonly #agent = new AgentView(byId("agent", HTMLElement));
   readonly #palette = new PaletteView(byId("palette", HTMLCanvasElement), byId("used", HTMLElement));
   readonly #plots = {
@@ -38,7 +40,9 @@ export class Inspector {
   }
 
   /** A game was loaded, or an episode begins. */
-  begin(colours: Uint32Array): void {
+  begin(colours: Uint32Array, names: { ram: ReadonlyMap<number, string>; tia: readonly string[] }): void {
+    this.#ram.name(names.ram);
+    this.#tia.begin(names.tia);
     this.#moments = [];
     this.#palette.become(colours);
     this.search.begin();
@@ -63,6 +67,9 @@ export class Inspector {
       return;
     }
     this.#ram.show(shown.ram);
+    if (shown.tia) {
+      this.#tia.show(shown.tia);
+    }
     this.#agent.draw();
     this.#palette.show(shown.screen);
     tell(byId("action", HTMLElement), spoken(shown.act));

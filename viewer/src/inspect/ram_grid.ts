@@ -7,9 +7,12 @@ const ROWS = 8;
 /** The 128 bytes of RAM as a table. */
 export class RamGrid {
   readonly #cells: HTMLTableCellElement[] = [];
+  readonly #names: HTMLElement;
   #before: Uint8Array = new Uint8Array(0);
 
-  constructor(table: HTMLTableElement) {
+  /** `names`: where names of bytes are listed. */
+  constructor(table: HTMLTableElement, names: HTMLElement) {
+    this.#names = names;
     const digits = Array.from({ length: COLUMNS }, (_, column) => make("th", { scope: "col", textContent: column.toString(16).toUpperCase() }));
     table.append(make("caption", { className: "visually-hidden", textContent: "Bytes of RAM in hexadecimal" }),
       make("thead", {}, make("tr", {}, make("td"), ...digits)));
@@ -33,6 +36,16 @@ export class RamGrid {
       }
     });
     this.#before = ram;
+  }
+
+  /** Names the bytes that the game's rule reads, by their indices. */
+  name(names: ReadonlyMap<number, string>): void {
+    this.#cells.forEach((cell, index) => {
+      cell.classList.toggle("named", names.has(index));
+      cell.title = names.get(index) ?? "";
+    });
+    const listed = [...names].map(([index, name]) => `${addressOf(index)} ${name}`);
+    tell(this.#names, listed.length ? `The game's rule reads: ${listed.join(", ")}.` : "");
   }
 
   /** Marks the bytes that a search has left over. */

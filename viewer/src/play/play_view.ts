@@ -14,6 +14,8 @@ import { Figures } from "./figures.js";
 import { GameChoice } from "./game_choice.js";
 import { Player, type Choice, type Motion, type Shown } from "./player.js";
 
+const INSPECTED = ["grey84:delta", "tia:raw"]; // fields of the panels
+
 /** The view in which a game is played. */
 export class PlayView {
   /** Called with the episode that the user wants to see again. */
@@ -79,7 +81,7 @@ export class PlayView {
     this.#player.shown = (shown) => this.#take(shown);
     this.#player.failed = (error) => void this.#lose(error);
     void session.ended.then((error) => (session === this.#session ? this.#lose(error) : undefined));
-    await this.#player.observe(this.#inspector.open ? ["grey84:delta"] : []);
+    await this.#player.observe(this.#inspector.open ? INSPECTED : []);
   }
 
   /** The session has ended: opens another one, which plays the same acts to the same moment. */
@@ -114,7 +116,7 @@ export class PlayView {
     const colours = await this.#session!.palette();
     this.#screen.become(colours, game.format, game.height);
     this.#speaker.rate = soundRate(game.format);
-    this.#inspector.begin(colours);
+    this.#inspector.begin(colours, await this.#session!.names());
     const described = await this.#session!.game(game.name).catch((): Group => ({})); // an image without rules has no description
     this.#minimal = String(described.minimal ?? "0").split(",").map(Number);
     this.#choice.show(game, described);
@@ -227,7 +229,7 @@ export class PlayView {
   async #inspect(): Promise<void> {
     this.#inspector.open = !this.#inspector.open;
     byId("inspect", HTMLButtonElement).setAttribute("aria-pressed", String(this.#inspector.open));
-    await this.#player?.observe(this.#inspector.open ? ["grey84:delta"] : []).catch((error) => this.#lose(error));
+    await this.#player?.observe(this.#inspector.open ? INSPECTED : []).catch((error) => this.#lose(error));
   }
 
   #replayThis(): void {

@@ -46,6 +46,7 @@ export interface Shown {
   ram: Uint8Array;
   audio: Uint8Array;
   agent?: Uint8Array;
+  tia?: Uint8Array;
 }
 
 export type Motion = "playing" | "paused" | "rewinding";
@@ -238,9 +239,9 @@ export class Player {
       ++this.#epoch;
       this.#over = true;
     }
-    const { reward = 0, lives, screen, ram, audio, grey84: agent } = group;
+    const { reward = 0, lives, screen, ram, audio, grey84: agent, tia } = group;
     const act = this.#history.acts[moment - 1] ?? "0";
-    const shown: Shown = { moment, act, reward, score: this.score(moment), lives, over, screen, ram, audio, ...(agent ? { agent } : {}) };
+    const shown: Shown = { moment, act, reward, score: this.score(moment), lives, over, screen, ram, audio, ...(agent ? { agent } : {}), ...(tia ? { tia } : {}) };
     this.#newest = { shown, pressed: this.#newest?.pressed ?? pressed };
     this.shown(shown);
   }

@@ -70,6 +70,22 @@ export class Deck {
     await this.#end?.();
   }
 
+  /** Makes a film of the episode in the server's folder: gif, webm, mp4, or png for a folder of pictures. Returns its name. */
+  async film(kind: string): Promise<string> {
+    const track = this.#track!;
+    const progress = part(this.element, "progress", HTMLProgressElement);
+    const { session } = await this.#server.open();
+    progress.hidden = false;
+    try {
+      const time = new Date().toISOString().replace(/\D/g, "").slice(0, 14);
+      const made = await track.film(session, kind, `${this.episode.game}-${time}`, (done) => (progress.value = done));
+      return `${made.recorded}: ${made.frames} frames${made.complete === 1 ? "" : ", cut short"}`;
+    } finally {
+      progress.hidden = true;
+      await session.disconnect();
+    }
+  }
+
   /** Shows a frame. While the server works, only the newest wish counts. */
   show(frame: number): void {
     this.#wanted = frame;

@@ -94,6 +94,7 @@ export class ReplayView {
     click("run-step", () => this.#goTo(this.#frame + 1));
     click("reward-before", () => this.#goTo(this.#rewards().findLast((frame) => frame < this.#frame) ?? 0));
     click("reward-after", () => this.#goTo(this.#rewards().find((frame) => frame > this.#frame) ?? this.#frames));
+    click("film", () => void this.#attempt(() => this.#film()));
     click("link", () => void this.#attempt(() => this.#link()));
     this.#speed.onchange = () => this.#run(this.#runs);
     addEventListener("resize", () => this.#drawMarks());
@@ -171,6 +172,21 @@ export class ReplayView {
 
   #drawMarks(): void {
     drawMarks(byId("marks", HTMLCanvasElement), this.#decks.map((deck) => deck.rewards), Math.max(1, this.#frames));
+  }
+
+  /** Makes a film of the first episode. */
+  async #film(): Promise<void> {
+    const button = byId("film", HTMLButtonElement);
+    const told = byId("link-told", HTMLElement);
+    button.disabled = true;
+    tell(told, "The server makes the film.");
+    let made = "";
+    try {
+      made = await this.#decks[0]?.film(byId("film-kind", HTMLSelectElement).value) ?? "";
+    } finally {
+      button.disabled = false;
+      tell(told, made && `In the server's folder of recordings: ${made}.`);
+    }
   }
 
   async #link(): Promise<void> {

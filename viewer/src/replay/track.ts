@@ -4,6 +4,7 @@ import type { Episode } from "./log.js";
 
 const MOST_STATES = 240;
 const SENT_AHEAD = 500; // requests
+const FILMED_AHEAD = 50; // requests: a film takes longer
 const FIELDS = ["reward", "ends", "lives", "screen:delta", "audio:raw", "ram:raw"];
 
 /** What an episode came to when it was played again. */
@@ -28,6 +29,7 @@ export class Track {
   #scores: number[] = [0];
   #framesAStep = 1;
   #loaded: Group = {};
+  #settings: Record<string, unknown> = {};
 
   /** `states`: how many the session may hold. */
   constructor(session: Session, episode: Episode, states: number) {
@@ -93,10 +95,22 @@ export class Track {
     return this.#session.act(...joined(acts));
   }
 
+  /** Records the episode under a name in the server's folder, in another session. The reply says what was made. */
+  async film(session: Session, kind: string, name: string, progress: (part: number) => void): Promise<Group> {
+    await session.load(this.#episode.game, this.#settings);
+    await session.record(kind, name);
+    for (let at = 0; at < this.length; at += FILMED_AHEAD) {
+      await Promise.all(this.#steps.slice(at, at + FILMED_AHEAD).map((act) => session.act(act)));
+      progress(Math.min(1, (at + FILMED_AHEAD) / this.length));
+    }
+    return session.stopRecording();
+  }
+
   /** Plays with each act divided into `parts` frames. */
   async #attempt(parts: number, progress: (part: number) => void): Promise<Outcome> {
     const { game, settings, acts } = this.#episode;
-    this.#loaded = await this.#session.load(game, { ...settings, ...(parts > 1 ? { frame_skip: 1 } : {}), sound: 1 });
+    this.#settings = { ...settings, ...(parts > 1 ? { frame_skip: 1 } : {}), sound: 1 };
+    this.#loaded = await this.#session.load(game, this.#settings);
     this.#framesAStep = parts > 1 ? 1 : Number(settings.frame_skip ?? 1) || 1;
     this.#steps = parts > 1 ? acts.flatMap((act) => new Array<string>(parts).fill(act)) : [...acts];
     this.#spacing = Math.max(1, Math.ceil((this.#steps.length + 1) / this.#states));

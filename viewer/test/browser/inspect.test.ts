@@ -3,6 +3,7 @@ import { execFileSync } from "node:child_process";
 import { after, afterEach, before, describe, test } from "node:test";
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";
+import { connect } from "racebeam";
 import type { Page } from "playwright-core";
 import { numberIn, paused, Server, Tabs, until } from "./harness.js";
 
@@ -12,7 +13,7 @@ describe("the panels of Inspect", () => {
   let page: Page;
 
   before(async () => {
-    await server.start();
+    await server.start(["--listen", "tcp://127.0.0.1:0"]);
     page = await tabs.open(server.address);
     await page.getByRole("button", { name: "Play beamfall" }).click();
     await page.keyboard.press("KeyI");
@@ -47,6 +48,25 @@ describe("the panels of Inspect", () => {
     const bcd = (value: number) => 10 * (value >> 4) + (value & 15);
     await until(async () => 100 * bcd(await byte(0x83)) + bcd(await byte(0x84)) === await numberIn(page, "#score"), "the score in RAM");
     await until(async () => await byte(0x81) === await numberIn(page, "#lives"), "the lives in RAM");
+  });
+
+  test("the bytes that the rule reads have names", async () => {
+    assert.equal(await page.locator("#ram-names").textContent(), "The game's rule reads: $81 lives, $82 score, $83 score, $84 score.");
+    assert.equal(await page.locator("#ram td.named").count(), 4);
+    assert.equal(await page.locator("#ram td").nth(1 + 1).getAttribute("title"), "lives");
+  });
+
+  test("the registers of the TIA and the collision latches are shown", async () => {
+    const session = await connect(server.agents);
+    await session.load("beamfall");
+    const { tia } = await session.names();
+    await session.disconnect();
+    assert.deepEqual(await page.locator("#tia dt").allTextContents(), tia);
+    const value = async (name: string) => parseInt(await page.locator("#tia dd").nth(tia.indexOf(name)).textContent() ?? "", 16);
+    assert.ok((await value("RESP0")) < 160);
+    const before = await page.locator("#tia dd").allTextContents();
+    await score();
+    assert.notDeepEqual(await page.locator("#tia dd").allTextContents(), before);
   });
 
   test("the search finds the score", async () => {

@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
+import path from "node:path";
 import { after, afterEach, before, describe, test } from "node:test";
 import type { Page } from "playwright-core";
 import { measured, paused, recordedEpisodes, Server, Tabs, until } from "./harness.js";
@@ -12,7 +13,7 @@ describe("the view Replay", () => {
 
   before(async () => {
     logs = [...recordedEpisodes(server.folder, 0, 2), ...recordedEpisodes(server.folder, 0.25, 1)];
-    await server.start();
+    await server.start(["--record-dir", server.folder]);
     page = await tabs.open(`${server.address}#replay`);
   });
   after(async () => {
@@ -60,6 +61,19 @@ describe("the view Replay", () => {
   test("the end has the score of the log", async () => {
     await page.locator("#timeline").press("End");
     await until(async () => /^score (\d+) of \1 · /.test(await facts() ?? ""), "the score of the log");
+  });
+
+  test("a film is made on the server", async () => {
+    await page.getByRole("button", { name: "Make it on the server" }).click();
+    const told = page.locator("#link-told");
+    await until(async () => /recordings: /.test(await told.textContent() ?? ""), "the film");
+    const [, name, frames] = /: (beamfall-\d{14}\.gif): (\d+) frames\.$/.exec(await told.textContent() ?? "")!;
+    assert.match(await page.locator("#place").textContent() ?? "", new RegExp(` of ${frames}$`));
+    assert.equal(readFileSync(path.join(server.folder, name!)).subarray(0, 6).toString(), "GIF89a");
+    await page.locator("#film-kind").selectOption("webm");
+    await page.getByRole("button", { name: "Make it on the server" }).click();
+    await until(async () => /\.webm: |ffmpeg is not installed on the server/.test(
+      `${await told.textContent()} ${await page.locator("#log-problem").textContent()}`), "a film, or why there is none");
   });
 
   test("it runs at the speed that is chosen", async () => {

@@ -68,6 +68,9 @@ class Commands {
   auto modes() { return ask(numbers("modes"), "modes"); }
   /// The game's difficulties: a list of numbers.
   auto difficulties() { return ask(numbers("difficulties"), "difficulties"); }
+  /// Names for bytes of the fields `ram` and `tia`: ram_names, pairs of index and name, and tia_names, in
+  /// order. Group.
+  auto names() { return ask(first, "names"); }
   /// The actions that `act` accepts: names by number.
   auto actions() {
     return ask(

@@ -82,7 +82,8 @@ class Fields {
 
   /// The usual encoding of a field; nothing for fields that are not bytes.
   static std::optional<Encoding> usual_encoding(std::string_view field) {
-    constexpr std::array<std::pair<std::string_view, Encoding>, 6> kUsual{{{"ram", Encoding::kHex},
+    constexpr std::array<std::pair<std::string_view, Encoding>, 7> kUsual{{{"ram", Encoding::kHex},
+                                                                           {"tia", Encoding::kHex},
                                                                            {"screen", Encoding::kRle},
                                                                            {"rgb", Encoding::kZlib},
                                                                            {"grey", Encoding::kZlib},
@@ -118,8 +119,8 @@ class Fields {
   }
 
   std::size_t size(std::string_view field) const {
-    constexpr std::array<std::pair<std::string_view, std::size_t>, 3> kSizes{
-        {{"ram", 128}, {"palette", std::size_t{256} * 3}, {"audio", 512}}};
+    constexpr std::array<std::pair<std::string_view, std::size_t>, 4> kSizes{
+        {{"ram", 128}, {"tia", 53}, {"palette", std::size_t{256} * 3}, {"audio", 512}}};
     for (const auto& [name, bytes] : kSizes)
       if (name == field) return bytes;
     if (const std::size_t small = small_size(field)) return small;

@@ -37,7 +37,7 @@ ANNOUNCEMENT = 1  # the version of announce files that this client reads
 LONGEST_REPLY = 1 << 28  # bytes; a server that sends a longer line is taken for broken
 
 # What bytes are written in when `observe` does not say.
-USUAL_ENCODING = {"ram": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
+USUAL_ENCODING = {"ram": "hex", "tia": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
 
 WAIT = re.compile(r"(file:.+)\?wait=(\d+(?:\.\d+)?)")
 BETWEEN_TRIES = 0.05  # seconds
@@ -572,8 +572,8 @@ class Session:
         if stack := STACK.fullmatch(field):
             width, height, depth = map(int, stack.groups())
             return (depth, height, width, 3) if field.startswith("rgb") else (depth, height, width)
-        return {"ram": (128,), "palette": (256, 3), "audio": (512,), "screen": (self.height, 160), "grey": (self.height, 160),
-                "rgb": (self.height, 160, 3)}[field]
+        return {"ram": (128,), "tia": (53,), "palette": (256, 3), "audio": (512,), "screen": (self.height, 160),
+                "grey": (self.height, 160), "rgb": (self.height, 160, 3)}[field]
 
     def _size(self, field: str) -> int:
         size = 1
@@ -647,6 +647,12 @@ class Session:
         """Names by number."""
         pairs = (pair.split(":") for pair in self.list_of("actions", "actions"))
         return {int(action): name for action, name in pairs}
+
+    def names(self) -> tuple[dict[int, str], list[str]]:
+        """Names for bytes of `ram`, by their indices, and for those of `tia`, in their order."""
+        found = self.ask("names")[0]
+        pairs = (pair.split(":") for pair in found["ram_names"].split(",") if pair)
+        return {int(index): name for index, name in pairs}, found["tia_names"].split(",")
 
     def observe(self, *fields: str) -> list[str]:
         return self.list_of("fields", "observe", *fields)

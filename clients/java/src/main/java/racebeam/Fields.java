@@ -11,8 +11,8 @@ import java.util.regex.Pattern;
 
 /** Decodes the fields of replies. It follows what requests that were granted change about later replies. */
 final class Fields {
-  private static final Map<String, Encoding> USUAL = Map.of("ram", Encoding.HEX, "screen", Encoding.RLE, "rgb", Encoding.ZLIB,
-      "grey", Encoding.ZLIB, "palette", Encoding.HEX, "audio", Encoding.HEX);
+  private static final Map<String, Encoding> USUAL = Map.of("ram", Encoding.HEX, "tia", Encoding.HEX, "screen", Encoding.RLE,
+      "rgb", Encoding.ZLIB, "grey", Encoding.ZLIB, "palette", Encoding.HEX, "audio", Encoding.HEX);
   private static final Pattern SMALL = Pattern.compile("grey84(?:x(\\d+))?|(grey|rgb)(\\d+)x(\\d+)x(\\d+)");
   private static final int WIDTH = 160;
 
@@ -86,6 +86,7 @@ final class Fields {
     if (!small.matches()) {
       return switch (field) {
         case "ram" -> 128;
+        case "tia" -> 53;
         case "palette" -> 256 * 3;
         case "audio" -> 512;
         case "rgb" -> height * WIDTH * 3;

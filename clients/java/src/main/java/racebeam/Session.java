@@ -291,6 +291,16 @@ public final class Session implements AutoCloseable {
   }
 
   /**
+   * Names for bytes of the fields ram and tia.
+   *
+   * @return ram_names: pairs of index and name; tia_names: the names in order
+   * @throws IOException if the session has ended
+   */
+  public Group names() throws IOException {
+    return first("names");
+  }
+
+  /**
    * The actions that {@code act} accepts.
    *
    * @return names by number

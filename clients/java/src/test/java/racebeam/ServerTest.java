@@ -43,6 +43,7 @@ class ServerTest {
     assertEquals(1, session.set(Map.of("difficulty", 1)).number("difficulty"));
     assertEquals(List.of(0), session.modes());
     assertEquals(List.of(0, 1), session.difficulties());
+    assertEquals(53, session.names().list("tia_names").size());
     assertEquals("DOWNLEFTFIRE", session.actions().get(17));
     assertEquals(List.of("reward", "terminated", "truncated", "frame"), session.observe("reward", "ends", "frame"));
     assertEquals(15, session.act("UP", "FIRE*2").number("frame"));

@@ -1,0 +1,14 @@
+// A person plays in the terminal.
+#pragma once
+
+#include <string>
+
+#include "cli/terminal/graphics.hpp"
+
+namespace racebeam {
+
+// Loads the game in a session of the server at `address`, and plays until the person ends it. Throws
+// std::exception if there is no terminal, no server, or no such game.
+void play_in_terminal(const std::string& address, const std::string& game, Graphics graphics);
+
+}  // namespace racebeam

@@ -1,0 +1,60 @@
+// Moving pictures in the terminal, and its keys.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "cli/terminal/graphics.hpp"
+#include "cli/terminal/input.hpp"
+#include "cli/terminal/tty.hpp"
+
+namespace racebeam {
+
+// What a terminal has said about itself.
+struct TerminalAbilities {
+  bool answers = false;  // anything at all, in time
+  bool sixel = false, kitty = false;
+  bool keyboard = false;  // it tells when keys are released
+};
+
+// Asks the terminal, and waits for half a second at most.
+TerminalAbilities ask_abilities(Tty& tty);
+
+// The form that `wanted` leads to.
+Graphics choose_graphics(Graphics wanted, const TerminalAbilities& abilities);
+
+// Takes the whole terminal for its lifetime. Pictures that the line does not carry in time are to be left
+// out: the terminal says which have arrived, and at most two are under way.
+class Display {
+ public:
+  using Time = Tty::Time;
+
+  explicit Display(Graphics wanted);
+  ~Display();  // the terminal is as before
+  Display(const Display&) = delete;
+  Display& operator=(const Display&) = delete;
+
+  bool tells_releases() const { return abilities_.keyboard; }
+
+  // Whether the terminal takes another picture now.
+  bool is_ready();
+
+  // Only when it is_ready(). `line` stands below the picture. Without a picture, only the line is drawn.
+  void show(const TerminalPicture* picture, const std::string& line);
+
+  // Waits until keys come, the terminal becomes ready, or the time has come. Returns keys. Ends the process
+  // as Ctrl-C does, if that is pressed.
+  std::vector<TerminalEvent> wait(Time until);
+
+ private:
+  Tty tty_;
+  TerminalAbilities abilities_;
+  Painter painter_;
+  InputParser parser_;
+  Room room_{.columns = 0, .rows = 0};  // for which the picture was drawn
+  int under_way_ = 0;                   // pictures whose arrival the terminal has not confirmed
+  Time shown_{};                        // when the last one was written
+};
+
+}  // namespace racebeam

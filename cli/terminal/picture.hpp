@@ -1,0 +1,32 @@
+// A screen of the machine, and the place that a terminal has for it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace racebeam {
+
+constexpr std::size_t kPixelsARow = 160;
+
+struct TerminalPicture {
+  std::vector<std::uint8_t> pixels;   // rows of kPixelsARow, as the line protocol's field screen
+  std::vector<std::uint8_t> colours;  // 256 x 3: red, green, blue of each value of a pixel
+
+  std::size_t height() const { return pixels.size() / kPixelsARow; }
+  std::span<const std::uint8_t, 3> colour(std::size_t value) const {
+    return std::span<const std::uint8_t>(colours).subspan(3 * value).first<3>();
+  }
+};
+
+// A part of the terminal, in cells, and the pixels of a cell.
+struct Room {
+  static constexpr std::size_t kNoLimit = 10'000;  // rows, where text scrolls
+
+  std::size_t columns = 80, rows = 24;
+  std::size_t cell_width = 8, cell_height = 16;
+};
+
+}  // namespace racebeam

@@ -1,0 +1,249 @@
+"""Games in the terminal: racebeam play --terminal, racebeam watch --terminal, and :screen of racebeam connect."""
+
+import os
+import signal
+import socket
+import tempfile
+import time
+import unittest
+
+from harness import BINARY, PATIENCE, Server, main, run
+from terminal import Terminal
+
+KITTY_RELEASE = b"\x1b[32;1:3u"  # of the space bar
+
+
+def environment(**more):
+    return {key: value for key, value in os.environ.items() if not key.startswith("RACEBEAM_")} | more
+
+
+class Wire:
+    """A session over a Unix socket."""
+
+    def __init__(self, path):
+        until = time.monotonic() + PATIENCE
+        while not os.path.exists(path) and time.monotonic() < until:
+            time.sleep(0.01)
+        self.socket = socket.socket(socket.AF_UNIX)
+        self.socket.settimeout(PATIENCE)
+        self.socket.connect(path)
+        self.file = self.socket.makefile("rw", newline="\n")
+
+    def ask(self, line):
+        self.file.write(line + "\n")
+        self.file.flush()
+        words = self.file.readline().split()
+        assert words[0] == "ok", words
+        return dict(word.split("=", 1) for word in words if "=" in word)
+
+    def close(self):
+        self.file.close()
+        self.socket.close()
+
+    def watch(self, name):
+        """What a shared session shows now."""
+        request = f"watch {name} screen:hex palette"
+        self.ask(request)  # the server makes a copy from now on
+        time.sleep(0.2)
+        return self.ask(request)
+
+    def picture(self, name):
+        """The pixels of a shared session, as red, green and blue."""
+        seen = self.watch(name)
+        palette = bytes.fromhex(seen["palette"])
+        return [tuple(palette[3 * value:3 * value + 3]) for value in bytes.fromhex(seen["screen"])]
+
+
+class InTerminal(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def open(self, *words, **properties):
+        terminal = Terminal([BINARY, *words], environment=environment(TMPDIR=self.folder, TERM="xterm"), **properties)
+        self.addCleanup(terminal.close)
+        return terminal
+
+    def play(self, *words, **properties):
+        """A game whose server others can watch."""
+        path = os.path.join(self.folder, "watch")
+        terminal = self.open("play", "--terminal", "--watch", "all", "--grace", "0", "--listen", f"unix:{path}", *words, **properties)
+        terminal.wait_until(lambda: "score" in terminal.line(-1), "a game")
+        wire = Wire(path)
+        self.addCleanup(wire.close)
+        return terminal, wire, wire.ask("shared")["name"]
+
+    def quit(self, terminal):
+        terminal.type(b"q")
+        self.assertEqual(terminal.end(), 0)
+        self.assertTrue(terminal.is_restored(), terminal.modes)
+
+    def press(self, terminal, wire, name, keys, action):
+        """Types keys, as a key that is held repeats itself, until they have become an action."""
+        def acts():
+            terminal.type(keys)
+            return self.action(wire, name) == action
+        terminal.wait_until(acts, action)
+
+    def action(self, wire, name):
+        return wire.ask(f"watch {name} ram")["action"]
+
+
+class Pictures(InTerminal):
+    def paused_picture(self, terminal, wire, name):
+        terminal.type(b"p")
+        terminal.wait_until(lambda: "paused" in terminal.line(-1), "a pause")
+        return wire.picture(name)
+
+    def test_kitty_graphics_show_each_pixel(self):
+        terminal, wire, name = self.play("beamfall", graphics="kitty")
+        expected = self.paused_picture(terminal, wire, name)
+        self.assertGreater(len(set(expected)), 3)
+        self.assertEqual(terminal.picture, expected)
+        self.quit(terminal)
+
+    def test_sixels_show_each_pixel(self):
+        terminal, wire, name = self.play("beamfall", graphics="sixel", columns=160, rows=60)
+        expected = self.paused_picture(terminal, wire, name)
+        self.assertEqual(terminal.picture, [tuple((part * 100 + 127) // 255 for part in colour) for colour in expected])
+        self.quit(terminal)
+
+    def test_blocks_show_each_pixel_where_there_is_room(self):
+        terminal, wire, name = self.play("beamfall", columns=320, rows=110)
+        expected = self.paused_picture(terminal, wire, name)
+        wide = [colour for colour in expected for _ in range(2)]  # a pixel is as wide as two blocks
+        self.assertEqual(terminal.block_picture(320, 210), wide)
+        self.quit(terminal)
+
+    def test_the_caller_chooses_the_graphics(self):
+        terminal, _, _ = self.play("--graphics", "blocks", graphics="kitty")
+        self.assertIsNone(terminal.picture)
+        self.assertEqual(terminal.cells[0, 0][0], "\u2580")
+        self.quit(terminal)
+
+    def test_connect_shows_a_screen_among_text(self):
+        path = os.path.join(self.folder, "s")
+        with Server("serve", "--listen", f"unix:{path}") as server:
+            server.wait_for("listening")
+            terminal = self.open("connect", f"unix:{path}", graphics="kitty")
+            terminal.type(b"load beamfall\n:screen\n")
+            terminal.wait_until(lambda: terminal.picture, "a picture")
+            self.assertEqual(len(terminal.picture), 210 * 160)
+            terminal.type(b":quit\n")
+            self.assertEqual(terminal.end(), 0)
+
+
+class Keys(InTerminal):
+    def test_a_key_counts_as_pressed_for_a_short_time(self):
+        terminal, wire, name = self.play(rows=60)
+        self.action(wire, name)
+        for keys, action in ((b" ", "FIRE"), (b"\x1b[A", "UP"), (b"\x1bOC", "RIGHT"), (b"\x1b[B\x1b[D ", "DOWNLEFTFIRE")):
+            self.press(terminal, wire, name, keys, action)
+            terminal.wait_until(lambda: self.action(wire, name) == "NOOP", "released")
+        self.press(terminal, wire, name, b"\x1b[A\x1b[B", "DOWN")  # a direction ends the opposite one
+        self.quit(terminal)
+
+    def test_releases_are_told_where_the_keyboard_protocol_is(self):
+        terminal, wire, name = self.play(keyboard=True)
+        self.assertIn("keyboard", terminal.modes)
+        terminal.type(b"\x1b[32u")
+        terminal.wait_until(lambda: self.action(wire, name) == "FIRE", "fire")
+        begin = time.monotonic()
+        terminal.wait_until(lambda: time.monotonic() > begin + 0.5, "a while")
+        self.assertEqual(self.action(wire, name), "FIRE")
+        terminal.type(b"\x1b[1;1:1C")
+        terminal.wait_until(lambda: self.action(wire, name) == "RIGHTFIRE", "right and fire")
+        terminal.type(KITTY_RELEASE + b"\x1b[1;1:3C")
+        terminal.wait_until(lambda: self.action(wire, name) == "NOOP", "released")
+        terminal.type(b"\x1b[113u")  # q
+        self.assertEqual(terminal.end(), 0)
+        self.assertTrue(terminal.is_restored(), terminal.modes)
+
+    def test_a_game_is_played_to_a_score_paused_and_begun_anew(self):
+        terminal, wire, name = self.play("beamfall", keyboard=True)
+        terminal.type(b"\x1b[32u")
+        terminal.wait_until(lambda: "score 0 " not in terminal.line(-1), "a score")
+        terminal.type(b"p")
+        terminal.wait_until(lambda: "paused" in terminal.line(-1), "a pause")
+        frame = wire.watch(name)["frame"]
+        time.sleep(0.3)
+        self.assertEqual(wire.watch(name)["frame"], frame)
+        terminal.type(b"n")
+        terminal.wait_until(lambda: "score 0 " in terminal.line(-1), "a new game")
+        terminal.type(b"\x1b[113u")
+        self.assertEqual(terminal.end(), 0)
+
+
+class Lines(InTerminal):
+    def test_pictures_are_left_out_for_a_line_that_does_not_carry_them(self):
+        terminal, wire, name = self.play()
+        terminal.confirms = False
+        frame = int(wire.watch(name)["frame"])
+        terminal.wait_until(lambda: terminal.unanswered == 2, "two pictures")
+        begin, pictures = time.monotonic(), terminal.pictures
+        terminal.wait_until(lambda: time.monotonic() > begin + 0.5, "a while")
+        self.assertEqual((terminal.unanswered, terminal.pictures), (2, pictures))
+        self.assertGreater(int(wire.watch(name)["frame"]), frame + 15)  # the game goes on
+        terminal.confirms = True
+        terminal.confirm()
+        terminal.wait_until(lambda: terminal.pictures > pictures + 5, "pictures")
+        self.quit(terminal)
+
+    def test_a_terminal_that_answers_nothing_gets_blocks(self):
+        terminal, wire, name = self.play(answers=False)
+        self.assertEqual(terminal.cells[0, 0][0], "\u2580")
+        terminal.wait_until(lambda: terminal.pictures > 5, "pictures")
+        self.quit(terminal)
+
+
+class Ends(InTerminal):
+    def watching(self, server, **properties):
+        terminal = self.open("watch", "--terminal", f"tcp://127.0.0.1:{server.port()}", **properties)
+        terminal.wait_until(lambda: "session-1" in terminal.line(-1), "a session")
+        return terminal
+
+    def test_signals_restore_the_terminal(self):
+        with Server("serve", "--listen", "tcp://127.0.0.1:0", "--listen", "unix:s", "--watch", "all") as server:
+            server.port()
+            wire = Wire(server.path("s"))
+            self.addCleanup(wire.close)
+            wire.ask("load beamfall")
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGABRT, signal.SIGSEGV):
+                for graphics in ("blocks", "kitty"):
+                    with self.subTest(number, graphics=graphics):
+                        terminal = self.watching(server, graphics=graphics, keyboard=True)
+                        self.assertLessEqual({"?1049", "keyboard"}, terminal.modes)
+                        os.kill(terminal.child, number)
+                        self.assertEqual(terminal.end(), -number)
+                        self.assertTrue(terminal.is_restored(), terminal.modes)
+            terminal = self.watching(server, keyboard=True)
+            terminal.type(b"\x1b[99;5u")  # Ctrl-C in the keyboard protocol
+            self.assertEqual(terminal.end(), -signal.SIGINT)
+            self.assertTrue(terminal.is_restored(), terminal.modes)
+            terminal = self.watching(server)
+            server.stop(signal.SIGKILL)
+            terminal.wait_until(lambda: "?25" in terminal.modes or not terminal.work(0), "the end")
+            self.assertEqual(terminal.end(), 1)
+            self.assertTrue(terminal.is_restored(), terminal.modes)
+
+    def test_ctrl_c_and_a_signal_end_a_game_and_its_server(self):
+        for end, status in ((lambda terminal: terminal.type(b"\x03"), 130), (lambda terminal: os.kill(terminal.child, signal.SIGTERM), 143)):
+            terminal, wire, _ = self.play()
+            end(terminal)
+            self.assertEqual(terminal.end(), status)
+            self.assertTrue(terminal.is_restored(), terminal.modes)
+            self.assertEqual(wire.file.readline().split()[:2], ["error", "stopping"])
+            self.assertEqual(os.listdir(self.folder), [])
+
+    def test_what_cannot_be_drawn_is_refused(self):
+        status, output, errors = run("play", "--terminal")
+        self.assertEqual((status, output), (2, b""))
+        self.assertEqual(errors, ["racebeam: --terminal: standard input and output must be a terminal (see racebeam play --help)"])
+        self.assertIn("accepted are auto, blocks, kitty", run("play", "--terminal", "--graphics", "ascii")[2][0])
+        terminal = self.open("play", "--terminal", "updraft", "--max-sessions", "0")
+        self.assertEqual(terminal.end(), 2)
+
+
+if __name__ == "__main__":
+    main()
