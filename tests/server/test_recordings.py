@@ -199,8 +199,16 @@ class Encoded(unittest.TestCase):
         self.assertRegex(lines[-2], b"^ok recorded=film.wav frames=[1-9].* complete=0 recording_ended=encoder$")
         self.assertEqual(os.listdir(self.films), ["film.wav"])
 
+    def contents(self, path):
+        """Those of a file that the encoder makes in its own time."""
+        deadline = time.monotonic() + PATIENCE
+        while not os.path.exists(path) and time.monotonic() < deadline:
+            time.sleep(0.01)
+        with open(path) as file:
+            return file.read()
+
     def test_an_encoder_that_never_ends_delays_no_other_and_is_killed(self):
-        self.install('echo $$ > "$(dirname "$0")/pid"; exec sleep 1000')
+        self.install('cd "$(dirname "$0")"; echo $$ > pid.part; mv pid.part pid; exec sleep 1000')
         with Server("serve", "--listen", "unix:s", "--record-dir", self.films, "--grace", "0",
                     PATH=f"{self.tools}:{os.environ['PATH']}") as server:
             server.wait_for("listening")
@@ -211,8 +219,7 @@ class Encoded(unittest.TestCase):
             recorder.send(b"act FIRE*600\n")
             for _ in range(20):
                 self.assertTrue(ask(other, b"act NOOP").startswith(b"ok "))
-            with open(os.path.join(self.tools, "pid")) as file:
-                process = int(file.read())
+            process = int(self.contents(os.path.join(self.tools, "pid")))
             recorder.close()
             other.close()
             self.assertEqual(server.stop(), 0)
