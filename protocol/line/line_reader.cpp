@@ -66,4 +66,13 @@ std::optional<LineReader::Line> LineReader::next() {
   return Line{Kind::kHalf, {}};
 }
 
+std::size_t LineReader::lines(std::size_t most) const {
+  const std::string_view rest(buffer_.data() + begin_, unread());
+  std::size_t found = 0;
+  for (std::size_t at = rest.find('\n', searched_); at != rest.npos && found < most;
+       at = rest.find('\n', at + 1))
+    ++found;
+  return found;
+}
+
 }  // namespace racebeam

@@ -32,6 +32,7 @@ class LineReader {
   };
   std::optional<Line> next();
   bool empty() const { return unread() == 0; }  // next() has returned all lines
+  std::size_t lines(std::size_t most) const;    // how many whole lines wait, counted up to `most`
 
  private:
   std::size_t unread() const { return end_ - begin_; }

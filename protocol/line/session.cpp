@@ -14,6 +14,9 @@ namespace {
 // Replies to requests that were sent ahead are sent together. These limit how many wait.
 constexpr int kFramesOfReplies = 64;              // take some hundred microseconds
 constexpr std::size_t kBytesOfReplies = 1 << 16;  // about twenty screens
+// They go out once more when so many requests are left. The client reads them meanwhile, and sends the next.
+constexpr std::size_t kLastRequests = 3;
+constexpr std::int64_t kFewReplies = 4;  // fewer are not worth waking the client twice
 
 constexpr std::size_t kShortLine = 4096;
 // Memory that a word of a request may take, as an action and as its reward. A word has at least two bytes,
@@ -130,7 +133,8 @@ bool Session::has_enough() const {
 
 bool Session::pauses() const {
   if (pacer.in_progress() || out.empty() || input.empty()) return false;
-  return has_enough();
+  return has_enough() || (statistics.requests - sent_requests_ >= kFewReplies &&
+                          input.lines(kLastRequests + 1) == kLastRequests);
 }
 
 bool Session::waits() const { return pacer.in_progress() && recording && recording->is_behind(); }
@@ -302,6 +306,7 @@ std::string_view Session::whole_replies() const {
 void Session::sent(std::size_t count) {
   out.erase(0, count);
   sent_frames_ = pacer.frames();
+  sent_requests_ = statistics.requests;
   reply_ -= std::min(reply_, count);
 }
 

@@ -113,8 +113,9 @@ class Session {
 
   const CommandTable& table_;
   std::vector<std::string_view> words_;
-  std::size_t reply_ = 0;         // offset of the current reply in `out`
-  std::int64_t sent_frames_ = 0;  // pacer.frames() when `out` was last sent
+  std::size_t reply_ = 0;           // offset of the current reply in `out`
+  std::int64_t sent_frames_ = 0;    // pacer.frames() when `out` was last sent
+  std::int64_t sent_requests_ = 0;  // statistics.requests at the same time
   bool done_ = false;
   Clock::time_point began_;   // when the current request began
   Clock::time_point looked_;  // when the clock was last read
