@@ -70,6 +70,13 @@ class Files(unittest.TestCase):
             needed = set(re.findall(r"NEEDED.*\[(.*?)\]", linked))
             self.assertLessEqual(needed, {"libc.so.6", "libm.so.6", "libz.so.1", "libgcc_s.so.1", "ld-linux-x86-64.so.2", "libpthread.so.0"})
 
+    def test_it_runs_on_the_systems_that_the_document_names(self):
+        told = re.search(r"`manylinux_2_(\d+)_x86_64`", (package.SOURCE / "docs/python.md").read_text())[1]
+        program = pathlib.Path(sys.executable).parent / "racebeam"
+        for file in (racebeam._core.__file__, program):
+            versions = subprocess.run(["readelf", "--version-info", file], capture_output=True, text=True, check=True).stdout
+            self.assertLessEqual(max(map(int, re.findall(r"GLIBC_2\.(\d+)", versions))), int(told), file)
+
     def test_the_types_are_checked(self):
         self.assertTrue((FOLDER / "py.typed").exists() and (FOLDER / "_core.pyi").exists())
         if not has("mypy"):
