@@ -3,6 +3,7 @@
 import os
 import threading
 import unittest
+import unittest.mock
 
 import package
 
@@ -13,6 +14,7 @@ import numpy as np
 from vector_servers import Compared, server
 
 from racebeam import AtariVectorEnv, InvalidInput
+from racebeam.wire.remote_machines import RemoteMachines
 
 SETTINGS = (
     {},
@@ -52,6 +54,13 @@ class Same(Compared):
                               {"seed": 2**32 - 2, "options": {"reset_mask": mask}}, {}):
                 with self.subTest(**arguments):
                     self.check(there.reset(**arguments), here.reset(**arguments))
+                    self.play(here, there, 5)
+
+    def test_a_reply_without_ends_is_read_as_a_whole(self):
+        with server() as (address, _), unittest.mock.patch.object(RemoteMachines, "_show_any", side_effect=AssertionError):
+            for settings in ({}, {"obs_type": "ram", "autoreset_mode": "SameStep"}, {"grayscale": False, "stack_num": 2}):
+                with self.subTest(**settings):
+                    here, there = both(address, seed=5, **settings)
                     self.play(here, there, 5)
 
     def test_pictures(self):

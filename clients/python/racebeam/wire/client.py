@@ -30,7 +30,7 @@ import sys
 import time
 import zlib
 from collections.abc import Callable, Iterable
-from typing import IO, Any, TypeVar
+from typing import IO, Any, NamedTuple, TypeVar
 
 PROTOCOL = 1  # the version that this client speaks
 ANNOUNCEMENT = 1  # the version of announce files that this client reads
@@ -45,6 +45,7 @@ BETWEEN_TRIES = 0.05  # seconds
 STACK = re.compile(r"(?:grey|rgb)(\d+)x(\d+)x(\d+)")  # fields such as grey100x50x4
 NUMBER = re.compile(r"-?(0|[1-9]\d{0,14})(\.\d+)?")
 
+RAW = re.compile(r" raw=(\S+)$")
 Texts = dict[str, Any]  # texts by key, and bytes where the encoding is raw
 Values = dict[str, Any]
 Opened = TypeVar("Opened")
@@ -59,6 +60,14 @@ class Refused(Exception):
 
     def __str__(self) -> str:
         return f"{self.code}: {self.sentence}"
+
+
+class Reply(NamedTuple):
+    """A reply as it came."""
+
+    words: list[str]  # of the request
+    text: str  # after `ok `
+    data: bytes | bytearray  # that followed the line
 
 
 def decode_runs(data: bytes) -> bytes:
@@ -103,6 +112,11 @@ def number(text: str) -> int | float | str:
     if not NUMBER.fullmatch(text):
         return text
     return float(text) if "." in text else int(text)
+
+
+def _groups(text: str) -> list[Texts]:
+    """Those of a reply's text after `ok`."""
+    return [dict(word.split("=", 1) for word in group.split(" ") if "=" in word) for group in f" {text}".split(" |")]
 
 
 def launch(*options: str, program: str | None = None, arrays: bool = False) -> Session:
@@ -419,6 +433,19 @@ class Session:
         """The groups of the next reply, with numbers and bytes."""
         return self.all_decoded(*self._receive())
 
+    def receive_plain(self) -> Reply:
+        """The next reply, to a request that changes nothing about later replies, such as `step`."""
+        words, text = self._read_status(self._line())
+        count = RAW.search(text)
+        return Reply(words, text, self._bytes(self._count_of(count[1])) if count else b"")
+
+    def decode_plain(self, reply: Reply) -> list[Values]:
+        """Its groups, as received() returns them."""
+        groups = _groups(reply.text)
+        if groups[-1].pop("raw", None):
+            self.take_bytes(reply.words, groups, reply.data)
+        return self.all_decoded(reply.words, groups)
+
     def all_decoded(self, words: list[str], groups: list[Texts]) -> list[Values]:
         """The groups of the reply to a request of these words, with numbers and bytes."""
         encodings = self._encodings_of(words)
@@ -433,6 +460,13 @@ class Session:
 
     def read_line(self, line: str) -> tuple[list[str], list[Texts], int]:
         """The same, of a reply's line, and how many bytes follow it, which go to take_bytes()."""
+        words, text = self._read_status(line)
+        groups = _groups(text)
+        self._follow(words, groups[0])
+        return words, groups, self._count_of(groups[-1].pop("raw", "0"))
+
+    def _read_status(self, line: str) -> tuple[list[str], str]:
+        """The words of the oldest request without a reply, and the reply's text after `ok`. Raises Refused."""
         words = self.unanswered.popleft() if self.unanswered else [""]  # without one, the server says why it ends
         status, _, rest = line.partition(" ")
         if status == "error" and rest:
@@ -440,9 +474,7 @@ class Session:
             raise Refused(code, sentence)
         if status != "ok":
             raise self.lost(ConnectionError(f"it sent {line[:60]!r}, which is no reply"))
-        groups = [dict(word.split("=", 1) for word in group.split(" ") if "=" in word) for group in f" {rest}".split(" |")]
-        self._follow(words, groups[0])
-        return words, groups, self._count_of(groups[-1].pop("raw", "0"))
+        return words, rest
 
     def _count_of(self, text: str) -> int:
         count = int(text) if text.isdecimal() else -1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import threading
 from collections.abc import Callable
 from typing import Any
@@ -13,13 +14,14 @@ import numpy.typing as npt
 from .._core import ActionSet, ResetOrder, Rules, SavedMachine
 from ..errors import InvalidInput
 from ..vector_results import Bools, Numbers, Pixels, Results
-from .client import Values
+from .client import Reply, Values
 from .remote import RemoteInterface
 
 NO_LIMITS = (-2**31, 2**31 - 1)
 RULES = {Rules.ALE_0_12: "ale-0.12", Rules.FIXED: "fixed"}
 NUMBERS = ("reward", "raw_reward", "lives", "frame", "episode_frame")  # rows of Results
 FLAGS = ("terminated", "truncated", "game_over")
+VALUE = re.compile(r"=(-?\d+)")
 FINAL_NUMBERS = ("final_lives", "final_frame", "final_episode_frame")
 
 # Actions by fire, then from down to up, then from left to right.
@@ -73,7 +75,9 @@ class RemoteMachines(OnServers):
         self._load(game, rom, settings)
         self._actions = self._actions_of(settings)
         self._field = _field(settings, self.height())
-        self._last: list[Values] = []  # what the machines showed last
+        self._plain = "machines=" + f" | {' '.join(f'{name}=' for name in (*NUMBERS, *FLAGS, self._field))}" * count + " raw="
+        self._reply: Reply | None = None  # what the machines showed last, until it is decoded
+        self._decoded: list[Values] = []
         self._machine.ask(self._session.observe, *NUMBERS, *FLAGS, self._field + (":raw" if "raw" in self._session.offered else ":base64"),
                           *(["rgb:zlib"] if settings["screens"] else []))
         self._open(settings)
@@ -97,12 +101,12 @@ class RemoteMachines(OnServers):
     def _open(self, settings: dict[str, Any]) -> None:
         if not settings["fire"] and settings["start"] is not ResetOrder.FIRE_NOOPS:
             raise InvalidInput(f"start is {_word(settings['start'])!r} without FIRE, which a server does not play")
-        self._last = self._machine.ask(
+        self._decoded = self._machine.ask(
             self._session.open, self._count, _word(settings["autoreset"]), steps="frames",
             start=_word(settings["start"]) if settings["fire"] else "noops", lives=_word(settings["lives"]),
             stack=_word(settings["stack_start"]), pool=int(settings["pool"]))
         if settings["seed"] == 0:
-            self._last = self._machine.ask(self._session.restart, seed=0)
+            self._decoded = self._machine.ask(self._session.restart, seed=0)
 
     def _actions_of(self, settings: dict[str, Any]) -> list[int]:
         machine = self._machine
@@ -157,7 +161,7 @@ class RemoteMachines(OnServers):
         self._session.flush()
 
     def finish(self, results: Results) -> None:
-        self._last = self._machine.ask(self._session.received)[1:]
+        self._reply = self._machine.ask(self._session.receive_plain)
         self.show_last(results)
 
     def words(self, actions: npt.NDArray[np.int64]) -> list[int]:
@@ -179,10 +183,35 @@ class RemoteMachines(OnServers):
 
     # What is shown
 
+    @property
+    def _last(self) -> list[Values]:
+        """What the machines showed last."""
+        if self._reply is not None:
+            self._decoded, self._reply = self._session.decode_plain(self._reply)[1:], None
+        return self._decoded
+
     def show_last(self, results: Results) -> None:
         """What the last reply had."""
-        seen = results.ram if results.observations is None else results.observations
-        assert seen is not None
+        results.env_id[:] = range(self._count)
+        if self._reply is None or not self._show_plain(self._reply, results):
+            self._show_any(results)
+
+    def _show_plain(self, reply: Reply, results: Results) -> bool:
+        """Returns whether the reply has exactly what was observed. It is then read as a whole, which is many times faster."""
+        if VALUE.sub("=", reply.text) != self._plain:
+            return False
+        seen = _seen(results)
+        values = np.array([int(text) for text in VALUE.findall(reply.text)[1:-1]]).reshape(self._count, -1)
+        if len(reply.data) != seen.nbytes or (values[:, -1] != seen[0].nbytes).any():
+            return False
+        results.numbers[:-1] = values[:, :len(NUMBERS)].T
+        results.flags[(0, 1, 3), :] = values[:, len(NUMBERS):-1].T
+        results.finished[:] = False
+        seen[:] = np.frombuffer(reply.data, np.uint8).reshape(seen.shape)
+        return True
+
+    def _show_any(self, results: Results) -> None:
+        seen = _seen(results)
         for machine, values in enumerate(self._last):
             results.numbers[:-1, machine] = [values[name] for name in NUMBERS]
             results.flags[(0, 1, 3), machine] = [values[name] for name in FLAGS]
@@ -190,7 +219,6 @@ class RemoteMachines(OnServers):
             results.finished[machine] = FINAL_NUMBERS[0] in values
             if results.finished[machine]:
                 self._fill_finals(results, machine, values, "final_")
-        results.env_id[:] = range(self._count)
 
     def show_last_as_final(self, results: Results) -> None:
         """As if the episodes had ended with it."""
@@ -206,6 +234,12 @@ class RemoteMachines(OnServers):
 
     def screen(self, machine: int) -> Pixels:
         return np.frombuffer(self._last[machine]["rgb"], np.uint8).reshape(-1, 160, 3).copy()
+
+
+def _seen(results: Results) -> Pixels:
+    seen = results.ram if results.observations is None else results.observations
+    assert seen is not None
+    return seen
 
 
 def _impossible(what: str) -> InvalidInput:
