@@ -3,12 +3,17 @@ together, 84x84x4, with the threads that each takes by itself.
 
 All play chunks of random actions in turns; racebeam and ale_py have to show the same. Wall-clock time counts. "async" receives
 a third of the environments at a time. A ratio is the median of the chunks' ratios: racebeam to the better of ale_py and both
-of EnvPool's. At the end: what Python alone takes of a step, with 64 environments that do nothing. Needs
-`scripts/wheel --venv`; `pip install envpool` adds EnvPool.
+of EnvPool's. Then racebeam in this process, and on a server over a Unix socket and over TCP; ratios are to in process. At the
+end: what Python alone takes of a step, with 64 environments that do nothing. Needs `scripts/wheel --venv`;
+`build/python/venv/bin/pip install envpool` adds EnvPool.
 """
 
 import argparse
+import contextlib
+import pathlib
 import statistics
+import subprocess
+import tempfile
 import time
 import zlib
 
@@ -26,7 +31,7 @@ import numpy as np  # noqa: E402
 from ale_py import ALEInterface, LoggerMode  # noqa: E402
 from ale_py.vector_env import AtariVectorEnv as Reference  # noqa: E402
 
-from racebeam import AtariVectorEnv  # noqa: E402
+from racebeam import AtariVectorEnv, images, program  # noqa: E402
 
 try:
     import envpool
@@ -106,6 +111,45 @@ def measure(game, count):
     return {name: 1 / statistics.median(each) for name, each in times.items()}, ratio
 
 
+@contextlib.contextmanager
+def server(image):
+    """Addresses of a server that has the image."""
+    with tempfile.TemporaryDirectory() as folder:
+        ready = pathlib.Path(folder, "ready")
+        own = subprocess.Popen([program.path(), "serve", "--listen", f"unix:{folder}/socket", "--listen", "tcp://127.0.0.1:0",
+                                "--rom", image, "--ready-file", ready, "--log-level", "warning"])
+        try:
+            while not ready.exists():
+                if own.poll() is not None:
+                    raise SystemExit(f"bench: the server ended with status {own.returncode}")
+                time.sleep(0.01)
+            yield [line for line in ready.read_text().splitlines() if not line.startswith("#")]
+        finally:
+            own.terminate()
+            own.wait()
+
+
+def measure_servers(game, count):
+    """Steps a second in this process, over a Unix socket and over TCP."""
+    with server(images.find(game)) as addresses, contextlib.ExitStack() as stack:
+        everyone = [stack.enter_context(contextlib.closing(AtariVectorEnv(game, count, **where)))
+                    for where in ({}, *({"server": address} for address in addresses))]
+        for envs in everyone:
+            envs.reset(seed=1)
+        times = [[] for _ in everyone]
+        for chunk in range(options.chunks + 1):
+            state, shown = random.bit_generator.state, set()
+            for envs, own in zip(everyone, times):
+                random.bit_generator.state = state
+                spent, seen = play_together(envs, count, options.steps // count)
+                shown.add(seen)
+                if chunk > 0:
+                    own.append(spent)
+            if len(shown) > 1:
+                raise SystemExit(f"bench: {game}: racebeam shows something else on a server")
+    return [options.steps // count * count / statistics.median(own) for own in times]
+
+
 class Nothing:
     """Machines that do nothing."""
 
@@ -137,4 +181,12 @@ for count in map(int, options.envs.split(",")):
         ratios.append(ratio)
         print(f"{game:<18}" + "".join(f"{speed:16.0f}" for speed in speeds.values()) + f"{ratio:8.2f}", flush=True)
     print(f"{'mean':<18}{statistics.mean(ratios):{16 * len(speeds) + 8}.2f}   least {min(ratios):.2f}")
+for count in map(int, options.envs.split(",")):
+    print(f"{f'{count} environments':<18}{'in process':>16}{'Unix':>16}{'TCP':>16}{'Unix':>8}{'TCP':>8}")
+    ratios = []
+    for game in options.games.split(","):
+        speeds = measure_servers(game, count)
+        ratios.append([speed / speeds[0] for speed in speeds[1:]])
+        print(f"{game:<18}" + "".join(f"{speed:16.0f}" for speed in speeds) + "".join(f"{ratio:8.2f}" for ratio in ratios[-1]), flush=True)
+    print(f"{'mean':<66}" + "".join(f"{statistics.mean(column):8.2f}" for column in zip(*ratios)))
 print(f"Python alone takes {python_alone():.1f} us of a step")
