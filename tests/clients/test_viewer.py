@@ -1,6 +1,6 @@
-"""The page of viewer/: scripts/viewer --check, --unit or --browser succeeds. Usage: test_viewer.py OPTION.
+"""The page of viewer/: scripts/viewer --check, --unit, --browser or --firefox succeeds. Usage: test_viewer.py OPTION.
 
-Skipped where the npm packages of viewer/ are missing, and in a browser where Chromium is.
+Skipped where the npm packages of viewer/ are missing, and in a browser where that is.
 """
 
 import os
@@ -16,7 +16,8 @@ sys.path.insert(0, str(SOURCE / "tests/server"))
 
 from harness import BINARY, PATIENCE, main, sanitized  # noqa: E402
 
-LEAST_TESTS = {"--unit": 50, "--browser": 30}
+LEAST_TESTS = {"--unit": 50, "--browser": 30, "--firefox": 4}
+BROWSERS = {"--browser": "chromium", "--firefox": "firefox-esr"}
 
 
 class Viewer(unittest.TestCase):
@@ -36,7 +37,7 @@ if __name__ == "__main__":
     Viewer.option = sys.argv.pop()
     needs = [("the npm packages of viewer/, which scripts/viewer --install installs", (SOURCE / "viewer/node_modules/esbuild").exists()),
              ("node", shutil.which("node"))]
-    if Viewer.option == "--browser":
-        needs += [("chromium, which scripts/setup --viewer installs", shutil.which("chromium")),
+    if browser := BROWSERS.get(Viewer.option):
+        needs += [(f"{browser}, which scripts/setup --viewer installs", shutil.which(browser)),
                   ("a program without sanitizers", not sanitized())]
     main(*needs)
