@@ -19,7 +19,7 @@ export class Server {
   constructor() {
     const [, token] = /^#token=([\x21-\x7e]+)$/.exec(location.hash) ?? [];
     if (token) {
-      history.replaceState(null, "", location.pathname);
+      history.replaceState(null, "", location.pathname + location.search);
       this.#token = token;
     }
   }

@@ -57,8 +57,13 @@ export class PlayView {
     await this.#open();
     const games = await this.#session!.games();
     this.#choice.offer(games);
-    if (games[0]) {
-      await this.#load({ game: games[0] });
+    const named = new URLSearchParams(location.search).get("game");
+    const first = named && games.includes(named) ? named : games[0];
+    if (first) {
+      await this.#load({ game: first });
+    }
+    if (named && named !== first) {
+      this.told(`This server has no game "${named}". Choose one from the list.`);
     }
   }
 

@@ -51,10 +51,19 @@ describe("the server", () => {
     tabs.problems();
   });
 
-  test("the address may have the token, which then vanishes from it", async () => {
-    const page = await tabs.open(`${server.address}#token=${TOKEN}`);
-    await page.getByRole("button", { name: "Play beamfall" }).waitFor();
+  test("the address may have the game, and the token, which then vanishes from it", async () => {
+    const page = await tabs.open(`${server.address}?game=updraft#token=${TOKEN}`);
+    await page.getByRole("button", { name: "Play updraft" }).waitFor();
     assert.ok(!page.url().includes(TOKEN));
+    assert.ok(page.url().endsWith("?game=updraft"));
+    assert.deepEqual(tabs.problems(), []);
+    await page.context().close();
+  });
+
+  test("a game in the address that the server does not have is named", async () => {
+    const page = await tabs.open(`${server.address}?game=<b>nothing#token=${TOKEN}`);
+    await page.getByText('This server has no game "<b>nothing".').waitFor();
+    await page.getByRole("button", { name: "Play beamfall" }).waitFor();
     assert.deepEqual(tabs.problems(), []);
     await page.context().close();
     await server.stop();
