@@ -63,7 +63,7 @@ class Client {
   bool admitted = false;              // it has given its token, or needs none
   bool held_back = false;             // its token is delayed, because of wrong ones from the same address
   bool working = false;               // a slice of its requests is done, and the next is pending
-  Usage usage;                        // of the event loop
+  Usage usage{};                      // of the event loop
 
  private:
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};

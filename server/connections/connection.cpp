@@ -143,12 +143,11 @@ net::awaitable<void> work(Client& client, PacedClassic& session) {
   Departure departure;
   for (bool done = false; !done;) {
     if (!turns.may_work(client.usage)) co_await take_turn(client);
-    done = session.work();
+    if (client.ending()) throw std::runtime_error("closed: " + client.reason());
+    done = session.work(turns.slice());
     turns.worked(client.usage, session.worked());
     if (!done && departure.has_gone(client.socket))
       throw std::runtime_error("the client left in the middle of an act");
-    if (!done) co_await take_turn(client);
-    if (client.ending()) throw std::runtime_error("closed: " + client.reason());
   }
 }
 
@@ -197,18 +196,18 @@ template <typename Stream>
 net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSession& session,
                                       Metrics& metrics) {
   using Next = SessionLoop::Next;
-  constexpr int kMostParts = 4;
   Departure departure;
   Turns& turns = client.loop.turns;
   SessionLoop loop(session);
   const auto run = [&] {
-    const bool more = session.run();
+    const bool more = session.run(turns.slice());
     turns.worked(client.usage, session.worked());
     return more;
   };
   bool piece = false;
-  for (int parts = 0;;) {
+  for (;;) {
     if (!turns.may_work(client.usage)) co_await take_turn(client);
+    if (client.ending()) co_await take_leave(stream, client);
     Next next = loop.work(run);
     client.admitted = session.admitted();
     if (client.guesser) judge(client, session, metrics);
@@ -224,18 +223,11 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
     if (next == Next::kDone) break;
     if (next == Next::kRead) {
       if (!client.ending()) co_await read(stream, client, session, std::exchange(piece, true));
-    } else {
-      if (!sends && departure.has_gone(client.socket))
-        throw std::runtime_error("the client left in the middle of a request");
-      if (sends && ++parts < kMostParts) continue;
-      parts = 0;
-      if (next == Next::kPause) {  // GCC 12 destroys both results of a conditional expression
-        co_await await_recording(client);
-      } else {
-        co_await take_turn(client);
-      }
+    } else if (!sends && departure.has_gone(client.socket)) {
+      throw std::runtime_error("the client left in the middle of a request");
+    } else if (next == Next::kPause) {
+      co_await await_recording(client);
     }
-    if (client.ending()) co_await take_leave(stream, client);
   }
 }
 

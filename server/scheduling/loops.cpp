@@ -8,15 +8,25 @@
 
 namespace racebeam {
 
+// Some clients send so much that an event is always ready. The sessions that wait for their turn do not wait
+// for the end of that. The work of sessions does not count: few events would be handled while it is long.
+void Loop::handle_events() {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds kLongest{2};
+  const auto begin = Clock::now();
+  while (context.poll_one() > 0 && Clock::now() - begin < kLongest + turns.worked()) {
+  }
+}
+
 // While a loop polls, all its sessions get their turn, not only the one that it polls for.
 void Loop::run() {
   const auto stay = boost::asio::make_work_guard(context);
   while (!context.stopped()) {
     if (!turns.empty()) {
       turns.wake_next();
-      context.poll();
+      handle_events();
     } else if (busy.again()) {
-      context.poll();
+      handle_events();
     } else {
       context.run_one();
     }

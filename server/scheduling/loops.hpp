@@ -21,7 +21,8 @@ class Client;
 struct Loop {
   Loop(Meter& counting, std::chrono::microseconds busy_poll) : meter(counting), busy(busy_poll) {}
 
-  void run();  // until its context is stopped
+  void run();            // until its context is stopped
+  void handle_events();  // what is ready, or as much of it as takes a few milliseconds
 
   std::atomic<int> sessions = 0;
   Meter& meter;

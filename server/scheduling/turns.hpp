@@ -1,7 +1,13 @@
-// Schedules the sessions of an event loop. A session that has used the loop much lately waits for sessions
-// with short requests, and then for those that have used it less.
+// Schedules the sessions of an event loop by start-time fair queueing (Goyal, Vin and Cheng, 1996).
+//
+// The usage of a session is the time for which it has worked. While sessions wait, the one with the least
+// usage is next, so that each gets an equal share of the loop. A session that comes back after a pause is
+// treated as if it had worked until now, less a credit. A short request therefore comes before the next slice
+// of a long one.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <utility>  // needed by Asio 1.74
 #include <vector>
 
@@ -9,36 +15,43 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
 
-#include "server/scheduling/usage.hpp"
-
 namespace racebeam {
+
+// How long a session has worked, on the clock of its loop.
+using Usage = std::chrono::steady_clock::duration;
 
 class Turns {
  public:
-  using Clock = Usage::Clock;
+  using Duration = std::chrono::steady_clock::duration;
 
-  // Whether a session may work at once: because it is its turn, it is alone on the loop, or its request is
-  // short.
-  bool may_work(const Usage& usage) const {
-    if (next_ == &usage) return true;
-    if (last_ == &usage && waiting_.empty()) return true;
-    return usage.lately(Clock::now()) < kBrief;
+  // Whether a session that wants to work may do so at once. Otherwise it waits for its turn.
+  bool may_work(Usage& usage) const {
+    usage = std::max(usage, now_ - kCredit);
+    return worked_ < kLongestSlice &&
+           std::ranges::all_of(waiting_, [usage](const Waiting& other) { return usage <= *other.usage; });
   }
 
-  void worked(Usage& usage, Clock::duration time) {
-    usage.add(time, Clock::now());
-    last_ = &usage;
-    next_ = nullptr;
-  }
-
-  // Returns when it is the session's turn. Meanwhile, the loop handles other events.
+  // Returns when it is the session's turn, for one slice. Meanwhile, the loop handles other events.
   boost::asio::awaitable<void> wait(const Usage& usage);
 
+  // For how long a session works before it asks again. If many wait, each waits for many slices.
+  std::chrono::microseconds slice() const;
+
+  void worked(Usage& usage, Duration time) {
+    now_ = std::max(now_, usage);
+    usage += time + kOverhead;
+    worked_ += time;
+  }
+
+  Duration worked() const { return worked_; }  // by all sessions, since the last turn
+
   bool empty() const { return waiting_.empty(); }
-  void wake_next();  // the session that has used the loop least; there must be one
+  void wake_next();  // there must be a session that waits
 
  private:
-  static constexpr double kBrief = 0.001;  // seconds of recent use
+  static constexpr std::chrono::microseconds kCredit{250}, kShortestSlice{250}, kLongestSlice{2000};
+  static constexpr std::chrono::microseconds kOverhead{
+      20};  // of a slice: the loop receives and sends besides
 
   struct Waiting {
     const Usage* usage;
@@ -46,8 +59,8 @@ class Turns {
   };
 
   std::vector<Waiting> waiting_;
-  const Usage* last_ = nullptr;  // the session that worked last
-  const Usage* next_ = nullptr;  // whose turn it is; null: no session's
+  Usage now_{};  // that of the session that worked last, before it did
+  Duration worked_{};
 };
 
 }  // namespace racebeam

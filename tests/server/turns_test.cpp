@@ -1,8 +1,19 @@
 #include "server/scheduling/turns.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <string>
+#include <thread>
+#include <vector>
+
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
+#include <boost/asio/post.hpp>
 #include <catch2/catch.hpp>
+
+#include "server/scheduling/loops.hpp"
 
 using namespace racebeam;
 using namespace std::chrono_literals;
@@ -12,51 +23,110 @@ namespace {
 
 // A loop of sessions that work without a pause, as in the server.
 struct Busy {
-  net::awaitable<void> session(Usage& usage, int slices) {
+  // Notes its name at each slice, which takes `work`.
+  net::awaitable<void> session(char name, Usage& usage, int slices, Turns::Duration work) {
     for (; slices > 0; --slices) {
       if (!turns.may_work(usage)) co_await turns.wait(usage);
-      turns.worked(usage, 1s);
-      ++worked;
-      co_await turns.wait(usage);
+      turns.worked(usage, work);
+      worked += name;
     }
   }
 
-  void begin(Usage& usage, int slices) { net::co_spawn(context, session(usage, slices), net::detached); }
+  void begin(char name, Usage& usage, int slices, Turns::Duration work = 2ms) {
+    net::co_spawn(context, session(name, usage, slices, work), net::detached);
+    context.poll();
+  }
 
-  int wake_all() {  // how often that took
-    int woken = 0;
-    for (context.poll(); !turns.empty(); context.poll()) {
+  void wake(int count) {
+    for (; count > 0 && !turns.empty(); --count) {
       turns.wake_next();
-      ++woken;
+      context.poll();
     }
-    return woken;
   }
 
   Turns turns;
   net::io_context context{1};
-  int worked = 0;
+  std::string worked;
 };
 
 }  // namespace
 
-TEST_CASE("a session that has waited for its turn works in it, and does not wait again") {
+TEST_CASE("sessions that work for long take turns") {
   Busy busy;
-  Usage one, other;
-  busy.begin(one, 10);
-  busy.begin(other, 10);
-  CHECK(busy.wake_all() == 20);
-  CHECK(busy.worked == 20);
+  Usage one{}, other{};
+  busy.begin('a', one, 4);
+  busy.begin('b', other, 4);
+  busy.wake(100);
+  CHECK(busy.worked == "abababab");
 }
 
-TEST_CASE("a turn is for one slice") {
+TEST_CASE("a session whose slices are short has more of them") {
   Busy busy;
-  Usage one, other;
-  busy.begin(one, 1);
-  busy.begin(other, 1);
-  busy.context.poll();
+  Usage one{}, other{};
+  busy.begin('a', one, 3, 2ms);
+  busy.begin('b', other, 8, 500us);
+  busy.wake(100);
+  CHECK(busy.worked == "abbbbabbbba");
+}
+
+TEST_CASE("after a pause a short request comes next, and what was not used is not saved") {
+  Busy busy;
+  Usage one{}, other{}, brief{};
+  busy.begin('a', one, 50);
+  busy.begin('b', other, 50);
+  busy.wake(20);
+  busy.worked.clear();
+  busy.begin('c', brief, 4);
+  busy.wake(6);
+  CHECK(busy.worked.front() == 'c');
+  CHECK(std::ranges::count(busy.worked, 'c') <= 3);
+}
+
+TEST_CASE("a session that was alone does not pay for it when others come") {
+  Busy busy;
+  Usage one{}, others[3] = {};
+  busy.begin('a', one, 1000);
+  busy.wake(900);
+  busy.worked.clear();
+  for (Usage& other : others) busy.begin('b', other, 100);
+  busy.wake(8);
+  CHECK(busy.worked.find('a') != std::string::npos);
+}
+
+TEST_CASE("a turn lasts while other sessions work") {
+  Busy busy;
+  Usage one{}, other{};
+  busy.begin('a', one, 2);
   busy.turns.wake_next();
-  CHECK(busy.turns.may_work(one) != busy.turns.may_work(other));
-  busy.turns.worked(one, 1s);
-  CHECK(!busy.turns.may_work(one));
-  CHECK(!busy.turns.may_work(other));
+  busy.turns.worked(other, 1s);
+  busy.context.poll();
+  CHECK(busy.worked == "aa");
+}
+
+TEST_CASE("slices are shorter while many wait") {
+  Busy busy;
+  std::vector<Usage> usages(100);
+  CHECK(busy.turns.slice() == 2ms);
+  for (Usage& usage : usages) busy.begin('a', usage, 2);
+  CHECK(busy.turns.slice() == 250us);
+}
+
+TEST_CASE("a session gets its turn though events are always ready") {
+  Metrics metrics;
+  Loops loops(1, 0us, metrics);
+  Loop& loop = loops.first();
+  const std::function<void()> again = [&] { net::post(loop.context, again); };
+  net::post(loop.context, again);
+  Usage usage{};
+  std::promise<void> turn;
+  net::co_spawn(
+      loop.context,
+      [&]() -> net::awaitable<void> {
+        co_await loop.turns.wait(usage);
+        turn.set_value();
+      },
+      net::detached);
+  std::jthread thread([&] { loop.run(); });
+  CHECK(turn.get_future().wait_for(10s) == std::future_status::ready);
+  loop.context.stop();
 }

@@ -5,9 +5,11 @@ compare the fastest tenth.
 """
 
 import contextlib
+import multiprocessing
 import os
 import re
 import resource
+import selectors
 import sys
 import threading
 import time
@@ -15,7 +17,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from harness import PATIENCE, Server, ask, connect_tcp, main
-from web_socket import WebSocket
+from web_socket import TEXT, WebSocket, frame
 
 REQUEST = b"watch room screen:raw"
 LONGEST = 3  # seconds of an act on a busy machine
@@ -61,6 +63,25 @@ class Agent:
         self.stops.set()
         self.thread.join()
         self.wire.close()
+
+
+def ask_ahead(port, count, ahead, seconds):
+    """Watchers that each have about so many requests in flight, and discard the replies."""
+    watchers = [WebSocket(port) for _ in range(count)]
+    received = dict.fromkeys((watcher.connection for watcher in watchers), 0)
+    with selectors.DefaultSelector() as selector, contextlib.ExitStack() as closed:
+        for watcher in watchers:
+            closed.callback(watcher.close)
+            watcher.connection.setblocking(False)
+            watcher.write(frame(TEXT, REQUEST) * ahead)
+            selector.register(watcher.connection, selectors.EVENT_READ)
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            for key, _ in selector.select(0.1):
+                connection = key.fileobj
+                pictures, received[connection] = divmod(received[connection] + len(connection.recv(1 << 18)), 160 * 210)
+                with contextlib.suppress(BlockingIOError):
+                    connection.send(frame(TEXT, REQUEST) * pictures)
 
 
 class Watchers(unittest.TestCase):
@@ -152,6 +173,15 @@ class Watchers(unittest.TestCase):
         grown = (self.memory() - before) / 1000
         self.assertLess(grown, 150 << 10)
         self.check_not_held_up(agent, alone)  # those that do not ask cost nothing
+
+    def test_watchers_that_always_have_a_request_in_flight(self):
+        agent = self.serve("--threads", "1")
+        crowd = multiprocessing.Process(target=ask_ahead, args=(self.port, 200, 30, 4), daemon=True)
+        crowd.start()
+        _, slowest = agent.measure(5)
+        crowd.join()
+        self.assertEqual(crowd.exitcode, 0)
+        self.assertLess(slowest, 1)
 
 
 if __name__ == "__main__":
