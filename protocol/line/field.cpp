@@ -138,22 +138,26 @@ Field parse_field(std::string_view word) {
   return {&*row, *chosen, stack, std::move(written)};
 }
 
-void check(const std::vector<Field>& fields) {
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (fields[i].row == fields[j].row)
-        throw RequestError(ErrorCode::kBadArguments,
-                           std::string(fields[i].row->name) + " is asked for twice");
-      if (fields[i].stack && fields[j].stack)
-        throw RequestError(ErrorCode::kBadArguments,
-                           fields[j].name + " and " + fields[i].name + " are two stacks; there can be one");
-    }
+// Adds a field, which must not be among them yet.
+void add(std::vector<Field>& fields, Field field) {
+  for (const Field& other : fields) {
+    if (other.row == field.row)
+      throw RequestError(ErrorCode::kBadArguments, std::string(field.row->name) + " is asked for twice");
+    if (other.stack && field.stack)
+      throw RequestError(ErrorCode::kBadArguments,
+                         other.name + " and " + field.name + " are two stacks; there can be one");
   }
+  fields.push_back(std::move(field));
 }
 
 }  // namespace
 
 std::span<const FieldRow> field_rows() { return kFields; }
+
+std::string_view row_of_field(std::string_view name) {
+  parse_stack(name);
+  return name;
+}
 
 Drawing drawing_of(const std::vector<Field>& fields, bool averaging) {
   Drawing most = Drawing::kNone;
@@ -169,13 +173,12 @@ std::vector<Field> parse_fields(Words words) {
       throw RequestError(ErrorCode::kBadArguments, "none stands alone; it chooses no field");
     }
     if (word == "ends") {
-      fields.push_back(parse_field("terminated"));
-      fields.push_back(parse_field("truncated"));
+      add(fields, parse_field("terminated"));
+      add(fields, parse_field("truncated"));
     } else {
-      fields.push_back(parse_field(word));
+      add(fields, parse_field(word));
     }
   }
-  check(fields);
   return fields;
 }
 

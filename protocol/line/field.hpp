@@ -26,6 +26,9 @@ struct FieldRow {
 };
 std::span<const FieldRow> field_rows();
 
+// The name of a field's row: that of a stack of screens has letters for its size.
+std::string_view row_of_field(std::string_view name);
+
 struct Field {
   const FieldRow* row;
   Encoding encoding;

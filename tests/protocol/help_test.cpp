@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <map>
+#include <regex>
 
 #include "protocol/encoding/encoding.hpp"
 #include "protocol/line/commands/command_table.hpp"
@@ -25,6 +26,12 @@ std::string plain(std::string_view text) {
   std::string plain(text);
   std::erase(plain, '`');
   return plain;
+}
+
+// Those names are explained as such, where they are also words of arguments.
+bool is_topic_or_command(std::string_view name) {
+  const auto named = [name](const auto& row) { return row.name == name; };
+  return std::ranges::any_of(help_topics(), named) || std::ranges::any_of(commands(), named);
 }
 
 // All names that help knows, with a part of each help text.
@@ -55,6 +62,15 @@ std::multimap<std::string, std::string> all_names() {
     add(row.name, row.meaning);
     add("errors", row.meaning);
   }
+  const std::regex word("[a-z0-9_-]+");
+  for (const Command& row : commands()) {
+    const std::string arguments(row.arguments);
+    for (std::sregex_iterator found(arguments.begin(), arguments.end(), word), end; found != end; ++found)
+      if (!is_topic_or_command(found->str())) add(found->str(), row.arguments);
+  }
+  add("ends", "terminated and truncated");
+  add("grey84x4", "84 x 84 grey");
+  add("rgb100x50x4", "the same in colour");
   for (const Command& row : commands()) {
     const bool shares = row.name == "share" || row.name == "watch";  // NAME of a session
     if (row.arguments.starts_with("NAME") && !shares) add("states", row.summary);

@@ -94,6 +94,43 @@ TEST_CASE("A line of many words is read in slices") {
   CHECK(client.session.output().starts_with("error "));
 }
 
+TEST_CASE("Commands with very many words work on them in slices") {
+  const auto repeated = [](const std::string& words) {
+    std::string all;
+    while (all.size() < 400'000) all += words;
+    return all;
+  };
+  struct Case {
+    std::string request, refusal;
+    int least;  // slices; to read 200,000 words takes about 200
+  };
+  const std::vector<Case> cases = {{"drop" + repeated(" a"), "", 1500},
+                                   {"branch a 0" + repeated(",0"), "", 700},
+                                   {"branch a keep=k" + repeated(" 0"), "limit", 10'000}};
+  for (const auto& [request, refusal, least] : cases) {
+    INFO(request.substr(0, 20));
+    LineClient client;
+    for (const std::string line : {"load beamfall seed=1 max_episode_frames=0", "save a"}) client.ask(line);
+    for (std::string_view rest = request; !rest.empty();) {
+      const std::string_view piece = rest.substr(0, client.session.space().size());
+      client.hand_in(piece);
+      rest.remove_prefix(piece.size());
+    }
+    std::string reply;
+    const int slices = slices_of(client, "", reply);
+    CHECK(code(reply) == refusal);
+    CHECK(slices >= least);
+  }
+}
+
+TEST_CASE("What is there twice is refused before the words that follow it are read") {
+  LineClient client;
+  client.ask("load beamfall");
+  CHECK(client.ask("look ram ends ram nonsense") == "error bad-arguments ram is asked for twice");
+  CHECK(client.ask("load beamfall sticky=0 sticky=0 nonsense=1") ==
+        "error bad-arguments sticky is given twice");
+}
+
 TEST_CASE("A pause in the middle of a request takes nothing that it needs") {
   for (const std::string& request : {"act" + many(" LEFT*40 FIRE*30 RIGHT"),
                                      "branch root" + many(" LEFT*40 FIRE*30"), "step" + many(" LEFT FIRE")}) {

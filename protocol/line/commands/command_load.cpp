@@ -94,9 +94,11 @@ struct LoadWords {
   std::vector<std::string_view> settings;
 };
 
+// Stops after more words than there are settings: one of them is refused, since it is unknown or there twice.
 LoadWords sorted(Words words) {
   LoadWords load;
   for (const std::string_view word : words) {
+    if (load.settings.size() > setting_rows().size()) break;
     const auto [key, value] = key_value(word);
     if (key == "image") {
       if (load.image) refuse_twice(key);

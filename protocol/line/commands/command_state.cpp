@@ -13,6 +13,8 @@
 namespace racebeam {
 namespace {
 
+constexpr std::size_t kBetweenLooks = 256;  // names, or actions, between two looks at the clock
+
 const Slot::Saved& find_state(const Session& session, std::string_view name) {
   if (const Slot::Saved* const found = session.states.find(name)) return *found;
   std::vector<std::string_view> names;
@@ -58,8 +60,8 @@ void check_keep(const Session& session, std::string_view prefix, std::size_t lis
     const std::string name = std::string(prefix) + std::to_string(list);
     state_name(name);
     added += !session.states.contains(name);
+    check_room(session, added);
   }
-  check_room(session, added);
 }
 
 bool read_random(Words words) {
@@ -68,15 +70,25 @@ bool read_random(Words words) {
 }
 
 // A,B,C
-std::vector<Action> parse_list(std::string_view word, const AllowedActions& allowed) {
+std::vector<Action> parse_list(std::string_view word, Session& session) {
   std::vector<Action> list;
   for (;;) {
     std::string_view action = word;
     const std::string_view rest = cut_behind(action, ',');
-    list.push_back(parse_action(action, allowed));
+    list.push_back(parse_action(action, session.loaded->allowed()));
     if (action.size() == word.size()) return list;
+    if (list.size() % kBetweenLooks == 0) session.pacer.breathe();
     word = rest;
   }
+}
+
+// What lists of so many characters take, at most: a character and a comma are an action, and a vector that
+// grows has a copy for a moment.
+void check_memory(Session& session, Words lists) {
+  constexpr std::size_t kList = 64;
+  std::size_t bytes = 0;
+  for (const std::string_view list : lists) bytes += kList + 2 * sizeof(Action) * list.size();
+  session.memory.check(bytes, "lists of actions");
 }
 
 std::int64_t acts_of(const std::vector<Action>& list) {
@@ -106,8 +118,15 @@ void run_drop(Session& session, Words arguments) {
   if (arguments.size() == 1 && arguments[0] == "all") {
     session.states.clear();
   } else {
-    for (const std::string_view name : arguments) find_state(session, name);
-    for (const std::string_view name : arguments) session.states.drop(name);
+    std::size_t looked = 0;
+    for (const std::string_view name : arguments) {
+      find_state(session, name);
+      if (++looked % kBetweenLooks == 0) session.pacer.breathe();
+    }
+    for (const std::string_view name : arguments) {
+      session.states.drop(name);
+      if (--looked % kBetweenLooks == 0) session.pacer.breathe();
+    }
   }
   session.out += "ok";
   append_pair(session.out, "count", static_cast<std::int64_t>(session.states.size()));
@@ -150,6 +169,9 @@ void run_import(Session& session, Words arguments) {
   append_pair(session.out, "state", name);
 }
 
+// The reply, and the rewards that are collected before, grow by doubling: there is a copy for a moment.
+constexpr std::size_t kRewardsOfAct = 48;
+
 void run_branch(Session& session, Words arguments) {
   BranchRequest branch{find_state(session, arguments[0]), {}, {}};
   Words sequences = arguments.subspan(1);
@@ -160,16 +182,19 @@ void run_branch(Session& session, Words arguments) {
   if (sequences.empty())
     throw RequestError(ErrorCode::kBadArguments, "branch takes at least one list of actions");
   std::int64_t acts = 0;
+  check_memory(session, sequences);
   for (const std::string_view word : sequences) {
-    branch.lists.push_back(parse_list(word, session.loaded->allowed()));
+    branch.lists.push_back(parse_list(word, session));
     acts += acts_of(branch.lists.back());
     session.pacer.breathe();
   }
   session.check_frames(acts);
   const std::size_t lists = branch.lists.size();
   const std::size_t players = session.loaded->machine().game().has_second_reward() ? 2 : 1;
-  session.check_reply(128 * lists + 8 * players * static_cast<std::size_t>(acts),
-                      std::to_string(lists) + " branches");
+  const std::size_t reply = 128 * lists + 8 * players * static_cast<std::size_t>(acts);
+  session.check_reply(reply, std::to_string(lists) + " branches");
+  session.memory.check(3 * reply + kRewardsOfAct * players * static_cast<std::size_t>(acts),
+                       "a reply about " + std::to_string(lists) + " branches");
   if (!branch.keep.empty()) check_keep(session, branch.keep, lists);
   play_branches(session, branch);
 }

@@ -47,13 +47,15 @@ HelpText table(std::string_view head, const Rows& rows) {
   return text;
 }
 
+constexpr std::string_view kEnds = "ends: terminated and truncated";
+
 HelpText on_settings() { return table("settings of load, as KEY=VALUE:", setting_rows()); }
 
 HelpText on_presets() { return table("presets of load, as preset=NAME:", preset_rows()); }
 
 HelpText on_fields() {
   HelpText text = table("fields of observe and look:", field_rows());
-  text.entries.emplace_back("ends: terminated and truncated");
+  text.entries.emplace_back(kEnds);
   text.entries.push_back("those that are bytes are written as FIELD:ENCODING: " +
                          list_of(names_of(encodings())));
   return text;
@@ -100,6 +102,27 @@ bool find_in(const Rows& rows, std::string_view name, std::string_view kind, Hel
   return true;
 }
 
+// Whether `name` is a word of the command's arguments: a key, or one of its values.
+bool takes(const Command& command, std::string_view name) {
+  constexpr std::string_view kOfWords = "abcdefghijklmnopqrstuvwxyz0123456789-_";
+  std::string_view rest = command.arguments;
+  for (std::size_t begin; (begin = rest.find_first_of(kOfWords)) != std::string_view::npos;) {
+    rest.remove_prefix(begin);
+    const std::size_t size = std::min(rest.find_first_not_of(kOfWords), rest.size());
+    if (rest.substr(0, size) == name) return true;
+    rest.remove_prefix(size);
+  }
+  return false;
+}
+
+// Adds the commands of whose arguments `name` is a word. Returns whether there are any.
+bool add_commands(std::string_view name, HelpText& text) {
+  const std::size_t before = text.entries.size();
+  for (const Command& command : commands())
+    if (takes(command, name)) text.entries.push_back(about(command));
+  return text.entries.size() > before;
+}
+
 template <typename... Rows>
 [[noreturn]] void refuse(std::string_view name, const Rows&... rows) {
   std::vector<std::string_view> known;
@@ -144,13 +167,15 @@ HelpText help_on(std::string_view name) {
   const auto known = [name](const auto& row) { return row.name == name; };
   if (std::ranges::any_of(commands(), known) || std::ranges::any_of(aliases(), known))
     return on(find_command(name));
-  HelpText text;
-  if (find_in(setting_rows(), name, "a setting of load, as KEY=VALUE:", text) ||
-      find_in(field_rows(), name, "a field of observe and look:", text) ||
+  if (name == "ends") return {"two fields of observe and look:", {std::string(kEnds)}};
+  HelpText text{"a word of:", {}};
+  const bool found =
+      find_in(setting_rows(), name, "a setting of load, as KEY=VALUE:", text) ||
+      find_in(field_rows(), row_of_field(name), "a field of observe and look:", text) ||
       find_in(preset_rows(), name, "a preset of load, as preset=NAME:", text) ||
       find_in(encodings(), name, "an encoding of fields that are bytes, as FIELD:ENCODING:", text) ||
-      find_in(codes(), name, "the code of an error:", text))
-    return text;
+      find_in(codes(), name, "the code of an error:", text);
+  if (add_commands(name, text) || found) return text;
   refuse(name, kTopics, commands(), setting_rows(), field_rows(), preset_rows(), encodings(), codes());
 }
 

@@ -21,8 +21,8 @@ std::span<const HelpTopic> help_topics();
 
 HelpText help();  // an overview
 
-// Help on a topic, a command, a setting, a field, a preset, an encoding or an error code. Throws
-// RequestError.
+// Help on a topic, a command, a setting, a field, a preset, an encoding, an error code, or a word of a
+// command's arguments. Throws RequestError.
 HelpText help_on(std::string_view name);
 
 // Writes one line. With `columns` above 0, writes for a terminal of that width: one entry a line, and longer

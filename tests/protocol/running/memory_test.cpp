@@ -95,6 +95,19 @@ TEST_CASE("A line of very many words is refused where there is no memory for the
   CHECK(code(client.ask("act 0")) == "");
 }
 
+TEST_CASE("A branch is refused where there is no memory for its lists, or for its reply") {
+  LineClient client(service_with(16 * kMiB));
+  CHECK(code(client.ask("load beamfall max_episode_frames=0")) == "");
+  CHECK(code(client.ask("save a")) == "");
+  CHECK(code(client.ask("branch a 0*1999999")) == "limit");
+  std::string lists, list = " 0";
+  while (lists.size() < 300'000) lists += " 0";
+  while (list.size() < 600'000) list += ",0";
+  CHECK(code(client.ask("branch a" + lists)) == "limit");
+  CHECK(code(client.ask("branch a" + list)) == "limit");
+  CHECK(code(client.ask("branch a 0*20,1 2*30")) == "");
+}
+
 TEST_CASE("All memory comes back") {
   const LineService service = service_with(64 * kMiB);
   {
