@@ -177,8 +177,15 @@ def states(session):
 
 @attack
 def many_words(session):
-    session.ask(LONG)
-    session.send(*[b"act" + b" 0" * 500_000] * 3)
+    session.ask(LONG, b"save a")
+    session.send(b"act" + b" 0" * 500_000, b"drop" + b" a" * 500_000, b"look" + b" ram" * 250_000)
+    session.read_on(5)
+
+
+@attack
+def long_branches(session):
+    session.ask(LONG, b"save a")
+    session.send(b"branch a" + b" 0" * 400_000, b"branch a 0" + b",0" * 400_000, b"branch a 0*1999999")
     session.read_on(5)
 
 
