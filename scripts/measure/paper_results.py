@@ -39,7 +39,7 @@ def paper():
 
 
 def number(value, digits=1):
-    return f"{value:,.{digits}f}" if value is not None else "-"
+    return f"{round(value, digits) + 0:,.{digits}f}" if value is not None else "-"  # + 0: not -0.0
 
 
 def rows_of(header, *rows):
