@@ -14,8 +14,8 @@ struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted by a signal") {}
 };
 
-// While it lives, the first SIGHUP, SIGINT or SIGTERM sets a flag; the second ends the process at once. Signals
-// that the process ignores stay ignored. One object at a time.
+// While it lives, the first SIGHUP, SIGINT or SIGTERM sets a flag; the second ends the process at once.
+// Signals that the process ignores stay ignored. One object at a time.
 class Interruption {
  public:
   Interruption();

@@ -234,6 +234,14 @@ function transport.launch(program, options)
   return setmetatable({ input = input, output = opened(fifo, "r+b"), fifo = fifo }, Streams)
 end
 
+local FILES = "; file:PATH takes the --ready-file or --announce file of a server"
+
+-- Whether `test` of a shell says so of a file.
+local function is(what, path)
+  local done = os.execute(("test %s %s"):format(what, quoted(path)))
+  return done == 0 or done == true
+end
+
 local ANNOUNCEMENT = "1" -- the version of announce files that this client reads
 local BETWEEN_TRIES = 0.05 -- seconds
 
@@ -254,6 +262,9 @@ end
 
 -- The first address of a ready file or an announce file that this client can use, and the token of the latter.
 local function in_file(path)
+  if not is("-f", path) and is("-e", path) then -- a pipe might block
+    fault("invalid", path .. " is no regular file" .. FILES)
+  end
   local file = opened(path, "r")
   local text, token = file:read("*a"), nil
   file:close()
@@ -265,6 +276,9 @@ local function in_file(path)
       return line, token
     end
   end
+  if not text:match("^[{#]") then
+    fault("invalid", path .. (text == "" and " is empty" or " has other contents") .. FILES)
+  end
   fault("invalid", path .. " names no address that this client can use")
 end
 
@@ -275,7 +289,11 @@ local function open_file(path, seconds, options)
   while true do
     local done, connection, token = pcall(function()
       local address, found = in_file(path)
-      return transport.open(address, options), found
+      local opens, connection = pcall(transport.open, address, options)
+      if not opens and type(connection) == "table" then
+        connection.sentence = ("%s (%s names %s)"):format(connection.sentence, path, address)
+      end
+      return opens and connection or error(connection, 0), found
     end)
     if done then
       return connection, token
@@ -284,6 +302,11 @@ local function open_file(path, seconds, options)
     end
     core.sleep(BETWEEN_TRIES)
   end
+end
+
+local function is_time(text)
+  local whole = text:match("^(%d+)$") or text:match("^(%d+)%.%d+$")
+  return whole and #whole <= 9
 end
 
 -- A connection to the server at an address, and the token of its announce file, if there is one.
@@ -299,7 +322,10 @@ function transport.open(address, options)
   elseif kind == "pipes" then
     found = pipes(rest)
   elseif kind == "file" then
-    local path, seconds = rest:match("^(.+)%?wait=([%d.]+)$")
+    local path, seconds = rest:match("^(.+)%?wait=(.*)$")
+    if seconds and not is_time(seconds) then
+      fault("invalid", ("the address is '%s'; ?wait= takes seconds, from 0 to 999999999"):format(address))
+    end
     found, token = open_file(path or rest, tonumber(seconds) or 0, options)
   end
   if found then
