@@ -198,9 +198,6 @@ function Streams:close()
     self.output:close()
     self.input:close()
   end
-  if self.fifo then
-    os.remove(self.fifo)
-  end
 end
 
 local function opened(path, mode)
@@ -218,7 +215,8 @@ local function quoted(word)
   return "'" .. word:gsub("'", "'\\''") .. "'"
 end
 
--- A server of one's own. Its input is a named pipe, and its output is read with io.popen.
+-- A server of one's own. Its input is a named pipe, whose name is removed once both have opened it. Its output is read with
+-- io.popen.
 function transport.launch(program, options)
   local fifo = os.tmpname()
   os.remove(fifo)
@@ -226,12 +224,13 @@ function transport.launch(program, options)
   if made ~= 0 and made ~= true then
     fault("lost", "no pipe can be made at " .. fifo)
   end
-  local words = { "exec", quoted(program), "serve --stdio --log-level warning" }
+  local words = { ("exec <%s && rm -f %s && exec"):format(quoted(fifo), quoted(fifo)), quoted(program),
+    "serve --stdio --log-level warning" }
   for _, option in ipairs(options) do
     words[#words + 1] = quoted(option)
   end
-  local input = io.popen(table.concat(words, " ") .. " <" .. quoted(fifo), "r")
-  return setmetatable({ input = input, output = opened(fifo, "r+b"), fifo = fifo }, Streams)
+  local input = io.popen(table.concat(words, " "), "r")
+  return setmetatable({ input = input, output = opened(fifo, "r+b") }, Streams)
 end
 
 local FILES = "; file:PATH takes the --ready-file or --announce file of a server"
