@@ -48,8 +48,7 @@ COMMENTS = ("//", "/*", "*", "#", "--")
 CLIENTS = (
     Client("python", "python", ("python3", "-B", str(HERE / "runner.py")), "clients/python/racebeam/wire/client.py",
            offers=EVERYTHING),
-    # In 256 MiB, an endless line is refused as anywhere else.
-    Client("java", "java", ("java", "-Xmx256m", "-cp", str(BUILT / "java"), str(HERE / "Runner.java")), "clients/java/src/main/java/racebeam/*.java",
+    Client("java", "java", ("java", "-cp", str(BUILT / "java"), str(HERE / "Runner.java")), "clients/java/src/main/java/racebeam/*.java",
            offers=EVERYTHING,
            build=("javac", "-Xlint:all", "-d", str(BUILT / "java"), *map(str, ROOT.glob("clients/java/src/main/java/**/*.java")))),
     *(Client(program, "lua", (program, str(HERE / "runner.lua")), "clients/lua/racebeam/*.lua",

@@ -113,6 +113,30 @@ class FaultsTest {
     assertEquals(100_001, largest[0]);
   }
 
+  /** A client in a process of its own. */
+  static final class InLittleMemory {
+    public static void main(String[] arguments) throws Exception {
+      try (Session session = Racebeam.connect(arguments[0])) {
+        session.request("act FIRE");
+      } catch (IOException lost) {
+        System.out.println(lost.getMessage());
+      }
+    }
+  }
+
+  @Test
+  void aReplyThatMemoryDoesNotHoldEndsTheSession() throws Exception {
+    String classes = Path.of(Session.class.getProtectionDomain().getCodeSource().getLocation().toURI())
+        + java.io.File.pathSeparator + Path.of(FaultsTest.class.getProtectionDomain().getCodeSource().getLocation().toURI());
+    try (Server server = new Server(line -> "0".repeat(1 << 25))) {
+      Process client = new ProcessBuilder(Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-Xmx32m", "-cp",
+          classes, InLittleMemory.class.getName(), "tcp://127.0.0.1:" + server.listener.getLocalPort()).redirectErrorStream(true).start();
+      String printed = new String(client.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+      assertTrue(printed.startsWith("there is no memory for a reply of more than "), printed);
+      assertEquals(0, client.waitFor());
+    }
+  }
+
   private static String refusal(String address) {
     return assertThrows(IllegalArgumentException.class, () -> Racebeam.connect(address), address).getMessage();
   }
