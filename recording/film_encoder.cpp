@@ -98,7 +98,7 @@ FilmEncoder::FilmEncoder(std::vector<std::string> words, std::function<bool()> g
   close_input();
   ::close(errors_);
   process_ = 0;
-  if (failure == ENOENT) throw EncoderFailed(name_ + " is not installed on the server");
+  if (failure == ENOENT) throw EncoderFailed(name_ + " is not installed: the PATH has no such program");
   refuse("cannot run " + name_, failure);
 }
 

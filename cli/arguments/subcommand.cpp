@@ -2,12 +2,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <optional>
+#include <string_view>
 
 #include "protocol/line/words.hpp"
 
 namespace racebeam {
 namespace {
+
+constexpr std::uint64_t kMostBytes = 1ULL << 60;
 
 CLI::Validator validator(const Check& check) { return CLI::Validator(check.refusal, check.accepted); }
 
@@ -16,6 +20,23 @@ std::string joined(const std::vector<std::string>& words) {
   for (std::size_t at = 0; at < words.size(); ++at)
     text.append(at == 0 ? "" : at + 1 == words.size() ? " and " : ", ").append(words[at]);
   return text;
+}
+
+// A number of bytes, of KiB (512K, 512KB or 512KiB), and so on.
+std::optional<std::uint64_t> size_of(std::string_view text) {
+  static constexpr std::string_view kUnits = "kmgtpe";
+  std::string unit;
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+  for (const char c : text.substr(digits)) {
+    if (c != ' ' || !unit.empty()) unit += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  const auto number = parse_number<std::uint64_t>(text.substr(0, digits));
+  const std::size_t place = unit.empty() ? std::string_view::npos : kUnits.find(unit.front());
+  const std::string_view rest = std::string_view(unit).substr(place == std::string_view::npos ? 0 : 1);
+  const bool known = rest.empty() || rest == "b" || (rest == "ib" && rest.size() < unit.size());
+  const std::size_t shift = place == std::string_view::npos ? 0 : 10 * (place + 1);
+  if (!number || !known || *number > kMostBytes >> shift) return std::nullopt;
+  return *number << shift;
 }
 
 }  // namespace
@@ -54,7 +75,18 @@ Check one_of(const std::vector<std::string>& words) {
 Option& Option::required(bool is) { return option_->required(is), *this; }
 Option& Option::excludes(const Option& other) { return option_->excludes(other.option_), *this; }
 Option& Option::check(const Check& check) { return option_->check(validator(check)), *this; }
-Option& Option::sizes() { return option_->transform(CLI::AsSizeValue(false)), *this; }
+Option& Option::sizes() {
+  const auto as_bytes = [](std::string& text) {
+    const auto bytes = size_of(text);
+    if (!bytes)
+      return quote(text) + " is not a size; accepted are bytes, or 512M, 2G and the like, up to " +
+             std::to_string(kMostBytes);
+    text = std::to_string(*bytes);
+    return std::string{};
+  };
+  return option_->transform(CLI::Validator(as_bytes, "")), *this;
+}
+
 Option& Option::one_a_time() { return option_->allow_extra_args(false), *this; }
 Option& Option::shows_default() { return option_->capture_default_str(), *this; }
 Option& Option::default_text(const std::string& it) { return option_->default_str(it), *this; }

@@ -4,7 +4,9 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "agents/experiment/cost.hpp"
 #include "agents/experiment/experiment.hpp"
@@ -45,16 +47,20 @@ struct ExperimentOptions {
   ImageOptions images;
 };
 
+struct Shard {
+  std::size_t number, count;
+};
+
 // K/N
-void read_shard(const std::string& text, ExperimentSettings& settings) {
-  if (text.empty()) return;
-  std::string_view first = text;
-  const auto shards = parse_number<std::size_t>(cut_behind(first, '/'));
-  const auto shard = parse_number<std::size_t>(first);
-  if (!shard || !shards || *shard < 1 || *shard > *shards)
-    throw InvalidInput("--shard is " + quote(text) + "; it takes K/N, with K from 1 to N");
-  settings.shard = *shard;
-  settings.shards = *shards;
+std::optional<Shard> shard_of(std::string_view text) {
+  const auto count = parse_number<std::size_t>(cut_behind(text, '/'));
+  const auto number = parse_number<std::size_t>(text);
+  if (!number || !count || *number < 1 || *number > *count) return std::nullopt;
+  return Shard{*number, *count};
+}
+
+std::string check_shard(const std::string& text) {
+  return shard_of(text) ? std::string() : quote(text) + " is no part; accepted is K/N, with K from 1 to N";
 }
 
 std::string hours(double seconds) {
@@ -95,7 +101,10 @@ void run(const ExperimentOptions& options) {
   settings.threads = threads_of(options.images);
   settings.checkpoints = std::chrono::seconds(options.checkpoint_seconds);
   settings.cpu = options.images.cpu;
-  read_shard(options.shard, settings);
+  if (const auto shard = shard_of(options.shard)) {
+    settings.shard = shard->number;
+    settings.shards = shard->count;
+  }
   bind(plan, images, RACEBEAM_VERSION);
   run_experiment(plan, images, ResultsFolder(options.into), settings, report);
 }
@@ -109,8 +118,10 @@ void add_experiment(Subcommand& program) {
   command.option("--into", options->into, "The folder of the results; it may hold a part of them");
   command.flag("--dry-run", options->dry_run,
                "Only list the units, their cost, and the images that are missing");
-  command.option("--shard", options->shard,
-                 "Run a part, such as 3/100: each hundredth unit from the third on");
+  command
+      .option("--shard", options->shard, "Run a part, such as 3/100: each hundredth unit from the third on")
+      .value_name("K/N")
+      .check({check_shard, ""});
   add_count(command, "--checkpoint-seconds", options->checkpoint_seconds, 0,
             "Least time between two checkpoints of a unit");
   add_image_options(command, options->images);

@@ -13,6 +13,7 @@
 #include "agents/experiment/play.hpp"
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/subcommand.hpp"
+#include "cli/commands/interruption.hpp"
 #include "emulator/tia/sound.hpp"
 #include "recording/footage.hpp"
 #include "recording/media.hpp"
@@ -34,6 +35,7 @@ which form:
   none          a folder of PNGs: 000000.png and so on
 
 No file is replaced. If the machine does not give the score of the log, nothing is written; racebeam verify says more.
+SIGINT, SIGTERM and SIGHUP leave nothing behind.
 
 Examples:
   racebeam render results/logs/beamfall-random-1/1.episode --to episode.gif
@@ -66,7 +68,7 @@ class Film {
   std::int64_t frames() const { return frames_; }
 
  private:
-  DiskBudget budget_{std::numeric_limits<std::size_t>::max()};
+  DiskBudget budget_{std::numeric_limits<std::size_t>::max(), Interruption::flag()};
   std::unique_ptr<Media> media_;
   Sound sound_;  // a copy, which does not change the machine's
   std::int64_t frames_ = 0;
@@ -82,13 +84,17 @@ Cartridge cartridge_of(const EpisodeLog& log, const Images& images) {
 
 // Plays the log, and writes the frames to `path`. Returns their number.
 std::int64_t film(const EpisodeLog& log, const RenderOptions& options, const fs::path& path, MediaKind kind) {
+  const Interruption interruption;  // ends after the film, which removes its temporary file
   PlaySettings settings = settings_of(log);
   settings.machine.cpu = options.images.cpu;
   Stage stage(cartridge_of(log, images_of(options.images)), settings, Drawing::kEvery);
   stage.begin(settings.machine.random_seed);
   Environment& machine = stage.machine();
   Film film(path, kind, machine);
-  machine.watch([&] { film.add(machine); });
+  machine.watch([&] {
+    interruption.check();
+    film.add(machine);
+  });
   std::int64_t score = 0;
   for (const int action : log.actions) {
     if (machine.game_over()) break;
@@ -104,16 +110,22 @@ std::int64_t film(const EpisodeLog& log, const RenderOptions& options, const fs:
   return film.frames();
 }
 
-void refuse_existing(const fs::path& path) {
+// Says the whole path; what writes the file knows only its name.
+void check_place(const fs::path& path) {
   if (fs::exists(path)) throw InvalidInput(path.string() + " exists; no file is replaced");
+  const fs::path folder = path.parent_path();
+  if (!folder.empty() && !fs::is_directory(folder))
+    throw InvalidInput("cannot make " + path.string() + ": there is no folder " + folder.string());
 }
 
 void run(const RenderOptions& options) {
   const std::string bytes = read_input_file("episode log", options.log, kMostLogBytes);
   const EpisodeLog log = log_of(fs::path(options.log).filename().string(), bytes);
+  if (options.to.empty())
+    throw UsageError("--to: '' names no file; accepted are a new file such as a.gif, or a new folder");
   fs::path to = options.to;
   if (!to.has_filename()) to = to.parent_path();  // NAME/
-  refuse_existing(to);
+  check_place(to);
   const std::string ending = to.extension();
   const auto kind = ending.empty() ? MediaKind::kPng : media_kind(ending.substr(1));
   if (!kind || ending == ".png") {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include "cli/commands/serve_options.hpp"
 #include "cli/commands/shared_caches.hpp"
@@ -161,13 +162,14 @@ int serve(const ServeOptions& options, const SharedCaches& caches) {
   return serve(options.server, services);
 }
 
-// The last line of a server that fails, in the format of its log. Returns `status`.
+// The last line of a server that fails, in the format of its log, unless that has got no thread. Returns
+// `status`.
 int fail(LogFormat format, const std::string& sentence, int status) {
-  if (format == LogFormat::kJson) {
-    log(LogLevel::kError, sentence);
-  } else {
-    std::cerr << "racebeam: " << printable(sentence) << "\n";
+  try {
+    if (format == LogFormat::kJson) return log(LogLevel::kError, sentence), status;
+  } catch (const std::system_error&) {
   }
+  std::cerr << "racebeam: " << printable(sentence) << "\n";
   return status;
 }
 
@@ -179,17 +181,17 @@ int run_server(ServeOptions& options, const std::vector<Setting>& settings) {
   remove_stale(kReadyFile, options.server.ready_file);
   remove_stale(kAnnounceFile, options.server.announce);
   finish(options, settings);
-  set_up_log(options.log_level, options.log_format);
-  options.server.threads_limited_by = limit_of(settings, "threads", usable_processors().limited_by);
-  options.server.memory_limited_by = limit_of(settings, "max_memory", usable_memory().limited_by);
-  const SharedCaches caches = shared_caches_for(options.server.max_memory);
-  options.server.caches = text_of(caches);
-  use(caches);
-  tell_obstacle(options.machine.settings.cpu);
   const auto fails = [&](const std::exception& error, int status) {
     return fail(options.log_format, error.what(), status);
   };
   try {
+    set_up_log(options.log_level, options.log_format);
+    options.server.threads_limited_by = limit_of(settings, "threads", usable_processors().limited_by);
+    options.server.memory_limited_by = limit_of(settings, "max_memory", usable_memory().limited_by);
+    const SharedCaches caches = shared_caches_for(options.server.max_memory);
+    options.server.caches = text_of(caches);
+    use(caches);
+    tell_obstacle(options.machine.settings.cpu);
     return serve(options, caches);
   } catch (const AddressError& error) {
     return fails(error, kExitAddress);
@@ -199,6 +201,10 @@ int run_server(ServeOptions& options, const std::vector<Setting>& settings) {
     return fails(error, kExitMemory);
   } catch (const std::bad_alloc&) {
     return fail(options.log_format, "the system gives no more memory", kExitMemory);
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) return fails(error, kExitFailure);
+    return fail(options.log_format, "the system gives no more memory for a thread, or allows no more threads",
+                kExitMemory);
   } catch (const std::exception& error) {
     return fails(error, kExitFailure);
   }

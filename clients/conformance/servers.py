@@ -26,15 +26,20 @@ def certificate(folder):
 
 
 def damaged_announcements(announced, folder):
-    """Announce files with a fault, as variables of the steps."""
+    """Announce files with a fault, and what is none, as variables of the steps."""
     text = announced.read_text()
     texts = {"STALE": re.sub(r'"tcp://[^"]*"', f'"{faulty_server.closed_address()}"', text),
              "HALF_WRITTEN": text[:len(text) // 2],
              "LATER_VERSION": text.replace('"racebeam_announce": 1,', '"racebeam_announce": 2,'),
-             "NO_ADDRESS": re.sub(r'"tcp://[^"]*"', '"other://x"', text)}
+             "NO_ADDRESS": re.sub(r'"tcp://[^"]*"', '"other://x"', text),
+             "EMPTY": "",
+             "NOTES": "dear diary\n",
+             "GARBAGE": "{\x00\xff\x80\n\x1b[31m\n"}
     for name, damaged in texts.items():
-        (folder / name).write_text(damaged)
-    return {name: f"file:{folder / name}" for name in texts}
+        (folder / name).write_text(damaged, encoding="latin1")
+    (folder / "FOLDER").mkdir()
+    os.mkfifo(folder / "FIFO")
+    return {name: f"file:{folder / name}" for name in (*texts, "FOLDER", "FIFO")}
 
 
 class Servers:

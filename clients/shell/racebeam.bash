@@ -31,8 +31,11 @@ _racebeam_lost() { racebeam_close; _racebeam_fail "$@"; }
 # token as well. file:PATH?wait=SECONDS waits for the file, and for the server in it.
 racebeam_connect() {
   local address=${1:-${RACEBEAM_ADDRESS-}} until=$SECONDS status
-  if [[ $address =~ ^(file:.+)\?wait=([0-9]+)$ ]]; then
-    address=${BASH_REMATCH[1]} until=$((SECONDS + BASH_REMATCH[2]))
+  if [[ $address =~ ^(file:.+)\?wait=([0-9]{1,9})(\.[0-9]+)?$ ]]; then
+    address=${BASH_REMATCH[1]} until=$((SECONDS + 10#${BASH_REMATCH[2]} + (${#BASH_REMATCH[3]} > 0)))
+  elif [[ $address == file:?*\?wait=* ]]; then
+    _racebeam_fail 4 "the address is '$address'; ?wait= takes seconds, from 0 to 999999999"
+    return
   fi
   until _racebeam_try "$address" "${2-}"; do
     status=$?
@@ -41,10 +44,17 @@ racebeam_connect() {
   done
 }
 
+readonly _racebeam_files='file:PATH takes the --ready-file or --announce file of a server'
+
 # Sets `address` and `token` to those of the file PATH.
 _racebeam_in_file() {
-  local text version
-  text=$(cat "$1" 2>/dev/null) || { _racebeam_fail 2 "$1 cannot be read"; return; }
+  local text version known=''
+  if [[ -e $1 && ! -f $1 ]]; then  # a pipe might block
+    _racebeam_fail 4 "$1 is no regular file; $_racebeam_files"
+    return
+  fi
+  text=$(cat -- "$1" 2>/dev/null | tr -d '\0'; exit "${PIPESTATUS[0]}") || { _racebeam_fail 2 "$1 cannot be read"; return; }
+  [[ $text == ['{#']* ]] && known=yes
   if [[ $text == '{'* ]]; then
     version=$(sed -n '1s/^{"racebeam_announce": \([0-9]*\).*/\1/p' <<<"$text")
     token=${token:-$(sed -n 's/^ "token": "\([^"]*\)"}$/\1/p' <<<"$text")}
@@ -57,18 +67,28 @@ _racebeam_in_file() {
     fi
     text=$(sed -n 's/^  "\(.*\)",\{0,1\}$/\1/p' <<<"$text")
   fi
-  address=$(grep -m 1 -E '^(tcp|pipes):' <<<"$text") || _racebeam_fail 4 "$1 names no address for bash"
+  address=$(grep -a -m 1 -E '^(tcp|pipes):' <<<"$text") && return
+  if [[ $known ]]; then
+    _racebeam_fail 4 "$1 names no address for bash"
+  elif [[ $text ]]; then
+    _racebeam_fail 4 "$1 has other contents; $_racebeam_files"
+  else
+    _racebeam_fail 4 "$1 is empty; $_racebeam_files"
+  fi
 }
 
 _racebeam_try() {
-  local address=$1 token=$2 line
+  local address=$1 token=$2 line source=''
   racebeam_close
-  if [[ $address == file:* ]]; then _racebeam_in_file "${address#file:}" || return; fi
+  if [[ $address == file:* ]]; then
+    _racebeam_in_file "${address#file:}" || return
+    source=", which ${1#file:} names"
+  fi
   trap '' PIPE  # a server that has gone is no reason to end
   if [[ $address =~ ^tcp://\[?([^]]+)\]?:([0-9]+)$ ]]; then
     { exec {racebeam_input}<>"/dev/tcp/${BASH_REMATCH[1]}/${BASH_REMATCH[2]}"; } 2>/dev/null || {
       racebeam_input=''
-      _racebeam_fail 2 "no server answers at $address"
+      _racebeam_fail 2 "no server answers at $address$source"
       return
     }
     exec {racebeam_output}>&"$racebeam_input"
@@ -133,7 +153,8 @@ racebeam_receive() {
     racebeam_code=${line%% *}
     _racebeam_fail 1 "$line"
   elif [[ $line != ok && $line != ok\ * ]]; then
-    _racebeam_lost 2 "the server sent what is no reply: '${line:0:60}'"
+    line=${line:0:60}
+    _racebeam_lost 2 "the server sent what is no reply: '${line//[^ -~]/?}'"  # a terminal would execute some of its bytes
   else
     racebeam_reply=${line#ok}
     _racebeam_follow

@@ -120,6 +120,13 @@ bool BlockingPair::write(std::string_view text) {
   return true;
 }
 
+// A pipe that is ready takes PIPE_BUF bytes without waiting.
+void BlockingPair::write_at_once(std::string_view text) {
+  pollfd state{out_, POLLOUT, 0};
+  const bool ready = ::poll(&state, 1, 0) > 0 && (state.revents & POLLOUT) != 0;
+  if (ready && ::write(out_, text.data(), text.size()) < 0) return;  // the client has gone
+}
+
 bool BlockingPair::reader_left() const {
   pollfd state{out_, 0, 0};
   return ::poll(&state, 1, 0) > 0 && (state.revents & (POLLERR | POLLHUP)) != 0;

@@ -42,8 +42,9 @@ class BlockingPair {
   std::size_t read(std::span<char> space);  // 0: the end, or told to halt
   // Without waiting; nothing: nothing has come, or the system can't tell.
   std::optional<std::size_t> read_at_once(std::span<char> space);
-  bool write(std::string_view text);  // false: the client does not read any more, or told to halt
-  bool reader_left() const;           // without waiting
+  bool write(std::string_view text);          // false: the client does not read any more, or told to halt
+  void write_at_once(std::string_view text);  // a short text, if the client has room for it now
+  bool reader_left() const;                   // without waiting
 
  private:
   bool open(int& descriptor, const std::string& path, int flags);

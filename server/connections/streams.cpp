@@ -51,8 +51,8 @@ void make_if_missing(const std::string& path) {
 
 class StreamSession::LineConversation final : public Conversation {
  public:
-  LineConversation(const LineService& service, Meter& meter, int columns)
-      : meter_(meter), session_(service, &meter) {
+  LineConversation(const LineService& service, Metrics& metrics, Meter& meter, int columns)
+      : metrics_(metrics), meter_(meter), session_(service, &meter) {
     session_.set_columns(columns);
   }
 
@@ -74,7 +74,8 @@ class StreamSession::LineConversation final : public Conversation {
         session_.received(count);
         continue;
       }
-      if (halt.all || streams.reader_left()) return client_gone(halt);
+      if (halt.all) return say_farewell(streams), 0;
+      if (streams.reader_left()) return client_gone(halt);
       if (next == Next::kPause) std::this_thread::sleep_for(1ms);
     }
     return session_.refused() ? kRefused : 0;
@@ -83,6 +84,13 @@ class StreamSession::LineConversation final : public Conversation {
   std::string description() const override { return "the line protocol"; }
 
  private:
+  // In the middle of a request, whose reply has not begun.
+  void say_farewell(BlockingPair& streams) {
+    ++metrics_.ended_stopping;
+    streams.write_at_once("error stopping the server stops\n");
+  }
+
+  Metrics& metrics_;
   Meter& meter_;
   LineSession session_;
 };
@@ -137,7 +145,7 @@ StreamSession::StreamSession(const Endpoint& endpoint, const Service& service,
   if (const auto* line = std::get_if<LineService>(&service)) {
     const bool standard = std::holds_alternative<StandardStreams>(address_);
     const int columns = standard ? terminal_columns(STDOUT_FILENO) : 0;
-    conversation_ = std::make_unique<LineConversation>(*line, meter, columns);
+    conversation_ = std::make_unique<LineConversation>(*line, metrics, meter, columns);
     ++metrics.sessions_line;
   } else {
     conversation_ = std::make_unique<ClassicConversation>(std::get<ClassicService>(service), meter);

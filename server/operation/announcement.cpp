@@ -27,13 +27,13 @@ std::string host_name() {
 
 std::string ready_text(const std::vector<std::string>& addresses) {
   std::string text(kReadyFile.mark);
-  text += ": the addresses of a server, one a line; lines that begin with # are comments\n";
   for (const std::string& address : addresses) (text += address) += '\n';
   return text;
 }
 
 std::string announce_text(const Announcement& announcement) {
-  std::string text = std::string(kAnnounceFile.mark) + " " + std::to_string(kFormat) + ",\n \"addresses\": [";
+  std::string text(kAnnounceFile.mark);
+  text.append(" ").append(std::to_string(kFormat)).append(",\n \"addresses\": [");
   const char* separator = "\n  ";
   for (const std::string& address : announcement.addresses) {
     (text += separator) += as_json(address);

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "server/operation/log.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -19,10 +21,12 @@ namespace {
                            std::generic_category().message(errno));
 }
 
+std::string without_end(std::string_view line) { return std::string(line.substr(0, line.find('\n'))); }
+
 [[noreturn]] void refuse(const FileKind& kind, const std::string& path) {
   throw std::runtime_error(std::string(kind.option) + " " + path + " exists, and is not " +
                            (kind.name.starts_with('a') ? "an " : "a ") + std::string(kind.name) +
-                           ": its first line does not begin with '" + std::string(kind.mark) +
+                           ": it does not begin with '" + without_end(kind.mark) +
                            "'; choose another name, or remove it");
 }
 
@@ -67,7 +71,12 @@ void remove_stale(const FileKind& kind, const std::string& path) {
 }
 
 PublishedFile::PublishedFile(const FileKind& kind, const std::string& path, const std::string& text) {
-  if (const int there = open_ours(kind, path); there >= 0) ::close(there);
+  if (const int there = open_ours(kind, path); there >= 0) {
+    if (is_locked(there))
+      log_warning("the " + std::string(kind.name) + " " + path +
+                  " of another server, which runs, is replaced");
+    ::close(there);
+  }
   write(kind, path, text);
 }
 

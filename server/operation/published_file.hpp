@@ -18,7 +18,10 @@ struct FileKind {
   mode_t mode;
 };
 
-inline constexpr FileKind kReadyFile{"ready file", "--ready-file", "# racebeam ready file", 0644};
+inline constexpr FileKind kReadyFile{
+    "ready file", "--ready-file",
+    "# racebeam ready file: the addresses of a server, one a line; lines that begin with # are comments\n",
+    0644};
 inline constexpr FileKind kAnnounceFile{"announce file", "--announce", "{\"racebeam_announce\":", 0600};
 
 // Removes the file of a server that died, so that clients do not find its addresses. The file of a live
@@ -28,8 +31,9 @@ void remove_stale(const FileKind& kind, const std::string& path);
 
 class PublishedFile {
  public:
-  // Writes the file, and replaces that of a live server. `text` begins with the mark. Throws
-  // std::runtime_error if the file is of another kind, or cannot be written; nothing is left half-written.
+  // Writes the file, and replaces that of a live server, with a warning in the log. `text` begins with the
+  // mark. Throws std::runtime_error if the file is of another kind, or cannot be written; nothing is left
+  // half-written.
   PublishedFile(const FileKind& kind, const std::string& path, const std::string& text);
   ~PublishedFile();  // removes it, unless it is another server's
   PublishedFile(const PublishedFile&) = delete;

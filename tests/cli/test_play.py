@@ -106,7 +106,6 @@ class Watch(unittest.TestCase):
         self.assertIn("other addresses with --terminal", done.stderr)
 
     def test_one_picture_is_written_where_there_is_no_terminal(self):
-        self.assertRegex(self.watch("--terminal", self.address).stdout, "^no session is shared")
         self.share("a"), self.share("b", "updraft")
         for words, shown in (([], "a  game beamfall"), (["--session", "b"], "b  game updraft")):
             done = self.watch("--terminal", self.address, *words)
@@ -115,6 +114,12 @@ class Watch(unittest.TestCase):
             self.assertIn(shown, lines[-1])
             self.assertIn("score 0", lines[-1])
             self.assertEqual({line.count("\u2580") for line in lines[:-1]}, {80})
+
+    def test_no_picture_is_a_failure_where_there_is_no_terminal(self):
+        for words, reason in (([], "no session is shared"), (["--session", "nosuch"], "there is no shared session 'nosuch'")):
+            done = self.watch("--terminal", self.address, *words)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done)
+            self.assertTrue(done.stderr.startswith(f"racebeam: {reason}"), done.stderr)
 
     def test_a_terminal_shows_what_is_played_and_takes_keys(self):
         session = self.share("a")

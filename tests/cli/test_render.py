@@ -4,9 +4,11 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import stat
 import subprocess
 import tempfile
+import time
 import unittest
 import wave
 
@@ -66,8 +68,25 @@ class Render(unittest.TestCase):
             words, stream = (self.place / name).read_bytes().split(b"\n", 1)
             self.assertRegex(words.decode(), rf" -f avi -i pipe:0 .* -c:v {codecs[0]} .* -c:a {codecs[1]} ")
             self.assertEqual(stream[:4] + stream[8:12], b"RIFFAVI ")
-        self.assertEqual(self.render("c.webm", PATH=""), (1, "", "racebeam: ffmpeg is not installed on the server\n"))
+        self.assertEqual(self.render("c.webm", PATH=""), (1, "", "racebeam: ffmpeg is not installed: the PATH has no such program\n"))
         self.assertEqual([path for path in self.place.iterdir() if path.name.startswith(".")], [])
+
+    def test_a_signal_leaves_nothing_behind(self):
+        tools = self.place / "slow tools"
+        tools.mkdir()
+        (tools / "ffmpeg").write_text("#!/bin/sh\nexec sleep 1000\n")  # reads nothing, so the film stays unfinished
+        (tools / "ffmpeg").chmod(stat.S_IRWXU)
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            with tempfile.TemporaryDirectory() as folder, self.subTest(number=number), subprocess.Popen(
+                    [BINARY, "render", self.log, "--to", f"{folder}/film.webm"], stderr=subprocess.PIPE,
+                    env=os.environ | {"PATH": f"{tools}:{os.environ['PATH']}"}) as process:
+                until = time.monotonic() + PATIENCE
+                while not os.listdir(folder) and time.monotonic() < until:
+                    time.sleep(0.005)
+                self.assertEqual(len(os.listdir(folder)), 1)
+                process.send_signal(number)
+                self.assertEqual((process.wait(PATIENCE), process.stderr.read()), (-number, b""))
+                self.assertEqual(os.listdir(folder), [])
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "there is no ffmpeg")
     def test_a_film_of_the_real_ffmpeg_plays(self):
@@ -82,10 +101,13 @@ class Render(unittest.TestCase):
         broken.write_bytes(data)
         for to, log, status, hint in (("there.gif", None, 1, "exists; no file is replaced"), ("x.avi", None, 2, "accepted are .gif"),
                                       ("x.png", None, 2, "none for a folder of PNGs"), ("x.gif", broken, 1, "broken.episode"),
-                                      ("x.gif", self.place / "nothing", 1, "nothing"), ("no/x.gif", None, 1, "x.gif")):
+                                      ("x.gif", self.place / "nothing", 1, "nothing"), ("no/x.gif", None, 1, f"cannot make {self.place}/no/x.gif: there is no folder {self.place}/no")):
             found, output, errors = self.render(to, log)
             self.assertEqual((found, output, len(errors.splitlines())), (status, "", 1), (to, errors))
             self.assertIn(hint, errors)
+        done = subprocess.run([BINARY, "render", self.log, "--to", ""], capture_output=True, text=True, timeout=PATIENCE)
+        self.assertEqual(done.returncode, 2, done)
+        self.assertIn("--to: '' names no file", done.stderr)
         self.assertEqual((self.place / "there.gif").read_text(), "mine")
         self.assertFalse((self.place / "x.gif").exists())
 

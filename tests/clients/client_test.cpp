@@ -283,6 +283,50 @@ TEST_CASE("A program that cannot be started, and pipes that no server opens, are
   for (const char* suffix : {"_in", "_out"}) std::filesystem::remove(prefix.string() + suffix);
 }
 
+TEST_CASE("A file that names no server is refused in a sentence") {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("racebeam-files-" + std::to_string(::getpid()));
+  std::filesystem::create_directory(folder);
+  const auto refusal = [&](const std::string& name) {
+    try {
+      client::connect("file:" + (folder / name).string());
+      return std::string("none");
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+  };
+  const auto put = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+    return refusal(name);
+  };
+  const std::string tail = "; file:PATH takes the --ready-file or --announce file of a server";
+  const auto path = [&](const std::string& name) { return (folder / name).string(); };
+  REQUIRE(::mkfifo(path("pipe").c_str(), 0600) == 0);
+  CHECK(refusal("pipe") == path("pipe") + " is no regular file" + tail);
+  CHECK(refusal("pipe?wait=60") == path("pipe") + " is no regular file" + tail);
+  CHECK(refusal(".") == path(".") + " is no regular file" + tail);
+  CHECK(put("empty", "") == path("empty") + " is empty" + tail);
+  CHECK(put("notes", "dear diary\n") == path("notes") + " has other contents" + tail);
+  CHECK(put("ready", "# addresses\nhttp://a:1\n") ==
+        path("ready") + " names no address that this client can use");
+  for (const std::string time : {"", "x", "-1", "1e3", "99999999999999999999", "inf"}) {
+    CHECK(refusal("empty?wait=" + time) == "the address is 'file:" + path("empty?wait=") + time +
+                                               "'; ?wait= takes seconds, from 0 to 999999999");
+  }
+  CHECK_THAT(put("stale", "# addresses\nunix:/nonexistent/socket\n"),
+             Catch::Matchers::StartsWith("no server answers at unix:/nonexistent/socket, which " +
+                                         path("stale") + " names: "));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("What is no reply is quoted for a terminal") {
+  const Server server([](const std::string&) { return "\x1B[31mred\xFF\n"; });
+  auto game = client::connect(server.address());
+  CHECK_THROWS_MATCHES(
+      game.request("act FIRE"), client::Lost,
+      Catch::Matchers::Message("a reply of the server is damaged: '\\x1b[31mred\\xff' is no reply"));
+}
+
 TEST_CASE("The caller's words are checked") {
   for (const char* address :
        {"nonsense", "tcp://host", "tcp://host:99999", "tcp://:80", "unix:", "http://host:1"}) {

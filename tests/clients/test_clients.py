@@ -1,8 +1,10 @@
 """The clients play over the line protocol, and decode every encoding."""
 
 import os
+import socket
 import subprocess
 import sys
+import tempfile
 import unittest
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -119,6 +121,44 @@ class PythonClient(unittest.TestCase):
             for _ in range(100):
                 session.send("act", "NOOP")
             self.assertEqual([session.receive()[0]["frame"] for _ in range(100)], [str(n) for n in range(1, 101)])
+
+
+class Files(unittest.TestCase):
+    """Addresses of the form file:PATH."""
+
+    def refusal(self, kind, address):
+        with self.assertRaises(kind) as raised:
+            racebeam.connect(address)
+        return str(raised.exception)
+
+    def test_what_names_no_server_is_refused_in_a_sentence(self):
+        tail = "; file:PATH takes the --ready-file or --announce file of a server"
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "file")
+            for contents, reason in ((b"", f"is empty{tail}"), (b"dear diary\n", f"has other contents{tail}"),
+                                     (b"\xff\x80\n", f"has other contents{tail}"), (b"{\xff\x80\n", "is not a whole announce file"),
+                                     (b"{}", "is not a whole announce file"),
+                                     (b"# addresses\nhttp://a:1\n", "names no address that this client can use")):
+                with open(file, "wb") as written:
+                    written.write(contents)
+                self.assertEqual(self.refusal(ValueError, f"file:{file}"), f"{file} {reason}")
+            os.mkfifo(os.path.join(folder, "pipe"))
+            for path in (folder, os.path.join(folder, "pipe"), "/dev/zero"):
+                for wait in ("", "?wait=60"):
+                    self.assertEqual(self.refusal(ValueError, f"file:{path}{wait}"), f"{path} is no regular file{tail}")
+            for time in ("", "x", "-1", "1e3", "99999999999999999999"):
+                self.assertEqual(self.refusal(ValueError, f"file:{file}?wait={time}"),
+                                 f"the address is 'file:{file}?wait={time}'; ?wait= takes seconds, from 0 to 999999999")
+
+    def test_a_server_that_is_gone_is_named_with_its_file(self):
+        with tempfile.TemporaryDirectory() as folder, socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            address = f"tcp://127.0.0.1:{taken.getsockname()[1]}"
+            file = os.path.join(folder, "file")
+            with open(file, "w") as written:
+                written.write(f"# addresses\n{address}\n")
+            self.assertEqual(self.refusal(ConnectionRefusedError, f"file:{file}"),
+                             f"[Errno 111] no server answers at {address}, which {file} names: Connection refused")
 
 
 class Recordings(unittest.TestCase):

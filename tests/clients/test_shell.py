@@ -1,8 +1,12 @@
 """The agents in clients/shell play, each over its own way to connect."""
 
 import os
+import re
 import shutil
+import socketserver
 import subprocess
+import tempfile
+import threading
 import unittest
 
 from test_clients import SOURCE  # which finds the harness
@@ -28,6 +32,45 @@ class Agents(unittest.TestCase):
         done = run(os.path.join(SHELL, "agent.bash"), "127.0.0.1", "1")
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("Connection refused", done.stderr)
+
+    def page(self, address):
+        """Runs the script of the page."""
+        with open(os.path.join(SHELL, "README.md")) as page:
+            script = re.search(r"```shell\n(.*?)```", page.read(), re.DOTALL)[1]
+        return run("bash", "-c", script, env=os.environ | {"PATH": f"{SHELL}:{os.environ['PATH']}", "RACEBEAM_ADDRESS": address})
+
+    def test_the_script_of_the_page_ends_without_a_server(self):
+        done = self.page("file:/nonexistent/announce")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (1, "", "/nonexistent/announce cannot be read\n"))
+
+    def test_the_script_of_the_page_ends_when_its_server_goes(self):
+        class Leaving(socketserver.StreamRequestHandler):
+            def handle(self):
+                for reply in ("server=test protocol=1", "height=210", "fields=reward"):
+                    self.rfile.readline()
+                    self.wfile.write(f"ok {reply}\n".encode())
+                self.rfile.readline()
+
+        with socketserver.TCPServer(("127.0.0.1", 0), Leaving) as server:
+            threading.Thread(target=server.handle_request).start()
+            done = self.page(f"tcp://127.0.0.1:{server.server_address[1]}")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertEqual(done.stderr, "the server has closed the connection, or sent an endless line\n")
+
+    def test_a_file_that_names_no_server_is_refused_in_a_sentence(self):
+        tail = "; file:PATH takes the --ready-file or --announce file of a server"
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "file")
+            for text, reason in ((b"", f"{file} is empty{tail}"), (b"dear diary\n", f"{file} has other contents{tail}"),
+                                 (b"{\0\xff\x80\n", f"{file} is not a whole announce file"),
+                                 (b"# addresses\ntcp://127.0.0.1:1\n", f"no server answers at tcp://127.0.0.1:1, which {file} names")):
+                with open(file, "wb") as written:
+                    written.write(text)
+                self.assertEqual(self.page(f"file:{file}").stderr, reason + "\n")
+            self.assertEqual(self.page(f"file:{folder}").stderr, f"{folder} is no regular file{tail}\n")
+            for time in ("", "x", "-1", "1e3", "99999999999999999999"):
+                self.assertEqual(self.page(f"file:{file}?wait={time}").stderr,
+                                 f"the address is 'file:{file}?wait={time}'; ?wait= takes seconds, from 0 to 999999999\n")
 
     @unittest.skipUnless(shutil.which("mawk"), "there is no mawk")
     def test_awk_plays_over_pipes_as_bash_does_over_tcp(self):

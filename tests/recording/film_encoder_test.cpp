@@ -68,7 +68,8 @@ TEST_CASE("An encoder that fails is an error with its last words") {
                     "sh is not waited for any more");
   CHECK(reason("sleep 30", 1000) == "sh does not end");
   CHECK(reason("yes 'much to say' >&2; cat > /dev/null", 1000) == "no failure");  // what is not read is lost
-  CHECK_THROWS_WITH(FilmEncoder({"no-such-program"}), "no-such-program is not installed on the server");
+  CHECK_THROWS_WITH(FilmEncoder({"no-such-program"}),
+                    "no-such-program is not installed: the PATH has no such program");
 }
 
 TEST_CASE("An encoder that is not needed any more is killed") {

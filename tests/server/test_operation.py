@@ -135,6 +135,14 @@ class Stopping(unittest.TestCase):
             wire.close()
             self.assertEqual(server.wait(), 0)
 
+    def test_who_is_in_the_middle_of_a_request_on_streams_is_told_too(self):
+        with Server("serve", "--stdio", "--grace", "0", "--max-request-frames", "10000000", streams=True) as server:
+            wire = Wire(server.process.stdout.fileno(), server.process.stdin.fileno())
+            load(wire, b"branch root " + b"NOOP*1000 " * 5000 + b"\n")
+            server.process.send_signal(signal.SIGTERM)
+            self.assertEqual(wire.rest(), b"error stopping the server stops\n")
+            self.assertEqual(server.wait(), 0)
+
     def test_a_second_signal_ends_the_grace(self):
         with serve("--grace", "1000") as server:
             wire = connect_tcp(server.port())
@@ -199,7 +207,9 @@ class ReadyFile(unittest.TestCase):
                 notes.write(text)
 
         kinds = {"notes": lambda path: file(path, "tcp://127.0.0.1:1\n"), "empty": lambda path: file(path, ""),
-                 "near": lambda path: file(path, FIRST_LINE[:15]), "pipe": os.mkfifo, "folder": os.mkdir,
+                 "near": lambda path: file(path, FIRST_LINE[:15]),
+                 "other": lambda path: file(path, "# racebeam ready file: x\n"),
+                 "long": lambda path: file(path, FIRST_LINE[:-1] + " of a kind\n"), "pipe": os.mkfifo, "folder": os.mkdir,
                  "device": lambda path: os.symlink("/dev/null", path), "link": lambda path: os.symlink("ready", path)}
         def marks(path):  # all but the time of the last access
             found = os.lstat(path)
@@ -272,7 +282,7 @@ class ReadyFile(unittest.TestCase):
             with serve("--ready-file", path) as server:
                 server.addresses(path)
                 with serve("--ready-file", path) as heir:
-                    heir.wait_for("listening on")
+                    heir.wait_for(f"warning: the ready file {path} of another server, which runs, is replaced")
                     mine = heir.port()
                     while True:
                         try:

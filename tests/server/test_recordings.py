@@ -183,7 +183,7 @@ class Encoded(unittest.TestCase):
 
     def test_a_server_without_ffmpeg_says_so(self):
         lines = self.record(b"load beamfall\nrecord mp4 film\nact FIRE\nrecord gif film\n", path=self.tools)
-        self.assertEqual(lines[1], b"error recording ffmpeg is not installed on the server")
+        self.assertEqual(lines[1], b"error recording ffmpeg is not installed: the PATH has no such program")
         self.assertEqual(lines[3], b"ok recording=film.gif")
         self.assertEqual(os.listdir(self.films), ["film.gif"])
 

@@ -126,6 +126,26 @@ class CommandLine(Refusals):
                                   capture_output=True, cwd=folder, timeout=PATIENCE, preexec_fn=limit)
             self.assertEqual((done.returncode, done.stderr), (5, b"racebeam: the system gives no more memory\n"))
 
+    @unittest.skipIf(sanitized(), "a sanitizer needs more address space")
+    def test_a_thread_that_the_system_does_not_give_has_the_same_status(self):
+        reason = "the system gives no more memory for a thread, or allows no more threads"
+        for kibibytes in (20000, 30000):  # without room for the stack of the log's thread; of that of an event loop
+            def limit():
+                resource.setrlimit(resource.RLIMIT_AS, (kibibytes << 10, kibibytes << 10))
+            for form in ("text", "json"):
+                with self.subTest(kibibytes=kibibytes, form=form):
+                    done = subprocess.run([BINARY, "serve", "--listen", "tcp://127.0.0.1:0", "--threads", "2",
+                                           "--log-level", "error", "--log-format", form],
+                                          capture_output=True, text=True, timeout=PATIENCE, preexec_fn=limit)
+                    self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (5, "", 1), done.stderr)
+                    self.assertIn(reason, done.stderr)
+
+    def test_a_limit_of_memory_is_a_size(self):
+        for size in ("-1", "99999999999999999999", "1.5G", "2x", "", "i", "G"):
+            with self.subTest(size=size):
+                self.check(["serve", "--stdio", "--max-memory", size], 2,
+                           f"--max-memory: '{size}' is not a size; accepted are bytes, or 512M, 2G and the like, up to {1 << 60}")
+
     def test_an_image_has_to_be_named(self):
         self.check(["serve", "--classic", "--stdio"], 2, "--rom is required")
 

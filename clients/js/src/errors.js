@@ -22,3 +22,11 @@ export class TimeoutError extends LostError {
     this.name = "TimeoutError";
   }
 }
+
+/** What a server sent, for people: a terminal would execute some of its characters. */
+export function printable(text) {
+  return text.replace(/[^ -~]/gu, (character) => {
+    const code = character.codePointAt(0).toString(16);
+    return code.length <= 2 ? `\\x${code.padStart(2, "0")}` : `\\u{${code}}`;
+  });
+}

@@ -1,4 +1,4 @@
-import { LostError } from "./errors.js";
+import { LostError, printable } from "./errors.js";
 import { Session } from "./session.js";
 
 export const PROTOCOL = 1;
@@ -9,7 +9,7 @@ export async function greet(connection, address, options, token = options.token)
   try {
     const { protocol } = await session.hello(token);
     if (protocol !== PROTOCOL) {
-      throw new LostError(`${address} speaks version ${protocol} of the protocol; this client speaks ${PROTOCOL}`);
+      throw new LostError(`${address} speaks version ${printable(String(protocol))} of the protocol; this client speaks ${PROTOCOL}`);
     }
     return session;
   } catch (error) {

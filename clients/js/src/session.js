@@ -1,6 +1,6 @@
 import { toBase64 } from "#platform";
 import { base64, hex, rewards } from "./decode.js";
-import { LostError, RefusedError } from "./errors.js";
+import { LostError, printable, RefusedError } from "./errors.js";
 import { Fields } from "./fields.js";
 import { Lines } from "./lines.js";
 
@@ -81,7 +81,7 @@ export class Session {
       }
       return { groups: await settled(this.#fields.groups(request, line, bytes)), line };
     } catch (cause) {
-      const error = new LostError(`the server sent what is no reply: ${cause.message}`, { cause });
+      const error = new LostError(`the server sent what is no reply: ${printable(cause.message)}`, { cause });
       this.#lines.end(error);
       throw error;
     }

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { once } from "node:events";
-import { mkdtempSync, writeFileSync } from "node:fs";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import net from "node:net";
 import os from "node:os";
 import path from "node:path";
@@ -36,6 +36,12 @@ async function served(context, answer, options = { timeout: 2000, longestReply: 
   return { session, sockets };
 }
 
+function temporaryFolder(context) {
+  const folder = mkdtempSync(path.join(os.tmpdir(), "racebeam-"));
+  context.after(() => rmSync(folder, { recursive: true }));
+  return folder;
+}
+
 const faults = {
   "a server that closes": [undefined, LostError],
   "what is no reply": ["220 mail.example.org\n", LostError],
@@ -51,6 +57,37 @@ for (const [name, [answer, kind]] of Object.entries(faults)) {
     await assert.rejects(session.act("FIRE"), (error) => error instanceof LostError && !(error instanceof TimeoutError));
   });
 }
+
+test("what is no reply is quoted for a terminal", async (context) => {
+  const { session } = await served(context, () => "\x1b[31mred\u00ff\n");
+  await assert.rejects(session.act("FIRE"), ({ message }) => message.includes("'\\x1b[31mred") && /^[ -~]*$/.test(message));
+});
+
+test("a file that names no server is refused in a sentence", async (context) => {
+  const folder = temporaryFolder(context);
+  const at = (name) => `file:${path.join(folder, name)}`;
+  for (const [name, text, sentence] of [
+    ["empty", "", /empty is empty; file:PATH takes the --ready-file or --announce file of a server$/],
+    ["notes", "dear diary\n", /notes has other contents; file:PATH takes/],
+    [".", undefined, / is no regular file; file:PATH takes/],
+    ["broken", "{\x00\xff", /broken is not a whole announce file$/],
+  ]) {
+    if (text !== undefined) {
+      writeFileSync(path.join(folder, name), text, "latin1");
+    }
+    await assert.rejects(connect(at(name)), { name: "TypeError", message: sentence });
+  }
+  for (const time of ["", "x", "-1", "1e3", "99999999999999999999"]) {
+    await assert.rejects(connect(`${at("empty")}?wait=${time}`), { name: "TypeError", message: /\?wait= takes seconds, from 0 to 999999999$/ });
+  }
+  const closed = net.createServer().listen(0, "127.0.0.1");
+  await once(closed, "listening");
+  const { port } = closed.address();
+  closed.close();
+  await once(closed, "close");
+  writeFileSync(path.join(folder, "stale"), `# addresses\ntcp://127.0.0.1:${port}\n`);
+  await assert.rejects(connect(at("stale")), { name: "LostError", message: new RegExp(`tcp://127.0.0.1:${port}: .*stale names`) });
+});
 
 test("an error in a pipeline leaves the others", async (context) => {
   const { session } = await served(context, (line) => (line === "bad" ? "error bad-action it is\n" : `ok n=${line}\n`));
@@ -133,7 +170,7 @@ test("the caller's words are checked", async (context) => {
   for (const address of ["", "nonsense", "tcp://host", "tcp://host:99999", "unix:", "http://host:1"]) {
     await assert.rejects(connect(address), TypeError, address);
   }
-  const folder = mkdtempSync(path.join(os.tmpdir(), "racebeam-"));
+  const folder = temporaryFolder(context);
   writeFileSync(path.join(folder, "ready"), "# addresses\nclassic+unix:x\n");
   await assert.rejects(connect(`file:${folder}/ready`), TypeError);
   for (const address of [`file:${folder}/nothing`, `unix:${folder}/nothing`, `pipes:${folder}/nothing`]) {

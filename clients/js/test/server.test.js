@@ -1,7 +1,7 @@
 // A method for each command, with a server of its own: the program that RACEBEAM_PROGRAM names.
 
 import assert from "node:assert/strict";
-import { mkdtempSync } from "node:fs";
+import { mkdtempSync, rmSync } from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import test from "node:test";
@@ -16,7 +16,9 @@ function launched(context, ...options) {
 }
 
 test("each command has a method", { skip }, async (context) => {
-  const game = launched(context, "--record-dir", mkdtempSync(path.join(os.tmpdir(), "racebeam-")));
+  const folder = mkdtempSync(path.join(os.tmpdir(), "racebeam-"));
+  const game = launched(context, "--record-dir", folder);
+  context.after(() => rmSync(folder, { recursive: true })); // after the server has ended
   assert.match((await game.hello()).server, /^racebeam\//);
   assert.match(await game.help("act"), /act A/);
   assert.deepEqual(await game.games(), ["beamfall", "updraft"]);

@@ -117,6 +117,13 @@ local function lost(self, kind, sentence)
 end
 
 -- The bytes that follow a reply's line, which then ends in raw=N.
+-- What a server sent, for people: a terminal would execute some of its bytes.
+local function printable(text)
+  return (text:gsub("[^ -~]", function(byte)
+    return ("\\x%02x"):format(byte:byte())
+  end))
+end
+
 local function bytes_behind(self, line)
   local count = tonumber(line:match(" raw=(%d+)$", -LONGEST_RAW)) or 0
   if count == 0 then
@@ -145,7 +152,7 @@ function Session:outcome()
   if code then
     return { code = code, sentence = sentence }
   elseif line ~= "ok" and line:sub(1, 3) ~= "ok " then
-    lost(self, "lost", ("the server sent what is no reply: '%s'"):format(line:sub(1, 60)))
+    lost(self, "lost", ("the server sent what is no reply: '%s'"):format(printable(line:sub(1, 60))))
   end
   local words = {}
   for word in request:gmatch("%S+") do
@@ -153,7 +160,7 @@ function Session:outcome()
   end
   local done, groups = pcall(self.fields.groups, self.fields, words, line, bytes_behind(self, line))
   if not done then
-    lost(self, "lost", "a reply is damaged: " .. tostring(groups))
+    lost(self, "lost", "a reply is damaged: " .. printable(tostring(groups)))
   end
   return { groups = groups, line = line }
 end

@@ -198,9 +198,6 @@ function Streams:close()
     self.output:close()
     self.input:close()
   end
-  if self.fifo then
-    os.remove(self.fifo)
-  end
 end
 
 local function opened(path, mode)
@@ -218,7 +215,8 @@ local function quoted(word)
   return "'" .. word:gsub("'", "'\\''") .. "'"
 end
 
--- A server of one's own. Its input is a named pipe, and its output is read with io.popen.
+-- A server of one's own. Its input is a named pipe, whose name is removed once both have opened it. Its output is read with
+-- io.popen.
 function transport.launch(program, options)
   local fifo = os.tmpname()
   os.remove(fifo)
@@ -226,12 +224,21 @@ function transport.launch(program, options)
   if made ~= 0 and made ~= true then
     fault("lost", "no pipe can be made at " .. fifo)
   end
-  local words = { "exec", quoted(program), "serve --stdio --log-level warning" }
+  local words = { ("exec <%s && rm -f %s && exec"):format(quoted(fifo), quoted(fifo)), quoted(program),
+    "serve --stdio --log-level warning" }
   for _, option in ipairs(options) do
     words[#words + 1] = quoted(option)
   end
-  local input = io.popen(table.concat(words, " ") .. " <" .. quoted(fifo), "r")
-  return setmetatable({ input = input, output = opened(fifo, "r+b"), fifo = fifo }, Streams)
+  local input = io.popen(table.concat(words, " "), "r")
+  return setmetatable({ input = input, output = opened(fifo, "r+b") }, Streams)
+end
+
+local FILES = "; file:PATH takes the --ready-file or --announce file of a server"
+
+-- Whether `test` of a shell says so of a file.
+local function is(what, path)
+  local done = os.execute(("test %s %s"):format(what, quoted(path)))
+  return done == 0 or done == true
 end
 
 local ANNOUNCEMENT = "1" -- the version of announce files that this client reads
@@ -254,6 +261,9 @@ end
 
 -- The first address of a ready file or an announce file that this client can use, and the token of the latter.
 local function in_file(path)
+  if not is("-f", path) and is("-e", path) then -- a pipe might block
+    fault("invalid", path .. " is no regular file" .. FILES)
+  end
   local file = opened(path, "r")
   local text, token = file:read("*a"), nil
   file:close()
@@ -265,6 +275,9 @@ local function in_file(path)
       return line, token
     end
   end
+  if not text:match("^[{#]") then
+    fault("invalid", path .. (text == "" and " is empty" or " has other contents") .. FILES)
+  end
   fault("invalid", path .. " names no address that this client can use")
 end
 
@@ -275,7 +288,11 @@ local function open_file(path, seconds, options)
   while true do
     local done, connection, token = pcall(function()
       local address, found = in_file(path)
-      return transport.open(address, options), found
+      local opens, connection = pcall(transport.open, address, options)
+      if not opens and type(connection) == "table" then
+        connection.sentence = ("%s (%s names %s)"):format(connection.sentence, path, address)
+      end
+      return opens and connection or error(connection, 0), found
     end)
     if done then
       return connection, token
@@ -284,6 +301,11 @@ local function open_file(path, seconds, options)
     end
     core.sleep(BETWEEN_TRIES)
   end
+end
+
+local function is_time(text)
+  local whole = text:match("^(%d+)$") or text:match("^(%d+)%.%d+$")
+  return whole and #whole <= 9
 end
 
 -- A connection to the server at an address, and the token of its announce file, if there is one.
@@ -299,7 +321,10 @@ function transport.open(address, options)
   elseif kind == "pipes" then
     found = pipes(rest)
   elseif kind == "file" then
-    local path, seconds = rest:match("^(.+)%?wait=([%d.]+)$")
+    local path, seconds = rest:match("^(.+)%?wait=(.*)$")
+    if seconds and not is_time(seconds) then
+      fault("invalid", ("the address is '%s'; ?wait= takes seconds, from 0 to 999999999"):format(address))
+    end
     found, token = open_file(path or rest, tonumber(seconds) or 0, options)
   end
   if found then

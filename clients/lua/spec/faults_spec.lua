@@ -66,6 +66,12 @@ describe("a session", function()
     end)
   end
 
+  it("quotes what is no reply for a terminal", function()
+    local game = prepared("\27[31mred\255\n")
+    local problem = tostring(raised(game.request, game, "act FIRE"))
+    assert.equal("the session has ended: the server sent what is no reply: '\\x1b[31mred\\xff'", problem)
+  end)
+
   it("whose server dies in mid-line ends", function()
     local game, peer = prepared("ok rew")
     peer:close()

@@ -24,11 +24,25 @@ local function refused(call, ...)
 end
 
 describe("a server of one's own", function()
+  it("has a pipe without a name as soon as it answers", function()
+    local tmpname, name = os.tmpname, nil
+    os.tmpname = function()
+      os.tmpname, name = tmpname, tmpname()
+      return name
+    end
+    launched():hello()
+    assert.is_nil(os.rename(name, name))
+  end)
+
   it("has a method for each command", function()
     local folder = os.tmpname()
     os.remove(folder)
     os.execute("mkdir " .. folder)
     local game = launched(nil, "--record-dir", folder)
+    finally(function()
+      game:close_connection()
+      os.execute("rm -r " .. folder)
+    end)
     assert.matches("^racebeam/", game:hello().server)
     assert.matches("act A", game:help("act"))
     assert.same({ "beamfall", "updraft" }, game:games())

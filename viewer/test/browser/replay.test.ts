@@ -72,7 +72,7 @@ describe("the view Replay", () => {
     assert.equal(readFileSync(path.join(server.folder, name!)).subarray(0, 6).toString(), "GIF89a");
     await page.locator("#film-kind").selectOption("webm");
     await page.getByRole("button", { name: "Make it on the server" }).click();
-    await until(async () => /\.webm: |ffmpeg is not installed on the server/.test(
+    await until(async () => /\.webm: |ffmpeg is not installed/.test(
       `${await told.textContent()} ${await page.locator("#log-problem").textContent()}`), "a film, or why there is none");
   });
 

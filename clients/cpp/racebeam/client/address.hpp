@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -17,9 +18,10 @@ namespace racebeam::client::detail {
 struct Address {
   enum class Kind { kTcp, kTls, kUnix, kPipes, kStdio };
   Kind kind = Kind::kStdio;
-  std::string place;       ///< host, path or prefix
-  std::uint16_t port = 0;  ///< of kTcp and kTls
-  std::string token = {};  ///< of an announce file
+  std::string place;        ///< host, path or prefix
+  std::uint16_t port = 0;   ///< of kTcp and kTls
+  std::string token = {};   ///< of an announce file
+  std::string source = {};  ///< the address that a file names, and the file, for people
 };
 
 [[noreturn]] inline void refuse_address(std::string_view text) {
@@ -53,14 +55,25 @@ inline std::vector<std::string> quoted_texts(std::string_view line) {
 class ServerFile {
  public:
   explicit ServerFile(const std::string& path) {
+    const auto kind = std::filesystem::status(path).type();
+    if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
+      refuse(path, "is no regular file");  // a pipe might block
     std::ifstream file(path);
     if (!file) throw Lost(std::string("cannot read ").append(path));
     for (std::string line; std::getline(file, line);) addresses.push_back(line);
-    if (!addresses.empty() && addresses[0].starts_with('{')) read_announcement(path);
+    if (addresses.empty()) refuse(path, "is empty");
+    is_known = addresses[0].starts_with('{') || addresses[0].starts_with('#');
+    if (addresses[0].starts_with('{')) read_announcement(path);
+  }
+
+  [[noreturn]] static void refuse(const std::string& path, std::string_view why) {
+    throw std::invalid_argument(std::string(path).append(" ").append(why).append(
+        "; file:PATH takes the --ready-file or --announce file of a server"));
   }
 
   std::vector<std::string> addresses;
   std::string token;
+  bool is_known = false;  ///< an announce file, or a ready file by its first line
 
  private:
   void read_announcement(const std::string& path) {
@@ -88,23 +101,28 @@ inline Address address_in_file(const std::string& path) {
       if (!text.starts_with(usable)) continue;
       Address address = parse_address(text);
       address.token = file.token;
+      address.source = text + ", which " + path + " names";
       return address;
     }
   }
+  if (!file.is_known) ServerFile::refuse(path, "has other contents");
   throw std::invalid_argument(path + " names no address that this client can use");
 }
 
 /// `file:PATH?wait=SECONDS` without what begins at the question mark, and the seconds; else the text, and 0.
+/// Throws std::invalid_argument if what follows is no time.
 inline std::pair<std::string_view, double> without_wait(std::string_view text) {
   constexpr std::string_view kWait = "?wait=";
   const std::size_t at = text.rfind(kWait);
   if (!text.starts_with("file:") || at == std::string_view::npos) return {text, 0};
   double seconds = 0;
   const std::string_view number = text.substr(at + kWait.size());
-  const auto [end, failure] = std::from_chars(number.data(), number.data() + number.size(), seconds);
-  const bool whole =
-      failure == std::errc{} && end == number.data() + number.size() && seconds >= 0 && seconds < 1e9;
-  return whole ? std::pair{text.substr(0, at), seconds} : std::pair{text, 0.0};
+  const auto [end, failure] =
+      std::from_chars(number.data(), number.data() + number.size(), seconds, std::chars_format::fixed);
+  if (failure != std::errc{} || end != number.data() + number.size() || !(seconds >= 0 && seconds < 1e9))
+    throw std::invalid_argument(
+        std::string("the address is '").append(text).append("'; ?wait= takes seconds, from 0 to 999999999"));
+  return {text.substr(0, at), seconds};
 }
 
 /// Throws std::invalid_argument if the text is no address.

@@ -128,7 +128,7 @@ class AsyncSession : public Commands<AsyncSession> {
       throw;
     } catch (const std::invalid_argument& damaged) {
       close();
-      throw Lost(std::string("a reply of the server is damaged: ").append(damaged.what()));
+      throw Lost(std::string("a reply of the server is damaged: ").append(detail::printable(damaged.what())));
     }
   }
 
@@ -180,17 +180,30 @@ inline asio::awaitable<AsyncSession> opened(std::shared_ptr<Lines> lines) {
   co_return AsyncSession(std::move(lines));
 }
 
+/// As opened(). Lost says where the server is not.
+inline asio::awaitable<AsyncSession> opened_at(std::shared_ptr<Lines> lines, std::string place) {
+  try {
+    co_await lines->open();
+  } catch (const TimedOut&) {
+    throw;
+  } catch (const Lost& lost) {
+    throw Lost("no server answers at " + place + ": " + lost.what());
+  }
+  co_return AsyncSession(std::move(lines));
+}
+
 inline asio::awaitable<AsyncSession> connected_once(std::string text, Options options) {
   const asio::any_io_executor executor = co_await asio::this_coro::executor;
   const Address address = parse_address(text);
   if (options.token.empty()) options.token = address.token;
   const auto lines = std::make_shared<Lines>(make_connection(executor, address, options), executor, options);
-  AsyncSession session = co_await opened(lines);
+  AsyncSession session = co_await opened_at(lines, address.source.empty() ? text : address.source);
   std::string greeting = "hello";
   if (!options.token.empty()) greeting += " token=" + options.token;
   const Reply hello = co_await session.request(greeting);
   if (!hello.first().has("protocol") || hello.first().text("protocol") != std::to_string(kProtocol))
-    throw Lost("'" + hello.line().substr(0, 60) + "' does not say protocol=" + std::to_string(kProtocol));
+    throw Lost("'" + printable(hello.line().substr(0, 60)) +
+               "' does not say protocol=" + std::to_string(kProtocol));
   co_return session;
 }
 

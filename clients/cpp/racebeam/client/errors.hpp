@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace racebeam::client {
@@ -37,4 +38,23 @@ class TimedOut : public Lost {
   using Lost::Lost;
 };
 
+namespace detail {
+
+/// What a server sent, for people: a terminal would execute some of its bytes. Those that are no printable
+/// ASCII become \xNN.
+inline std::string printable(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string shown;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7F) {
+      shown += c;
+    } else {
+      ((shown += "\\x") += kDigits[byte >> 4U]) += kDigits[byte & 15U];
+    }
+  }
+  return shown;
+}
+
+}  // namespace detail
 }  // namespace racebeam::client

@@ -2,7 +2,7 @@
 
 import { spawn } from "node:child_process";
 import { open as openPath } from "node:fs";
-import { readFile } from "node:fs/promises";
+import { readFile, stat } from "node:fs/promises";
 import net from "node:net";
 import { setTimeout as sleep } from "node:timers/promises";
 import tls from "node:tls";
@@ -13,6 +13,7 @@ import { openWebSocket } from "./websocket.js";
 
 const USABLE = /^(tcp|tls|unix|pipes):/; // TCP is cheaper than WebSocket
 const ANNOUNCEMENT = 1; // the version of announce files that this client reads
+const FILES = "file:PATH takes the --ready-file or --announce file of a server";
 const BETWEEN_TRIES = 50; // milliseconds
 const openFile = promisify(openPath); // a plain descriptor, which a socket then owns
 
@@ -72,18 +73,31 @@ function announcement(path, text) {
 
 /** The first address of a ready file or an announce file that this client can use, and the token of the latter. */
 async function inFile(path) {
-  let text;
+  let regular, text;
   try {
-    text = await readFile(path, "utf8");
+    regular = (await stat(path)).isFile();
+    text = regular && await readFile(path, "utf8"); // a pipe might block
   } catch (error) {
     throw new LostError(error.message, { cause: error });
   }
+  if (!regular) {
+    throw new TypeError(`${path} is no regular file; ${FILES}`);
+  }
   const { addresses, token } = text.startsWith("{") ? announcement(path, text) : { addresses: text.split("\n") };
   const address = addresses.find((line) => USABLE.test(line));
+  if (address === undefined && !/^[{#]/.test(text)) {
+    throw new TypeError(`${path} ${text ? "has other contents" : "is empty"}; ${FILES}`);
+  }
   if (address === undefined) {
     throw new TypeError(`${path} names no address that this client can use`);
   }
   return { address, token };
+}
+
+/** What failed was read in a file. */
+function tellSource(error, path) {
+  error.message += ` (${path} names this address)`;
+  throw error;
 }
 
 /** A connection to the server that a file names. Waits for both, `seconds` at most. */
@@ -92,7 +106,7 @@ async function openFileAddress(path, seconds, options) {
   for (;;) {
     try {
       const { address, token } = await inFile(path);
-      return { connection: await openDirectly(address, options), token };
+      return { connection: await openDirectly(address, options).catch((error) => tellSource(error, path)), token };
     } catch (error) {
       if (!(error instanceof LostError) || performance.now() >= until) {
         throw error;
@@ -137,6 +151,9 @@ async function openDirectly(address, options) {
 
 /** { connection, token }: a connection to the server at an address, and the token of its announce file, if there is one. */
 export async function openAddress(address, options) {
-  const [, path, seconds] = /^file:(.+?)(?:\?wait=(\d+(?:\.\d+)?))?$/.exec(address) ?? [];
+  const [, path, seconds] = /^file:(.+?)(?:\?wait=([^]*))?$/.exec(address) ?? [];
+  if (seconds !== undefined && !/^\d{1,9}(\.\d+)?$/.test(seconds)) {
+    throw new TypeError(`the address is '${address}'; ?wait= takes seconds, from 0 to 999999999`);
+  }
   return path ? openFileAddress(path, Number(seconds ?? 0), options) : { connection: await openDirectly(address, options) };
 }

@@ -1,4 +1,4 @@
-import { LostError, TimeoutError } from "../errors.js";
+import { LostError, printable, TimeoutError } from "../errors.js";
 import { rawSize } from "../raw.js";
 
 const NOTHING = new Uint8Array(0);
@@ -21,7 +21,7 @@ class WebSocketConnection {
       }
     });
     this.#socket.addEventListener("close", ({ code, reason }) => {
-      receiver.lost(new LostError(`the server has closed the connection (${[code, reason].filter(Boolean).join(" ")})`));
+      receiver.lost(new LostError(`the server has closed the connection (${printable([code, reason].filter(Boolean).join(" "))})`));
     });
   }
 

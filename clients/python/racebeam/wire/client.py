@@ -25,6 +25,7 @@ import re
 import shutil
 import socket
 import ssl
+import stat
 import subprocess
 import sys
 import time
@@ -39,7 +40,9 @@ LONGEST_REPLY = 1 << 28  # bytes; a server that sends a longer line is taken for
 # What bytes are written in when `observe` does not say.
 USUAL_ENCODING = {"ram": "hex", "tia": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
 
-WAIT = re.compile(r"(file:.+)\?wait=(\d+(?:\.\d+)?)")
+WAIT = re.compile(r"(file:.+)\?wait=(.*)", re.DOTALL)
+SECONDS = re.compile(r"[0-9]{1,9}(\.[0-9]+)?")
+FILES = "file:PATH takes the --ready-file or --announce file of a server"
 BETWEEN_TRIES = 0.05  # seconds
 
 STACK = re.compile(r"(?:grey|rgb)(\d+)x(\d+)x(\d+)")  # fields such as grey100x50x4
@@ -181,12 +184,20 @@ def reached(address: str | None, opened: Callable[[str], Opened]) -> tuple[Opene
     names; and the token of an announce file. Tries again as long as the address says."""
     address = address or os.environ.get("RACEBEAM_ADDRESS", "")
     waits = WAIT.fullmatch(address)
+    if waits and not SECONDS.fullmatch(waits[2]):
+        raise ValueError(f"the address is {address!r}; ?wait= takes seconds, from 0 to 999999999")
     file = waits[1] if waits else address
     until = time.monotonic() + (float(waits[2]) if waits else 0)
     while True:
         try:
             found, token = _in_file(file)
-            return opened(found), found, token
+            try:
+                return opened(found), found, token
+            except OSError as error:
+                if error.strerror:
+                    source = "" if found == file else f", which {file.removeprefix('file:')} names"
+                    error.strerror = f"no server answers at {found}{source}: {error.strerror}"
+                raise
         except OSError:
             if time.monotonic() >= until:
                 raise
@@ -199,13 +210,17 @@ def _in_file(address: str) -> tuple[str, str | None]:
     if not address.startswith("file:"):
         return address, None
     path = address.removeprefix("file:")
-    with open(path, encoding="utf-8") as file:
+    if not stat.S_ISREG(os.stat(path).st_mode):  # a pipe might block
+        raise ValueError(f"{path} is no regular file; {FILES}")
+    with open(path, encoding="utf-8", errors="surrogateescape") as file:
         text = file.read()
     addresses, token = _announcement(path, text) if text.startswith("{") else (text.splitlines(), None)
     for line in addresses:
         if line.startswith(("tcp://", "tls://", "unix:", "pipes:")):
             return line, token
-    raise ValueError(f"{path} names no address that this client can use")
+    if text.startswith(("{", "#")):
+        raise ValueError(f"{path} names no address that this client can use")
+    raise ValueError(f"{path} {'has other contents' if text else 'is empty'}; {FILES}")
 
 
 def _announcement(path: str, text: str) -> tuple[list[str], str | None]:
@@ -215,7 +230,7 @@ def _announcement(path: str, text: str) -> tuple[list[str], str | None]:
         version = announced["racebeam_announce"]
         if version == ANNOUNCEMENT:
             return announced["addresses"], announced["token"]
-    except (KeyError, ValueError):
+    except (KeyError, TypeError, ValueError, RecursionError):
         raise ValueError(f"{path} is not a whole announce file") from None
     raise ValueError(f"{path} is an announce file of version {version}; this client reads version {ANNOUNCEMENT}")
 

@@ -17,6 +17,8 @@ final class Connection implements Closeable {
     int read(byte[] data, int at, int length, int milliseconds) throws IOException;
   }
 
+  private static final int LARGEST = Integer.MAX_VALUE - 8; // elements of an array
+
   private final Source source;
   private final OutputStream output;
   private final Closeable end;
@@ -94,7 +96,7 @@ final class Connection implements Closeable {
   /** Makes room behind what was read. Returns how far it moved to the front. */
   private int makeRoom() throws IOException {
     int moved = begin;
-    if (filled - begin > longest) {
+    if (filled - begin > longest || filled - begin == LARGEST) {
       throw tooLong();
     }
     if (begin > 0) {
@@ -103,9 +105,17 @@ final class Connection implements Closeable {
       begin = 0;
     }
     if (filled == data.length) {
-      data = Arrays.copyOf(data, data.length * 2);
+      grow();
     }
     return moved;
+  }
+
+  private void grow() throws IOException {
+    try {
+      data = Arrays.copyOf(data, (int) Math.min(2L * data.length, Math.min(longest + 1L, LARGEST)));
+    } catch (OutOfMemoryError full) {
+      throw new IOException("there is no memory for a reply of more than " + data.length + " bytes", full);
+    }
   }
 
   private int remaining() throws SocketTimeoutException {

@@ -10,6 +10,7 @@ import java.util.Deque;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import java.util.regex.Pattern;
 import java.util.stream.Collectors;
 
 /**
@@ -21,6 +22,7 @@ import java.util.stream.Collectors;
  */
 public final class Session implements AutoCloseable {
   /** Bytes of requests without a reply. A server that cannot send its replies stops reading, so this must fit in its pipe. */
+  private static final Pattern NOT_SHOWN = Pattern.compile("[^ -~]");
   private static final int MOST_AHEAD = 1 << 15;
 
   private record Outcome(Reply reply, RefusedException refusal) {
@@ -121,7 +123,7 @@ public final class Session implements AutoCloseable {
         return new Outcome(null, new RefusedException(parts[1], parts.length > 2 ? parts[2] : ""));
       }
       if (!line.equals("ok") && !line.startsWith("ok ")) {
-        throw new IOException("the server sent what is no reply: '" + line.substring(0, Math.min(60, line.length())) + "'");
+        throw new IOException("the server sent what is no reply: '" + printable(line.substring(0, Math.min(60, line.length()))) + "'");
       }
       List<Map<String, String>> groups = groups(line);
       ByteBuffer raw = ByteBuffer.wrap(connection.readBytes(takeRaw(groups)));
@@ -131,8 +133,13 @@ public final class Session implements AutoCloseable {
       throw failure;
     } catch (RuntimeException damaged) {
       close();
-      throw new IOException("a reply of the server is damaged: " + damaged.getMessage(), damaged);
+      throw new IOException("a reply of the server is damaged: " + printable(damaged.getMessage()), damaged);
     }
+  }
+
+  /** What a server sent, for people: a terminal would execute some of its characters. */
+  private static String printable(String text) {
+    return text == null ? "" : NOT_SHOWN.matcher(text).replaceAll(found -> String.format("\\\\x%02x", (int) found.group().charAt(0)));
   }
 
   private static List<Map<String, String>> groups(String line) {

@@ -14,6 +14,7 @@ import java.nio.channels.Channels;
 import java.nio.channels.SelectionKey;
 import java.nio.channels.Selector;
 import java.nio.channels.SocketChannel;
+import java.nio.charset.StandardCharsets;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.time.Duration;
@@ -28,7 +29,9 @@ import javax.net.ssl.SSLSocket;
 /** Opens connections. */
 final class Transports {
   private static final Pattern NETWORK = Pattern.compile("(tcp|tls)://\\[?(.+?)]?:([0-9]{1,5})");
-  private static final Pattern FILE = Pattern.compile("file:(.+?)(?:\\?wait=([0-9]+(?:\\.[0-9]+)?))?");
+  private static final Pattern FILE = Pattern.compile("file:(.+?)(?:\\?wait=(.*))?", Pattern.DOTALL);
+  private static final Pattern SECONDS = Pattern.compile("[0-9]{1,9}(\\.[0-9]+)?");
+  private static final String FILES = "; file:PATH takes the --ready-file or --announce file of a server";
   private static final long BETWEEN_TRIES = 50; // milliseconds
   private static final Pattern USABLE = Pattern.compile("(tcp:|tls:|unix:|pipes:).*");
   private static final int SECONDS_TO_END = 10; // for a server of its own
@@ -38,12 +41,16 @@ final class Transports {
   static Connection open(String address, Options options) throws IOException {
     Matcher network = NETWORK.matcher(address);
     if (network.matches() && Integer.parseInt(network.group(3)) < 65536) {
-      return network(network.group(1).equals("tls"), network.group(2), Integer.parseInt(network.group(3)), options);
+      boolean tls = network.group(1).equals("tls");
+      return reached(address, () -> network(tls, network.group(2), Integer.parseInt(network.group(3)), options));
     }
     Matcher file = FILE.matcher(address);
     if (file.matches()) {
-      double seconds = file.group(2) == null ? 0 : Double.parseDouble(file.group(2));
-      return openFile(Path.of(file.group(1)), seconds, options);
+      String seconds = file.group(2) == null ? "0" : file.group(2);
+      if (!SECONDS.matcher(seconds).matches()) {
+        throw new IllegalArgumentException("the address is '" + address + "'; ?wait= takes seconds, from 0 to 999999999");
+      }
+      return openFile(Path.of(file.group(1)), Double.parseDouble(seconds), options);
     }
     if (address.equals("stdio")) {
       return new Connection(untimed(System.in), System.out, () -> {}, options);
@@ -52,11 +59,31 @@ final class Transports {
     String rest = address.substring(colon);
     String kind = rest.isEmpty() ? "" : address.substring(0, colon);
     return switch (kind) {
-      case "unix:" -> unix(rest, options);
+      case "unix:" -> reached(address, () -> unix(rest, options));
       case "pipes:" -> pipes(rest, options);
       default -> throw new IllegalArgumentException("the address is '" + address + "'; it takes tcp://HOST:PORT, tls://HOST:PORT, "
           + "unix:PATH, pipes:PREFIX, stdio or file:PATH, also in RACEBEAM_ADDRESS");
     };
+  }
+
+  /** Opens a connection, or fails. */
+  private interface Opener {
+    Connection open() throws IOException;
+  }
+
+  /** What {@code opener} opens. A failure says at which address. */
+  private static Connection reached(String address, Opener opener) throws IOException {
+    return explained("no server answers at " + address + ": ", opener, "");
+  }
+
+  private static Connection explained(String before, Opener opener, String after) throws IOException {
+    try {
+      return opener.open();
+    } catch (SocketTimeoutException late) {
+      throw late;
+    } catch (IOException failure) {
+      throw new IOException(before + failure.getMessage() + after, failure);
+    }
   }
 
   /** A connection to the server that a file names. Waits for both, for a limited time. */
@@ -64,12 +91,14 @@ final class Transports {
     long until = System.nanoTime() + (long) (seconds * 1e9);
     while (true) {
       try {
-        List<String> lines = Files.readAllLines(path);
-        boolean isAnnounced = !lines.isEmpty() && lines.get(0).startsWith("{");
+        List<String> lines = linesOf(path);
+        boolean isAnnounced = lines.get(0).startsWith("{");
         Announcement announced = isAnnounced ? Announcement.of(path, lines) : new Announcement(lines, null);
         String address = announced.addresses().stream().filter(line -> USABLE.matcher(line).matches()).findFirst().orElseThrow(
-            () -> new IllegalArgumentException(path + " names no address that this client can use"));
-        return open(address, options.token() == null ? options.withToken(announced.token()) : options);
+            () -> new IllegalArgumentException(isAnnounced || lines.get(0).startsWith("#")
+                ? path + " names no address that this client can use" : path + " has other contents" + FILES));
+        Options admitted = options.token() == null ? options.withToken(announced.token()) : options;
+        return explained("", () -> open(address, admitted), " (" + path + " names this address)");
       } catch (IOException failure) {
         if (System.nanoTime() >= until) {
           throw failure;
@@ -77,6 +106,18 @@ final class Transports {
       }
       pause();
     }
+  }
+
+  /** One at least. A pipe might block, and is refused. */
+  private static List<String> linesOf(Path path) throws IOException {
+    if (Files.exists(path) && !Files.isRegularFile(path)) {
+      throw new IllegalArgumentException(path + " is no regular file" + FILES);
+    }
+    List<String> lines = new String(Files.readAllBytes(path), StandardCharsets.UTF_8).lines().toList();
+    if (lines.isEmpty()) {
+      throw new IllegalArgumentException(path + " is empty" + FILES);
+    }
+    return lines;
   }
 
   private static void pause() throws IOException {

@@ -94,6 +94,74 @@ class FaultsTest {
   }
 
   @Test
+  void whatIsNoReplyIsQuotedForATerminal() throws IOException {
+    try (Server server = new Server(line -> "\u001b[31mred\u00ff\n"); Session session = server.connect(Options.DEFAULT)) {
+      IOException lost = assertThrows(IOException.class, () -> session.request("act FIRE"));
+      assertEquals("the server sent what is no reply: '\\x1b[31mred\\xff'", lost.getMessage());
+    }
+  }
+
+  @Test
+  void aReplyGrowsToTheLimitAtMost() {
+    int[] largest = {0};
+    Connection.Source endless = (data, at, length, limit) -> {
+      largest[0] = Math.max(largest[0], data.length);
+      return length;
+    };
+    Connection connection = new Connection(endless, null, () -> {}, Options.DEFAULT.withLongestReply(100_000));
+    assertThrows(IOException.class, connection::readLine);
+    assertEquals(100_001, largest[0]);
+  }
+
+  /** A client in a process of its own. */
+  static final class InLittleMemory {
+    public static void main(String[] arguments) throws Exception {
+      try (Session session = Racebeam.connect(arguments[0])) {
+        session.request("act FIRE");
+      } catch (IOException lost) {
+        System.out.println(lost.getMessage());
+      }
+    }
+  }
+
+  @Test
+  void aReplyThatMemoryDoesNotHoldEndsTheSession() throws Exception {
+    String classes = Path.of(Session.class.getProtectionDomain().getCodeSource().getLocation().toURI())
+        + java.io.File.pathSeparator + Path.of(FaultsTest.class.getProtectionDomain().getCodeSource().getLocation().toURI());
+    try (Server server = new Server(line -> "0".repeat(1 << 25))) {
+      Process client = new ProcessBuilder(Path.of(System.getProperty("java.home"), "bin", "java").toString(), "-Xmx32m", "-cp",
+          classes, InLittleMemory.class.getName(), "tcp://127.0.0.1:" + server.listener.getLocalPort()).redirectErrorStream(true).start();
+      String printed = new String(client.getInputStream().readAllBytes(), StandardCharsets.UTF_8);
+      assertTrue(printed.startsWith("there is no memory for a reply of more than "), printed);
+      assertEquals(0, client.waitFor());
+    }
+  }
+
+  private static String refusal(String address) {
+    return assertThrows(IllegalArgumentException.class, () -> Racebeam.connect(address), address).getMessage();
+  }
+
+  @Test
+  void aFileThatNamesNoServerIsRefusedInASentence(@TempDir Path folder) throws IOException {
+    String tail = "; file:PATH takes the --ready-file or --announce file of a server";
+    Path file = folder.resolve("file");
+    Files.writeString(file, "");
+    assertEquals(file + " is empty" + tail, refusal("file:" + file));
+    Files.writeString(file, "dear diary\n");
+    assertEquals(file + " has other contents" + tail, refusal("file:" + file));
+    Files.write(file, new byte[] {'{', 0, -1, -128, '\n'});
+    assertEquals(file + " is not a whole announce file", refusal("file:" + file));
+    assertEquals(folder + " is no regular file" + tail, refusal("file:" + folder));
+    for (String time : new String[] {"", "x", "-1", "1e3", "99999999999999999999"}) {
+      assertTrue(refusal("file:" + file + "?wait=" + time).endsWith("; ?wait= takes seconds, from 0 to 999999999"), time);
+    }
+    Files.writeString(file, "# addresses\nunix:" + folder.resolve("nothing") + "\n");
+    String lost = assertThrows(IOException.class, () -> Racebeam.connect("file:" + file)).getMessage();
+    assertTrue(lost.startsWith("no server answers at unix:" + folder.resolve("nothing") + ": "), lost);
+    assertTrue(lost.endsWith(" (" + file + " names this address)"), lost);
+  }
+
+  @Test
   void anErrorInAPipelineLeavesTheOthers() throws IOException {
     try (Server server = new Server(line -> line.equals("bad") ? "error bad-action it is\n" : "ok n=" + line + "\n");
         Session session = server.connect(Options.DEFAULT)) {
