@@ -165,6 +165,10 @@ class Cluster:
     def start_node(self, name):
         self.daemon(name, "slurmd", "-D", "-c", "-N", name)
 
+    def restart_node(self, name):
+        self.start_node(name)
+        self.wait(f"the node {name}", lambda: not re.search(r"down|\*", self.run("sinfo", "-h", "-n", name, "-o", "%T")))
+
     def kill_node(self, name):
         """Kills the slurmd of a node, and the processes of its jobs, as a power failure does."""
         self.daemons[name].kill()

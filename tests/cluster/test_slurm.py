@@ -153,7 +153,7 @@ class Whole(Slurm):
         node = self.cluster.run("squeue", "-h", "-j", job, "-o", "%N").strip()
         self.cluster.set_slurmd_timeout(15)
         self.addCleanup(self.cluster.set_slurmd_timeout, slurm.SLURMD_TIMEOUT)
-        self.addCleanup(self.cluster.start_node, node)
+        self.addCleanup(self.cluster.restart_node, node)
         self.cluster.kill_node(node)
         self.cluster.wait("the end of its processes", lambda: not self.job_processes())
         (socket_folder,) = self.temporary.iterdir()  # on the node's own disk
