@@ -191,6 +191,20 @@ def pilot_of(results: pathlib.Path) -> dict[str, list[tuple[float, float]]]:
 
 # The command
 
+def number(kind: type[int] | type[float], least: float, most: float = math.inf) -> Callable[[str], float]:
+    """A type of argparse: numbers from `least` to `most`."""
+    def parse(text: str) -> float:
+        try:
+            value = kind(text)
+        except ValueError:
+            value = math.nan
+        if not least <= value <= most or math.isinf(value):
+            bounds = f"from {least:g} on" if math.isinf(most) else f"from {least:g} to {most:g}"
+            raise argparse.ArgumentTypeError(f"it is {text!r}; it takes a {'whole ' * (kind is int)}number {bounds}")
+        return value
+    return parse
+
+
 def summary(units: Sequence[Sequence[float]], cluster: Cluster, shards: int) -> list[Run]:
     """A simulation for each of `units`, in the order of their time."""
     return sorted((simulate(lengths, cluster, shards, seed) for seed, lengths in enumerate(units)), key=lambda run: run.elapsed)
@@ -218,20 +232,20 @@ def fewest_nodes(units: Sequence[Sequence[float]], cluster: Cluster, shards: int
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("plan")
-    parser.add_argument("--nodes", type=int, nargs="+", default=[], help="numbers of nodes to simulate")
-    parser.add_argument("--within", type=float, metavar="HOURS", help="find the number of nodes")
-    parser.add_argument("--cores", type=int, default=64, help="of a node (default 64)")
-    parser.add_argument("--shards", type=int, default=0, help="tasks (default: a task a unit)")
+    parser.add_argument("--nodes", type=number(int, 1), nargs="+", default=[], help="numbers of nodes to simulate")
+    parser.add_argument("--within", type=number(float, 0), metavar="HOURS", help="find the number of nodes")
+    parser.add_argument("--cores", type=number(int, 1), default=64, help="of a node (default 64)")
+    parser.add_argument("--shards", type=number(int, 0), default=0, help="tasks (default: a task a unit)")
     parser.add_argument("--longest-first", action="store_true", help="not in the order of the plan, as with a plan for each agent")
     parser.add_argument("--pilot", type=pathlib.Path, metavar="RESULTS")
-    parser.add_argument("--failures", type=float, default=4, help="of a node in a year (default 4)")
-    parser.add_argument("--repair", type=float, default=3600, help="seconds (default 3600)")
-    parser.add_argument("--requeue", type=float, default=120, help="seconds (default 120)")
-    parser.add_argument("--checkpoint", type=float, default=60, help="seconds (default 60)")
-    parser.add_argument("--slow", type=float, default=0.05, help="share of nodes that are slow (default 0.05)")
-    parser.add_argument("--slowness", type=float, default=2, help="of slow nodes (default 2)")
-    parser.add_argument("--runs", type=int, default=20, help="simulations (default 20)")
-    parser.add_argument("--program", default="racebeam", help="that --dry-run is asked of")
+    parser.add_argument("--failures", type=number(float, 0), default=4, help="of a node in a year (default 4)")
+    parser.add_argument("--repair", type=number(float, 0), default=3600, help="seconds (default 3600)")
+    parser.add_argument("--requeue", type=number(float, 0), default=120, help="seconds (default 120)")
+    parser.add_argument("--checkpoint", type=number(float, 1), default=60, help="seconds (default 60)")
+    parser.add_argument("--slow", type=number(float, 0, 1), default=0.05, help="share of nodes that are slow (default 0.05)")
+    parser.add_argument("--slowness", type=number(float, 1), default=2, help="of slow nodes (default 2)")
+    parser.add_argument("--runs", type=number(int, 1), default=20, help="simulations (default 20)")
+    parser.add_argument("--program", default="racebeam", help="that says how long units take: a name in the PATH, or a path (default: %(default)s)")
     return parser.parse_args()
 
 
@@ -239,8 +253,13 @@ def main() -> None:
     options = parse_arguments()
     try:
         asked = subprocess.run([options.program, "experiment", options.plan, "--dry-run"], capture_output=True, text=True)
-        if asked.returncode != 0:
-            sys.exit(asked.stderr.strip())
+    except OSError as error:
+        place = options.program if "/" in options.program else f"{options.program}, looked for in the PATH"
+        sys.exit(f"simulate.py needs the program racebeam; it cannot start {place}: {error.strerror}; "
+                 "--program takes its path")
+    if asked.returncode != 0:
+        sys.exit(asked.stderr.strip())
+    try:
         agents, measured = agents_of(asked.stdout), pilot_of(options.pilot) if options.pilot else {}
     except OSError as error:
         sys.exit(f"cannot read {error.filename}: {error.strerror}")
@@ -251,7 +270,7 @@ def main() -> None:
     work = statistics.median(map(sum, units)) / 3600
     print(f"{len(units[0])} units, {work:.1f} core-hours, longest unit {max(map(max, units)) / 3600:.1f} hours")
     nodes = list(options.nodes)
-    if options.within:
+    if options.within is not None:
         fewest = fewest_nodes(units, cluster, options.shards, options.within * 3600)
         if fewest is None:
             sys.exit(f"no number of nodes is enough for {options.within:g} hours")

@@ -173,7 +173,8 @@ net::awaitable<void> Server::obey() {
   }
 }
 
-// Sessions that come and go between two looks are seen in the number of all.
+// Only admitted sessions count as use: strangers who knock keep no server alive. Sessions that come and go
+// between two looks are seen in the number of all.
 net::awaitable<void> Server::stop_when_idle() {
   const auto limit = std::chrono::seconds(settings_.until_idle_seconds);
   net::steady_timer timer(first_);
@@ -181,9 +182,9 @@ net::awaitable<void> Server::stop_when_idle() {
   for (auto used = Clock::now(); Clock::now() - used < limit;) {
     timer.expires_after(100ms);
     co_await timer.async_wait(use_awaitable);
-    const std::int64_t began = metrics_.sessions_line + metrics_.sessions_classic;
-    if (metrics_.sessions_open > 0 || !streams_ended() || began != counted) used = Clock::now();
-    counted = began;
+    const std::int64_t admitted = metrics_.admitted;
+    if (metrics_.admitted_open > 0 || !streams_ended() || admitted != counted) used = Clock::now();
+    counted = admitted;
   }
   if (!told_to_stop_) stop("no session for " + std::to_string(settings_.until_idle_seconds) + " seconds");
 }

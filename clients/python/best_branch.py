@@ -5,7 +5,7 @@ import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "racebeam/wire"))
-from client import Session  # noqa: E402
+from client import Refused, Session  # noqa: E402
 
 DEPTH = 20    # acts that a branch looks ahead
 STEPS = 60    # acts that are played
@@ -18,7 +18,7 @@ if len(sys.argv) == 1:
     sys.exit(2)
 options = parser.parse_args()
 
-with Session.start(options.racebeam) as session:
+def play(session):
     session.load(options.game, seed=1, sticky=0, frame_skip=4)
     session.observe("reward", "ends")
     actions = list(session.actions().values())
@@ -33,3 +33,10 @@ with Session.start(options.racebeam) as session:
             break
     print(f"score {score} after {session.look('episode_frame')['episode_frame']} frames, "
           f"{session.stats()['frames']} frames run")
+
+
+try:
+    with Session.start(options.racebeam) as started:
+        play(started)
+except (OSError, Refused) as error:
+    sys.exit(f"best_branch.py: {options.racebeam} {options.game}: {error}")

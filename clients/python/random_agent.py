@@ -15,16 +15,21 @@ if len(sys.argv) == 1:
 options = parser.parse_args()
 
 generator = random.Random(options.seed)
-server = subprocess.Popen([options.racebeam, "serve", "--classic", "--stdio", "--rom", options.rom, "--seed", "1"],
-                          stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+try:
+    server = subprocess.Popen([options.racebeam, "serve", "--classic", "--stdio", "--rom", options.rom, "--seed", "1"],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+except OSError as error:
+    sys.exit(f"random_agent.py: cannot start {options.racebeam}: {error.strerror}; it takes the path of the program racebeam")
 
 
 def ask(line):
     print(line, file=server.stdin, flush=True)
-    return server.stdout.readline()
+    return server.stdout.readline() or sys.exit("random_agent.py: the server has ended")
 
 
 size = server.stdout.readline().strip()  # the server speaks first: 160-210
+if not size:
+    sys.exit(server.wait() or 1)         # it has said why
 answer = ask("0,1,0,1")                  # we want: no screen, RAM, (nothing), end and reward
 score = frames = 0
 while answer != "DIE\n":

@@ -10,7 +10,7 @@ import time
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "racebeam/wire"))
-from client import Session, connect  # noqa: E402
+from client import Refused, Session, connect  # noqa: E402
 
 ACTIONS = 18
 WIDTH, HEIGHT, COLOURS = 160, 210, 128
@@ -166,9 +166,15 @@ def main():
     options = parser.parse_args()
     background = np.zeros(WIDTH * HEIGHT, np.uint8)
     if options.background:
-        background = np.loadtxt(options.background, np.uint8, delimiter=",").reshape(WIDTH * HEIGHT)
+        try:
+            background = np.loadtxt(options.background, np.uint8, delimiter=",").reshape(WIDTH * HEIGHT)
+        except (OSError, ValueError) as error:
+            sys.exit(f"sarsa.py: --background is {options.background!r}: {error}; it takes 210 lines of 160 colours")
+    try:
+        opened = connect(options.server) if ":" in options.server else Session.start(options.server)
+    except (OSError, ValueError, Refused) as error:
+        sys.exit(f"sarsa.py: no server at {options.server}: {error}")
     agent, basic = Sarsa(Basic.SIZE, options.agent_seed), Basic(background)
-    opened = connect(options.server) if ":" in options.server else Session.start(options.server)
     start, decisions, scores = time.monotonic(), 0, []
     with opened as session:
         for episode in range(options.training + options.evaluation):
@@ -185,4 +191,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except (OSError, Refused) as error:
+        sys.exit(f"sarsa.py: {error}")

@@ -16,6 +16,8 @@ import subprocess
 import sys
 
 import ray
+from options import positive
+from ray.exceptions import RayTaskError
 
 import racebeam.program
 
@@ -49,11 +51,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("plan")
     parser.add_argument("results")
-    parser.add_argument("--shards", type=int, default=10)
+    parser.add_argument("--shards", type=positive, default=10)
     parser.add_argument("--address", help="of a cluster, or auto; without it, Ray starts on this machine")
     options, words = parser.parse_known_args()
     ray.init(options.address)
-    run(options.plan, options.results, options.shards, words)
+    try:
+        run(options.plan, options.results, options.shards, words)
+    except RayTaskError as error:
+        sys.exit(f"experiment.py: {error.cause}")
     sys.exit(subprocess.run([racebeam.program.path(), "verify", options.results]).returncode)
 
 

@@ -9,12 +9,16 @@ with --single, a runner has a racebeam.AtariEnv for each environment.
 from __future__ import annotations
 
 import argparse
+import sys
 from typing import Any
 
 import gymnasium
 import numpy as np
+from options import positive
 from ray.rllib.algorithms.ppo import PPOConfig
 from ray.rllib.connectors.env_to_module.observation_preprocessor import SingleAgentObservationPreprocessor
+
+import racebeam  # noqa: F401  # it registers its environments
 
 
 class Scaled(SingleAgentObservationPreprocessor):
@@ -40,11 +44,15 @@ def config(game: str, *, runners: int = 1, envs: int = 8, vector: bool = True, *
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("game", help="as in the id racebeam/Breakout-v5")
-    parser.add_argument("--iterations", type=int, default=10)
-    parser.add_argument("--runners", type=int, default=1)
-    parser.add_argument("--envs", type=int, default=8, help="of each runner")
+    parser.add_argument("--iterations", type=positive, default=10)
+    parser.add_argument("--runners", type=positive, default=1)
+    parser.add_argument("--envs", type=positive, default=8, help="of each runner")
     parser.add_argument("--single", action="store_true", help="without vector environments")
     options = parser.parse_args()
+    try:
+        gymnasium.spec(f"racebeam/{options.game}-v5")
+    except gymnasium.error.Error as error:
+        sys.exit(f"rllib_ppo.py: {error}")
     algorithm = config(options.game, runners=options.runners, envs=options.envs, vector=not options.single).build_algo()
     for iteration in range(options.iterations):
         print(iteration, algorithm.train()["env_runners"].get("episode_return_mean"), flush=True)

@@ -9,13 +9,15 @@ actors and nodes. When a node is lost, its rollouts are repeated by the other ac
 from __future__ import annotations
 
 import argparse
+import sys
 from collections import deque
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 import ray
-from ray.exceptions import ObjectLostError, RayActorError
+from options import positive
+from ray.exceptions import ObjectLostError, RayActorError, RayTaskError
 
 import racebeam
 
@@ -96,17 +98,20 @@ def rollouts(game: str, *, actors: int, count: int, num_envs: int = 8, steps: in
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("game")
-    parser.add_argument("--actors", type=int, default=2)
-    parser.add_argument("--rollouts", type=int, default=8)
-    parser.add_argument("--envs", type=int, default=8, help="of each actor")
-    parser.add_argument("--steps", type=int, default=128)
+    parser.add_argument("--actors", type=positive, default=2)
+    parser.add_argument("--rollouts", type=positive, default=8)
+    parser.add_argument("--envs", type=positive, default=8, help="of each actor")
+    parser.add_argument("--steps", type=positive, default=128)
     parser.add_argument("--roms", help="the folder of cartridge images on each node")
     parser.add_argument("--address", help="of a cluster, or auto; without it, Ray starts on this machine")
     options = parser.parse_args()
     images = {"RACEBEAM_ROMS": options.roms} if options.roms else {}
     ray.init(options.address, runtime_env={"env_vars": images})
     played = rollouts(options.game, actors=options.actors, count=options.rollouts, num_envs=options.envs, steps=options.steps)
-    print(sum(int(rollout["rewards"].sum()) for rollout in played))
+    try:
+        print(sum(int(rollout["rewards"].sum()) for rollout in played))
+    except (RayActorError, RayTaskError) as error:  # its last line is what the environments raised
+        sys.exit(f"rollouts.py: {str(error).rstrip().splitlines()[-1]}")
 
 
 if __name__ == "__main__":

@@ -130,6 +130,12 @@ void judge(Client& client, const LineSession& session, Metrics& metrics) {
   client.place.reset();
 }
 
+void count_admission(Client& client, Metrics& metrics) {
+  if (std::exchange(client.admitted, true)) return;
+  ++metrics.admitted_open;
+  ++metrics.admitted;
+}
+
 // Waits for the session's turn on its loop.
 net::awaitable<void> take_turn(Client& client) {
   client.working = true;
@@ -209,7 +215,7 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
     if (!turns.may_work(client.usage)) co_await take_turn(client);
     if (client.ending()) co_await take_leave(stream, client);
     Next next = loop.work(run);
-    client.admitted = session.admitted();
+    if (session.admitted()) count_admission(client, metrics);
     if (client.guesser) judge(client, session, metrics);
     const bool sends = next == Next::kSend;
     if (sends) {
@@ -270,7 +276,7 @@ class Resting {
 
 template <typename Stream>
 net::awaitable<void> play(Stream& stream, Client& client, const ClassicService& service, Metrics& metrics) {
-  client.admitted = true;
+  count_admission(client, metrics);
   PacedClassic session(service);
   co_await work(client, session);
   session.check_machine();
@@ -350,6 +356,7 @@ net::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Serv
   }
   client->left();
   --metrics.sessions_open;
+  if (client->admitted) --metrics.admitted_open;
   co_await close_gently(client);
 }
 

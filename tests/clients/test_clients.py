@@ -1,5 +1,6 @@
 """The clients play over the line protocol, and decode every encoding."""
 
+import importlib.util
 import os
 import socket
 import subprocess
@@ -215,6 +216,26 @@ class Examples(unittest.TestCase):
         self.check("python/random_agent.py", BINARY, GAME, says=r"^score \d+ in \d+ frames$")
         self.check("python/best_branch.py", BINARY, says=r"^score \d+ after \d+ frames, \d+ frames run$")
         self.check("shell/play-lines", BINARY, says=r"^Score \d+ in \d+ frames\.$")
+
+    def test_a_wrong_program_and_a_wrong_game_get_a_sentence(self):
+        for path, words, says in (
+                ("best_branch.py", ("/nowhere", "beamfall"), "best_branch.py: /nowhere beamfall: .*No such file or directory"),
+                ("best_branch.py", (BINARY, "nogame"), "best_branch.py: .* nogame: unknown-game: there is no game 'nogame'"),
+                ("best_branch.py", ("/bin/true",), "best_branch.py: /bin/true beamfall: .*ended"),
+                ("random_agent.py", ("/nowhere", GAME), "random_agent.py: cannot start /nowhere: No such file or directory; it takes"),
+                ("random_agent.py", (BINARY, "/nowhere.bin"), "racebeam: .*/nowhere.bin"),
+                ("sarsa.py", ("/nowhere",), "sarsa.py: no server at /nowhere: .*No such file or directory"),
+                ("sarsa.py", (BINARY, "nogame"), "sarsa.py: unknown-game: there is no game 'nogame'"),
+                ("sarsa.py", ("tcp://127.0.0.1:1",), "sarsa.py: no server at tcp://127.0.0.1:1: .*Connection refused"),
+                ("sarsa.py", ("udp://nowhere",), "sarsa.py: no server at udp://nowhere: the address is 'udp://nowhere'; it takes "),
+                ("sarsa.py", (BINARY, "--background", "/nowhere.csv"), "sarsa.py: --background is '/nowhere.csv': .*; it takes 210 lines")):
+            if path == "sarsa.py" and importlib.util.find_spec("numpy") is None:
+                continue
+            with self.subTest(path=path, words=words):
+                done = subprocess.run([sys.executable, os.path.join(SOURCE, "clients/python", path), *words], capture_output=True,
+                                      text=True, timeout=PATIENCE)
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertRegex(done.stderr, f"^(racebeam: the line protocol.*\n)?{says}[^\n]*\n$")
 
     def test_without_arguments_they_say_how_they_are_used(self):
         for path in ("python/random_agent.py", "python/best_branch.py", "shell/play-lines", "shell/play"):

@@ -3,9 +3,12 @@
 It needs root, and Debian's packages slurmctld, slurmd, slurm-client and munge.
 """
 
+import contextlib
 import os
 import pathlib
+import re
 import shutil
+import signal
 import socket
 import subprocess
 import tempfile
@@ -13,6 +16,7 @@ import time
 
 NEEDED = ("munged", "slurmctld", "slurmd", "sbatch", "srun", "scontrol")
 PATIENCE = float(os.environ.get("RACEBEAM_PATIENCE", 20)) * 6  # seconds; jobs start every few seconds
+SLURMD_TIMEOUT = 300  # seconds
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -31,6 +35,33 @@ def free_ports(count):
     finally:
         for each in sockets:
             each.close()
+
+
+def processes(*marks):
+    """The command lines of processes whose environment has all `marks`: variables and their values."""
+    found = {}
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            if entry.name.isdecimal() and {mark.encode() for mark in marks} <= set((entry / "environ").read_bytes().split(b"\0")):
+                found[int(entry.name)] = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode()
+        except OSError:
+            continue
+    return found
+
+
+def parent(number):
+    """That of a process; 0 if it has ended."""
+    try:
+        return int(pathlib.Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[1])
+    except OSError:
+        return 0
+
+
+def name_of(number):
+    try:
+        return pathlib.Path(f"/proc/{number}/comm").read_text().strip()
+    except OSError:
+        return ""
 
 
 CONFIGURATION = """
@@ -66,7 +97,7 @@ MinJobAge=300
 MaxArraySize=1001
 MaxJobCount=5000
 ReturnToService=2
-SlurmdTimeout=300
+SlurmdTimeout={slurmd_timeout}
 SlurmdParameters=config_overrides
 UnkillableStepTimeout=60
 PrologFlags=NoHold
@@ -117,7 +148,8 @@ class Cluster:
         self.folder.chmod(0o755)
         (self.folder / "munge/key").write_bytes(os.urandom(128))
         (self.folder / "munge/key").chmod(0o400)
-        text = CONFIGURATION.format(folder=self.folder, host=host, control_port=control_port, nodes=nodes)
+        text = CONFIGURATION.format(folder=self.folder, host=host, control_port=control_port, nodes=nodes,
+                                    slurmd_timeout=SLURMD_TIMEOUT)
         (self.folder / "slurm.conf").write_text(text)
 
     def start(self):
@@ -133,10 +165,24 @@ class Cluster:
     def start_node(self, name):
         self.daemon(name, "slurmd", "-D", "-c", "-N", name)
 
+    def restart_node(self, name):
+        self.start_node(name)
+        self.wait(f"the node {name}", lambda: not re.search(r"down|\*", self.run("sinfo", "-h", "-n", name, "-o", "%T")))
+
     def kill_node(self, name):
-        """Ends the slurmd of a node, as a power failure does; its jobs' processes are found by kill_processes()."""
+        """Kills the slurmd of a node, and the processes of its jobs, as a power failure does."""
         self.daemons[name].kill()
         self.daemons[name].wait()
+        jobs = processes(f"SLURM_CONF={self.environment['SLURM_CONF']}", f"SLURMD_NODENAME={name}")
+        for number in {parent(number) for number in jobs if name_of(parent(number)) == "slurmstepd"} | set(jobs):
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(number, signal.SIGKILL)
+
+    def set_slurmd_timeout(self, seconds):
+        """After so long without an answer, slurmctld takes a node to have failed."""
+        path = self.folder / "slurm.conf"
+        path.write_text(re.sub(r"(?m)^SlurmdTimeout=.*", f"SlurmdTimeout={seconds}", path.read_text()))
+        self.run("scontrol", "reconfigure")
 
     def daemon(self, name, *command):
         with open(self.folder / f"{name}.out", "ab") as log:
@@ -172,6 +218,14 @@ class Cluster:
         """The states of a job and its elements, such as {"COMPLETED"}."""
         shown = self.run("scontrol", "--oneliner", "show", "job", job, check=False)
         return {word.partition("=")[2] for word in shown.split() if word.startswith("JobState=")}
+
+    def field(self, name, element):
+        """What scontrol says of an element of an array, such as its NodeList."""
+        return re.search(rf" {name}=(\S*)", self.run("scontrol", "--oneliner", "show", "job", element))[1]
+
+    def restarts(self, element):
+        """How often it was requeued."""
+        return int(self.field("Restarts", element))
 
     def hurry(self):
         """Starts what Slurm would hold back: requeued jobs for two minutes, and those that a busy node did not launch."""

@@ -10,6 +10,7 @@ import re
 import shutil
 import socket
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -26,6 +27,8 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = TOP / "cluster/kubernetes"
 BINARY = os.environ.get("RACEBEAM_BINARY", str(TOP / "build/release/racebeam"))
 PATIENCE = float(os.environ.get("RACEBEAM_PATIENCE", 20))
+# That of scripts/cluster-test, which is beside its Python, else one in the PATH.
+KUBECTL = shutil.which("kubectl", path=os.pathsep.join([str(pathlib.Path(sys.executable).parent), os.environ.get("PATH", "")]))
 LABELS = {"app.kubernetes.io/name": "racebeam"}
 METRIC = re.compile(r"racebeam_\w+")
 
@@ -69,11 +72,11 @@ def get(port, path):
 @functools.cache
 def built(name):
     """The objects that kustomize makes of a folder, and what it complains of."""
-    done = subprocess.run(["kubectl", "kustomize", FOLDER / name], capture_output=True, text=True, timeout=PATIENCE, check=True)
+    done = subprocess.run([KUBECTL, "kustomize", FOLDER / name], capture_output=True, text=True, timeout=PATIENCE, check=True)
     return {each["kind"]: each for each in yaml.safe_load_all(done.stdout)}, done.stderr
 
 
-@unittest.skipUnless(yaml and shutil.which("kubectl"), "there is no kubectl, or no kubernetes-validate")
+@unittest.skipUnless(yaml and KUBECTL, "there is no kubectl, or no kubernetes-validate; scripts/cluster-test installs both")
 class Manifests(unittest.TestCase):
     def objects(self, name):
         found, complaints = built(name)

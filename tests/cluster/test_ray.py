@@ -128,6 +128,29 @@ class Rollouts(Nodes):
             list(rollouts.rollouts("beamfall", actors=1, count=1, num_envs=1, policy=lambda seen, _: [99]))
 
 
+class Words(unittest.TestCase):
+    """What is wrong gets one sentence and no traceback: status 2 for a usage error, else 1."""
+
+    def check(self, status, says, script, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, FOLDER / script, *words], cwd=folder, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertRegex(done.stderr.splitlines()[-1], f"^{script}: {says}")
+        self.assertNotIn("Traceback", done.stderr)
+
+    def test_a_number_that_cannot_be(self):
+        for script, words, option in (("rollouts.py", ("beamfall",), "--actors"), ("rollouts.py", ("beamfall",), "--rollouts"),
+                                      ("rollouts.py", ("beamfall",), "--envs"), ("rollouts.py", ("beamfall",), "--steps"),
+                                      ("experiment.py", ("smoke", "results"), "--shards")):
+            for number in ("0", "-2", "many"):
+                with self.subTest(script=script, option=option, number=number):
+                    self.check(2, f"error: argument {option}: it is '{number}'; it takes a whole number from 1 on", script, *words, f"{option}={number}")
+
+    def test_a_game_and_a_plan_that_are_not_there(self):
+        self.check(1, ".*there is no game 'nosuch'", "rollouts.py", "nosuch", "--actors", "1", "--rollouts", "1")
+        self.check(1, "shard 1/1: racebeam: there is no plan 'nosuch'", "experiment.py", "nosuch", "results", "--shards", "1")
+
+
 class Rllib(Nodes):
     def test_an_algorithm_learns_with_and_without_vector_environments(self):
         try:
@@ -135,6 +158,7 @@ class Rllib(Nodes):
             import torch  # noqa: F401
         except ImportError as error:
             self.skipTest(f"RLlib and PyTorch are not both installed: {error}")
+        Words.check(self, 1, ".*`Nosuch` doesn't exist", "rllib_ppo.py", "Nosuch")
         self.nodes(1)
         for vector, made in ((True, "racebeam.vector_env.AtariVectorEnv"), (False, "gymnasium.vector.sync_vector_env.SyncVectorEnv")):
             with self.subTest(vector=vector):

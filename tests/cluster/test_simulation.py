@@ -139,3 +139,23 @@ class Units(unittest.TestCase):
         done = subprocess.run([*command[:2], "nothing", "--program", BINARY], capture_output=True, text=True)
         self.assertEqual(done.returncode, 1)
         self.assertIn("there is no plan 'nothing'", done.stderr)
+
+    def test_numbers_that_cannot_be_are_refused(self):
+        command = [sys.executable, slurm.TOP / "cluster/simulate.py", "smoke", "--program", BINARY, "--within", "1000"]
+        for option, given, takes in (("--cores", "0", "a whole number from 1 on"), ("--cores", "-3", "a whole number from 1 on"),
+                                     ("--nodes", "0", "a whole number from 1 on"), ("--runs", "0", "a whole number from 1 on"),
+                                     ("--shards", "-1", "a whole number from 0 on"), ("--checkpoint", "0", "a number from 1 on"),
+                                     ("--within", "nan", "a number from 0 on"), ("--failures", "inf", "a number from 0 on"),
+                                     ("--slow", "1.5", "a number from 0 to 1"), ("--slowness", "many", "a number from 1 on")):
+            with self.subTest(option=option, given=given):
+                done = subprocess.run([*command, f"{option}={given}"], capture_output=True, text=True, timeout=60)
+                self.assertEqual(done.returncode, 2)
+                self.assertTrue(done.stderr.endswith(f"error: argument {option}: it is '{given}'; it takes {takes}\n"), done.stderr)
+
+    def test_a_program_that_is_not_there_is_named(self):
+        command = [sys.executable, slurm.TOP / "cluster/simulate.py", "smoke", "--nodes", "1"]
+        for words, said in (((), "racebeam, looked for in the PATH"),
+                            (("--program", "/nowhere/racebeam"), "/nowhere/racebeam")):
+            done = subprocess.run([*command, *words], capture_output=True, text=True, env={"PATH": "/nowhere"})
+            self.assertEqual((done.returncode, done.stderr), (1, "simulate.py needs the program racebeam; it cannot start "
+                                                                 f"{said}: No such file or directory; --program takes its path\n"))

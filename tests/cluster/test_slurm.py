@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -27,18 +28,7 @@ AGENT = str(pathlib.Path(agent.__file__).resolve())
 
 PYTHON = os.environ.get("RACEBEAM_PYTHON", str(slurm.TOP / "build/python/venv/bin/python"))  # with racebeam and submitit
 SHARDS = 24  # for 21 units: some have none
-
-
-def processes(mark):
-    """The command lines of processes whose environment has `mark`: a variable and its value."""
-    found = {}
-    for entry in pathlib.Path("/proc").iterdir():
-        try:
-            if entry.name.isdecimal() and mark.encode() in (entry / "environ").read_bytes().split(b"\0"):
-                found[int(entry.name)] = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode()
-        except OSError:
-            continue
-    return found
+READY_WITHIN = 60  # seconds, for 200 servers
 
 
 class Slurm(unittest.TestCase):
@@ -66,7 +56,7 @@ class Slurm(unittest.TestCase):
 
     def job_processes(self):
         """Those of jobs: all that have the tests' variable, but not the daemons, which do not."""
-        return {number: words for number, words in processes(f"RACEBEAM_TEST={self.cluster.folder}").items()
+        return {number: words for number, words in slurm.processes(f"RACEBEAM_TEST={self.cluster.folder}").items()
                 if words and not re.search("slurm|sbatch|munged", words)}
 
     def nothing_is_left(self):
@@ -124,14 +114,11 @@ class Whole(Slurm):
         job = self.cluster.submit("--array=0-3", SCRIPTS / "array.sbatch", *self.agent("--reached", self.results, "--pause", "8"))
         self.wait_for_files("reached-*", 4)
         with_one = [number for number, words in self.job_processes().items() if "racebeam with" in words]
-        children = [number for number in with_one if int(self.parent(number)) in with_one]
+        children = [number for number in with_one if slurm.parent(number) in with_one]
         os.kill(children[0], signal.SIGKILL)
         self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED", "FAILED"})
         self.assertEqual(len(list(self.results.glob("result-*"))), 3)
         self.nothing_is_left()
-
-    def parent(self, number):
-        return pathlib.Path(f"/proc/{number}/stat").read_text().rsplit(")", 1)[1].split()[1]
 
     def test_scancel_leaves_nothing(self):
         for script, words in (("array.sbatch", ("--array=0-3",)), ("nodes.sbatch", ("--nodes=2", "--ntasks-per-node=2"))):
@@ -164,10 +151,17 @@ class Whole(Slurm):
                                   *self.agent("--reached", self.results, "--pause", "60"))
         self.wait_for_files("reached-*", 1)
         node = self.cluster.run("squeue", "-h", "-j", job, "-o", "%N").strip()
-        self.cluster.run("scontrol", "update", f"nodename={node}", "state=down", "reason=test")
-        self.addCleanup(self.cluster.run, "scontrol", "update", f"nodename={node}", "state=resume", check=False)
+        self.cluster.set_slurmd_timeout(15)
+        self.addCleanup(self.cluster.set_slurmd_timeout, slurm.SLURMD_TIMEOUT)
+        self.addCleanup(self.cluster.restart_node, node)
+        self.cluster.kill_node(node)
+        self.cluster.wait("the end of its processes", lambda: not self.job_processes())
+        (socket_folder,) = self.temporary.iterdir()  # on the node's own disk
         self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
+        self.assertEqual(self.cluster.restarts(f"{job}_5"), 1)
+        self.assertNotEqual(self.cluster.field("NodeList", f"{job}_5"), node)
         self.check_results([5])
+        shutil.rmtree(socket_folder)
         self.nothing_is_left()
 
     def test_a_heterogeneous_job_has_servers_and_a_learner_apart(self):
@@ -186,14 +180,50 @@ class Whole(Slurm):
         words = (plan, shared, "--threads", "1", "--checkpoint-seconds", "0")
         job = self.cluster.submit(f"--array=1-{SHARDS}", SCRIPTS / "experiment.sbatch", *words)
         self.cluster.wait("a first unit", lambda: list(shared.glob("units/*")))
-        self.cluster.run("scontrol", "requeue", f"{job}_[1-3]", check=False)
+        stopped = self.stop_elements(job, 3)
+        for element in stopped:
+            self.cluster.run("scontrol", "requeue", element)
         self.cluster.run("scontrol", "update", "nodename=n2", "state=down", "reason=test")
         self.addCleanup(self.cluster.run, "scontrol", "update", "nodename=n2", "state=resume", check=False)
         gathered = self.cluster.submit(f"--dependency=afterany:{job}", "--output", self.results / "gathered",
                                        SCRIPTS / "gather.sbatch", *words)
         self.assertEqual(self.cluster.wait_for_end(gathered, 400), {"COMPLETED"}, self.cluster.logs())
+        self.assertTrue(all(self.cluster.restarts(element) > 0 for element in stopped))
         self.assertEqual(files(shared), files(alone))
         self.assertRegex((self.results / "gathered").read_text(), r"\d+ rows confirmed, 0 wrong, 0 could not be checked")
+        self.nothing_is_left()
+
+    def stop_elements(self, job, count):
+        """Stops running elements of an experiment, which cannot end until they are requeued. Returns their numbers and nodes."""
+        stopped = {}
+
+        def stop():
+            for number in slurm.processes(f"SLURM_ARRAY_JOB_ID={job}", f"RACEBEAM_TEST={self.cluster.folder}"):
+                try:
+                    variables = dict(word.partition("=")[::2] for word in pathlib.Path(f"/proc/{number}/environ").read_text().split("\0"))
+                    if slurm.name_of(number) == "racebeam" and len(stopped) < count:
+                        os.kill(number, signal.SIGSTOP)
+                        stopped[f"{job}_{variables['SLURM_ARRAY_TASK_ID']}"] = variables["SLURMD_NODENAME"]
+                except OSError:
+                    continue
+            return len(stopped) == count
+        self.cluster.wait(f"{count} elements that run", stop)
+        return stopped
+
+    def test_an_urgent_job_preempts_an_element_and_the_results_are_the_same(self):
+        plan, alone, shared = (self.results / name for name in ("plan.toml", "alone", "shared"))
+        plan.write_text(PLAN)
+        subprocess.run([BINARY, "experiment", plan, "--into", alone, "--threads", "1"], check=True, capture_output=True)
+        words = (plan, shared, "--threads", "1", "--checkpoint-seconds", "0")
+        job = self.cluster.submit(f"--array=1-{SHARDS}", SCRIPTS / "experiment.sbatch", *words)
+        gathered = self.cluster.submit(f"--dependency=afterany:{job}", SCRIPTS / "gather.sbatch", *words)
+        ((element, node),) = self.stop_elements(job, 1).items()
+        urgent = self.cluster.submit("--partition=urgent", "--exclusive", f"--nodelist={node}", "--wrap", "hostname")
+        self.assertEqual(self.cluster.wait_for_end(urgent), {"COMPLETED"})
+        self.assertGreater(self.cluster.restarts(element), 0)
+        self.assertRegex((self.cluster.folder / "slurmctld.log").read_text(), f"preempted JobId={element}.* has been requeued")
+        self.assertEqual(self.cluster.wait_for_end(gathered, 400), {"COMPLETED"}, self.cluster.logs())
+        self.assertEqual(files(shared), files(alone))
         self.nothing_is_left()
 
     def test_a_full_shared_disk_ends_the_element_with_a_sentence_and_loses_nothing(self):
@@ -221,16 +251,27 @@ class Whole(Slurm):
         self.assertFalse((self.results / "shared").exists())
 
     def test_two_hundred_servers_of_one_array(self):
-        began = time.monotonic()
+        """All are ready within a minute, in the best of three attempts."""
+        seconds = []
+        while len(seconds) < 3 and min(seconds, default=READY_WITHIN) >= READY_WITHIN:
+            seconds.append(self.two_hundred_servers())
+        self.assertLess(min(seconds), READY_WITHIN)
+
+    def two_hundred_servers(self):
+        """Seconds until the last of them has loaded a game for its agent."""
+        for path in self.results.glob("found-*"):
+            path.unlink()
+        began = time.time()
         job = self.cluster.submit("--array=0-199", "--oversubscribe", SCRIPTS / "array.sbatch", "bash", "-c",
                                   f'source {slurm.TOP}/clients/shell/racebeam.bash; racebeam_connect && racebeam_ask load beamfall '
                                   f'&& racebeam_value game >{self.results}/found-$SLURM_ARRAY_TASK_ID')
         self.assertEqual(self.cluster.wait_for_end(job), {"COMPLETED"})
-        seconds = time.monotonic() - began
+        seconds = max(path.stat().st_mtime for path in self.results.glob("found-*")) - began
         self.assertEqual({path.read_text() for path in self.results.glob("found-*")}, {"beamfall\n"})
         self.assertEqual(len(list(self.results.glob("found-*"))), 200)
         self.nothing_is_left()
         print(f"\n200 servers of one array job: {seconds:.1f} s, load {os.getloadavg()[0]:.1f}")
+        return seconds
 
     def test_steps_a_second_over_streams_and_over_sockets(self):
         """Prints them: docs/scale.md."""

@@ -23,6 +23,12 @@ def needs(*modules):
 
 
 class Examples(unittest.TestCase):
+    def refuse(self, example, *options):
+        done = subprocess.run([sys.executable, CLIENT / "examples" / example, "nogame", *options], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr.splitlines()[-1], f"^{example}: there is no game 'nogame'")
+        self.assertNotIn("Traceback", done.stderr)
+
     def run_example(self, example, *options):
         """What it prints. It draws a curve, if it has --curve."""
         with tempfile.TemporaryDirectory() as folder:
@@ -48,11 +54,13 @@ class Examples(unittest.TestCase):
     def test_ppo_on_pixels(self):
         said = self.run_example("examples/ppo.py", "--observe", "pixels", "--updates", 1, "--steps", 8, "--envs", 4, "--epochs", 1)
         self.assertRegex(said, r"\d+ steps a second")
+        self.refuse("ppo.py")
 
     @needs("stable_baselines3")
     def test_stable_baselines(self):
         said = self.run_example("examples/stable_baselines.py", "--steps", 64, "--steps-of-update", 16, "--envs", 4)
         self.assertRegex(said, r"total_timesteps\s*\|\s*64")
+        self.refuse("stable_baselines.py")
 
 
 if __name__ == "__main__":

@@ -4,6 +4,8 @@ import contextlib
 import os
 import pathlib
 import signal
+import tempfile
+import threading
 import time
 import unittest
 
@@ -14,7 +16,7 @@ package.require("gymnasium", "numpy")
 import numpy as np
 from vector_servers import Compared, server
 
-from racebeam import AtariVectorEnv, InvalidInput
+from racebeam import AtariEnv, AtariVectorEnv, InvalidInput, connect
 
 COUNT = 5  # of which the first server plays three
 FIRST, SECOND = np.arange(COUNT) < 3, np.arange(COUNT) >= 3
@@ -89,8 +91,8 @@ class Same(Servers):
                 AtariVectorEnv("beamfall", 2, server=servers)
         with self.assertRaises(InvalidInput):
             AtariVectorEnv("beamfall", 2, server=[self.one, self.two], batch_size=1)
-        with self.assertRaises(OSError):
-            AtariVectorEnv("beamfall", 2, server=[self.one, "unix:/nonexistent"])
+        with self.assertRaisesRegex(ValueError, "it takes tcp://HOST:PORT"):
+            AtariVectorEnv("beamfall", 2, server=[self.one, "udp://nowhere"])
 
     def test_a_child_after_a_fork_is_refused(self):
         here, there = self.both()
@@ -185,6 +187,43 @@ class Lost(Servers):
         self.kill(self.second)  # the spare one plays the first environment, and may play the other, too
         self.assertEqual(there.step([0, 0])[-1]["lost"].tolist(), [False, True])
         self.assertFalse(there.step([0, 0])[-1]["lost"].any())
+
+    def test_a_server_that_is_absent_at_the_start(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file, never = pathlib.Path(folder, "late"), f"file:{folder}/never?wait=0.5"
+            late = threading.Timer(0.2, lambda: file.write_text(f"{self.two}\n"))
+            late.start()
+            self.addCleanup(late.join)
+            addresses = [f"file:{file}?wait=60", "tcp://127.0.0.1:1", never]
+            with self.assertWarns(RuntimeWarning) as warned:
+                here, there = self.both(count=6, servers=addresses)
+        self.assertEqual([str(each.message).replace(folder, "") for each in warned.warnings], [
+            f"environments 2 to 3 begin on file:/late?wait=60: no server answers at tcp://127.0.0.1:1: [Errno 111] Connection refused",
+            f"environments 4 to 5 begin on file:/late?wait=60: no server answers at file:/never?wait=0.5: "
+            "[Errno 2] No such file or directory: '/never'"])
+        self.assertEqual([each.filename for each in warned.warnings], [__file__] * 2)
+        self.check(there.reset(), here.reset(), lost=[False] * 2 + [True] * 4)
+        self.play(here, there, 20)  # with the seeds that they would have had
+
+    def test_a_step_tells_of_an_absent_server_too(self):
+        with self.assertWarns(RuntimeWarning):
+            here, there = self.both(servers=[self.one, "unix:/nonexistent"])
+        self.check(there.step([1] * COUNT), here.step([1] * COUNT), lost=SECOND)
+        self.play(here, there, 5)
+
+    def test_a_busy_server_is_absent(self):
+        busy, _ = self.servers.enter_context(server("--max-sessions", "1"))
+        with connect(busy), self.assertWarnsRegex(RuntimeWarning, "environments 3 to 4 .*busy: there are 1 sessions"):
+            self.both(servers=[self.one, busy])
+
+    def test_without_any_server_the_addresses_are_named(self):
+        absent = ["tcp://127.0.0.1:1", "unix:/nonexistent", "file:/nonexistent"]  # the last one is spare
+        with self.assertRaisesRegex(ConnectionError, "no server is left for environments 0 to 0: " + "; ".join(
+                f"no server answers at {address}: [^;]*" for address in absent)):
+            AtariVectorEnv("beamfall", 2, server=absent)
+        for make in (lambda **how: AtariVectorEnv("beamfall", 2, **how), lambda **how: AtariEnv("beamfall", **how)):
+            with self.assertRaisesRegex(ConnectionError, "no server answers at tcp://127.0.0.1:1: .*refused"):
+                make(server="tcp://127.0.0.1:1")
 
     def test_without_a_server_it_is_a_ConnectionError(self):
         _, there = self.both()

@@ -142,6 +142,25 @@ class Tokens(Folder):
             for wire in (first, silent, other, local, late, refused):
                 wire.close()
 
+    def test_who_has_no_token_keeps_no_server_alive(self):
+        with self.serve("--until-idle", "2") as server:
+            holder = connect_tcp(server.port())
+            ask(holder, b"hello token=" + TOKEN.encode())
+            silent = connect_tcp(server.port())
+            time.sleep(3)
+            self.assertIn(b" admitted=1 ", ask(holder, b"hello"))  # a session with a token does
+            holder.close()
+            until = time.monotonic() + PATIENCE
+            while server.process.poll() is None and time.monotonic() < until:
+                with contextlib.suppress(OSError):  # it no longer listens
+                    wire = connect_tcp(server.port())
+                    wire.send(b"hello\n")
+                    wire.close()
+                time.sleep(0.2)
+            self.assertEqual(server.process.poll(), 0)
+            server.wait_for("no session for 2 seconds: ")
+            silent.close()
+
     def test_who_gives_no_token_in_time_is_closed(self):
         with self.serve("--handshake", "1") as server:
             silent, admitted = connect_tcp(server.port()), connect_tcp(server.port())

@@ -8,6 +8,7 @@ A lost life ends an episode for the agent, and the game goes on; rewards are cli
 With the same seed and processor, it learns the same."""
 import argparse
 import functools
+import sys
 import time
 from typing import NamedTuple
 
@@ -186,7 +187,10 @@ def main():
     if options.envs * options.steps % options.parts:
         parser.error(f"--parts is {options.parts}, which does not divide the {options.envs * options.steps} steps of an update")
 
-    player = Player(options)
+    try:
+        player = Player(options)
+    except (racebeam.InvalidInput, racebeam.Refused, OSError) as error:
+        sys.exit(f"ppo.py: {error}")
     key, first = jax.random.split(jax.random.key(options.seed))
     parameters = network(first, player.envs.single_observation_space.shape, int(player.envs.single_action_space.n))
     rate = optax.linear_schedule(options.rate, 0, options.updates * options.epochs * options.parts)

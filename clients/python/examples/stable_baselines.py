@@ -6,6 +6,7 @@
 
 The line that racebeam changes is the one that makes the environments."""
 import argparse
+import sys
 
 from stable_baselines3 import PPO
 
@@ -23,7 +24,10 @@ def main():
     options = parser.parse_args()
 
     # With Stable-Baselines3: VecFrameStack(make_atari_env("BeamfallNoFrameskip-v4", options.envs, options.seed), 4)
-    envs = racebeam.sb3.VecEnv(options.game, options.envs, seed=options.seed)
+    try:
+        envs = racebeam.sb3.VecEnv(options.game, options.envs, seed=options.seed)
+    except racebeam.InvalidInput as error:
+        sys.exit(f"stable_baselines.py: {error}")
     model = PPO("CnnPolicy", envs, n_steps=options.steps_of_update, batch_size=256, n_epochs=4, learning_rate=2.5e-4, clip_range=0.1,
                 ent_coef=0.01, seed=options.seed, verbose=1)
     model.learn(options.steps)

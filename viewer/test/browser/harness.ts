@@ -36,6 +36,12 @@ export class Server {
     this.agents = addresses.find((line) => line.startsWith("tcp://")) ?? "";
   }
 
+  /** Seconds of processor time so far. */
+  get processorSeconds(): number {
+    const fields = readFileSync(`/proc/${this.#process!.pid}/stat`, "utf8").split(") ").at(-1)!.split(" ");
+    return (Number(fields[11]) + Number(fields[12])) / 100;
+  }
+
   get port(): string {
     return new URL(this.address).port;
   }
@@ -80,6 +86,14 @@ export class Tabs {
     });
     await page.goto(address);
     return page;
+  }
+
+  /** Seconds of processor time of all processes of the browser so far, but for those that have ended. */
+  async processorSeconds(): Promise<number> {
+    const devtools = await (await browser!).newBrowserCDPSession();
+    const { processInfo } = await devtools.send("SystemInfo.getProcessInfo");
+    await devtools.detach();
+    return processInfo.reduce((sum, { cpuTime }) => sum + cpuTime, 0);
   }
 
   /** Closes all pages. */

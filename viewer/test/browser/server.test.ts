@@ -1,7 +1,10 @@
 // What the page does about the server: tokens, an end, a beginning.
 
 import assert from "node:assert/strict";
+import { once } from "node:events";
 import { writeFileSync } from "node:fs";
+import { createServer } from "node:http";
+import type { AddressInfo } from "node:net";
 import path from "node:path";
 import { after, before, describe, test } from "node:test";
 import type { Page } from "playwright-core";
@@ -67,6 +70,30 @@ describe("the server", () => {
     assert.deepEqual(tabs.problems(), []);
     await page.context().close();
     await server.stop();
+  });
+
+  test("a page of another origin gets no session, unless the server allows its origin", async () => {
+    const stranger = createServer((_, response) => response.setHeader("content-type", "text/html").end("<!doctype html><title>x</title>"));
+    stranger.listen(0, "127.0.0.1");
+    await once(stranger, "listening");
+    const origin = `http://127.0.0.1:${(stranger.address() as AddressInfo).port}`;
+    /** What a WebSocket to the server tells the stranger's page first: "open", or how it was closed. */
+    const attempt = (page: Page) => page.evaluate((url) => new Promise<string>((resolve) => {
+      const socket = new WebSocket(url);
+      socket.onopen = () => resolve("open");
+      socket.onclose = ({ code }) => resolve(`closed: ${code}`);
+    }), `${server.address.replace("http", "ws")}/session`);
+    for (const [options, found] of [[[], "closed: 1006"], [["--allow-origin", origin], "open"]] as const) {
+      await server.start(options);
+      const page = await tabs.open(origin);
+      assert.equal(await attempt(page), found);
+      await page.context().close();
+      const refused = tabs.problems().filter((problem) => !problem.includes("favicon"));
+      assert.equal(refused.length, options.length ? 0 : 1);
+      assert.ok(options.length || refused[0]!.includes("Unexpected response code: 403"), refused[0]);
+      await server.stop();
+    }
+    stranger.close();
   });
 
   test("a server that stops and comes back finds the game where it was", async () => {

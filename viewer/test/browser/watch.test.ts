@@ -1,39 +1,8 @@
 import assert from "node:assert/strict";
 import { after, afterEach, before, describe, test } from "node:test";
 import type { Page } from "playwright-core";
-import { connect, type Session } from "racebeam";
+import { Agent } from "./agent.js";
 import { Server, Tabs, until } from "./harness.js";
-
-/** An agent that plays in a session of its own, until it is told to stop. */
-class Agent {
-  readonly #session: Session;
-  #runs = true;
-
-  private constructor(session: Session) {
-    this.#session = session;
-  }
-
-  static async start(address: string, game: string, name: string): Promise<Agent> {
-    const session = await connect(address);
-    await session.load(game, { seed: 7, sticky: 0 });
-    await session.share(name);
-    const agent = new Agent(session);
-    void agent.#play().catch(() => {}); // until the session ends
-    return agent;
-  }
-
-  async #play(): Promise<void> {
-    while (this.#runs) {
-      const { terminated } = await this.#session.act("UPFIRE");
-      await (terminated ? this.#session.reset() : new Promise((resolve) => setTimeout(resolve, 10)));
-    }
-  }
-
-  async stop(): Promise<void> {
-    this.#runs = false;
-    await this.#session.disconnect();
-  }
-}
 
 describe("the view Watch", () => {
   const server = new Server();

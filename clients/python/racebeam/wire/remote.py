@@ -31,13 +31,16 @@ OWN_ERRORS = {"unknown-game": UnknownGame, "bad-value": InvalidInput, "bad-image
 class RemoteInterface:
     """Settings are kept here, and go to the server when an image is loaded. The server needs the image, or it is sent.
 
-    Raises what ALEInterface does; ConnectionError when the server has gone; and Refused for a limit of the server.
+    Raises what ALEInterface does; ConnectionError when there is no server, or it has gone; and Refused for a limit of the server.
     """
 
     def __init__(self, server: str, token: str | None = None, timeout: float | None = None) -> None:
         self._server, self._token = server, token
         self._keys = ALEInterface()
-        self.session: Session = connect(server, token=token, timeout=timeout)
+        try:
+            self.session: Session = connect(server, token=token, timeout=timeout)
+        except OSError as error:
+            raise ConnectionError(f"no server answers at {server}: {error}") from error
         self._view: View | None = None
         self._colours = np.zeros((256, 3), np.uint8)
         self._greys = np.zeros(256, np.uint8)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import queue
 import secrets
 import threading
+import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -19,11 +21,19 @@ from .remote_machines import OnServers, RemoteMachines
 LEAVING = ("stopping", "busy", "idle", "internal")  # the errors after which a server closes the session
 
 
+def _is_loss(error: Exception) -> bool:
+    """Whether the server is lost, in place of a bad request."""
+    refused = error if isinstance(error, Refused) else error.__cause__
+    return isinstance(error, (ConnectionError, TimeoutError)) or (isinstance(refused, Refused) and refused.code in LEAVING)
+
+
 class _Part:
     """The environments that one server plays: a range of rows."""
 
-    def __init__(self, rows: slice, address: str, machines: RemoteMachines) -> None:
-        self.rows, self.address, self.machines = rows, address, machines
+    machines: RemoteMachines
+
+    def __init__(self, rows: slice, address: str) -> None:
+        self.rows, self.address = rows, address
         self.is_fresh = False  # it was moved, and the next step shows the beginning of its episodes
 
 
@@ -36,6 +46,9 @@ class SpreadMachines(OnServers):
     where. Its environments then begin new games on the server that plays the fewest, with new seeds. A server that was lost is
     not asked again. A loss in reset() or show() is no truncation: the environments of the new server are shown, and `lost`
     says where.
+
+    A server that is absent at the start is lost, too: its environments begin elsewhere, with the seeds that they would have had.
+    A warning names it, and `lost` of the first call says where.
     """
 
     def __init__(self, servers: Sequence[str], token: str | None, timeout: float | None, game: str, rom: Any, count: int,
@@ -47,19 +60,47 @@ class SpreadMachines(OnServers):
         self._how, self._count, self._settings = (token, timeout, game, rom), count, settings
         self._turn = threading.Lock()
         self._servers = list(dict.fromkeys(servers))  # those that are not lost
-        self._parts: list[_Part] = []
         self.lost: Bools = np.zeros(count, np.bool_)  # of the last call
-        parts = np.array_split(np.arange(count), min(len(self._servers), count))
+        self._lost_before: Bools = np.zeros(count, np.bool_)  # what no call has told yet
+        shares = np.array_split(np.arange(count), min(len(self._servers), count))
+        self._parts = [_Part(slice(int(share[0]), int(share[-1]) + 1), address) for address, share in zip(self._servers, shares)]
         try:
-            for address, rows in zip(self._servers, parts):
-                self._add(address, slice(int(rows[0]), int(rows[-1]) + 1))
+            absent = self._open_all()
+            for part, _ in absent:
+                self._lost_before[part.rows] = True
+                self._servers.remove(part.address)
+            for part, failure in absent:
+                self._place(part, [failure for _, failure in absent], self._seed_of(part))
+                warnings.warn(f"environments {part.rows.start} to {part.rows.stop - 1} begin on {part.address}: {failure}",
+                              RuntimeWarning, stacklevel=4)
         except BaseException:
             self.close()
             raise
 
-    def _add(self, address: str, rows: slice) -> None:
-        seed = (self._settings["seed"] + rows.start) % 2**32
-        self._parts.append(_Part(rows, address, self._opened(address, rows, seed)))
+    def _open_all(self) -> list[tuple[_Part, Exception]]:
+        """Opens the environments of all parts at the same time, since an address may wait for its server. Returns the parts
+        whose server is absent, and why. Raises what else goes wrong, as soon as it does."""
+        opened: queue.SimpleQueue[tuple[_Part, Exception | None]] = queue.SimpleQueue()
+
+        def open_one(part: _Part) -> None:
+            try:
+                part.machines = self._opened(part.address, part.rows, self._seed_of(part))
+                opened.put((part, None))
+            except Exception as error:
+                opened.put((part, error))
+        for part in self._parts:
+            threading.Thread(target=open_one, args=(part,), daemon=True).start()
+        absent = []
+        for _ in self._parts:
+            part, error = opened.get()
+            if error is not None and not _is_loss(error):
+                raise error
+            if error is not None:
+                absent.append((part, error))
+        return sorted(absent, key=lambda one: one[0].rows.start)
+
+    def _seed_of(self, part: _Part) -> int:
+        return int((self._settings["seed"] + part.rows.start) % 2**32)
 
     def _opened(self, address: str, rows: slice, seed: int) -> RemoteMachines:
         settings = {**self._settings, "seed": seed, "batch_size": 0}
@@ -77,7 +118,8 @@ class SpreadMachines(OnServers):
     def close(self) -> None:
         """Ends the sessions."""
         for part in self._parts:
-            part.machines.close()
+            if hasattr(part, "machines"):  # the constructor may have failed
+                part.machines.close()
 
     # Playing
 
@@ -91,7 +133,7 @@ class SpreadMachines(OnServers):
         """All servers play at the same time."""
         requests = [("restart", "0" * len(acts)) if part.is_fresh else ("step", *acts) for part, acts in zip(self._parts, words)]
         with self._turn:
-            self.lost = np.zeros(self._count, np.bool_)
+            self.lost, self._lost_before = self._lost_before, np.zeros(self._count, np.bool_)
             failures = [self._failure(part.machines.begin, *request) for part, request in zip(self._parts, requests)]
             try:
                 for index, part in enumerate(self._parts):
@@ -111,10 +153,8 @@ class SpreadMachines(OnServers):
         """The exception that says that the server is lost, if it is."""
         try:
             call(*arguments)
-        except (ConnectionError, TimeoutError) as error:
-            return error
-        except InvalidInput as error:
-            if isinstance(error.__cause__, Refused) and error.__cause__.code in LEAVING:
+        except Exception as error:
+            if _is_loss(error):
                 return error
             raise
         return None
@@ -132,7 +172,7 @@ class SpreadMachines(OnServers):
 
     def _each(self, ask: Callable[[_Part], None], results: Results) -> None:
         with self._turn:
-            self.lost = np.zeros(self._count, np.bool_)
+            self.lost, self._lost_before = self._lost_before, np.zeros(self._count, np.bool_)
             for part in self._parts:
                 self._ask(part, ask)
         self._number(results)
@@ -165,15 +205,21 @@ class SpreadMachines(OnServers):
         part.machines.close()
         self.lost[part.rows] = True
         self._servers = [address for address in self._servers if address != part.address]
+        self._place(part, [failure], secrets.randbits(32) or 1)
+
+    def _place(self, part: _Part, failures: list[Exception], seed: int) -> None:
+        """Opens environments for the part. failures: of the servers before, which a ConnectionError says if there is no other."""
+        failures = failures[:]
         for address in sorted(self._servers, key=self._load_of):
             try:
-                part.machines = self._opened(address, part.rows, secrets.randbits(32) or 1)
-            except (OSError, InvalidInput) as error:
-                failure = error
+                part.machines = self._opened(address, part.rows, seed)
+            except (OSError, InvalidInput, Refused) as error:
+                failures.append(error)
                 continue
             part.address = address
             return
-        raise ConnectionError(f"no server is left for environments {part.rows.start} to {part.rows.stop - 1}: {failure}") from failure
+        why = "; ".join(map(str, failures))
+        raise ConnectionError(f"no server is left for environments {part.rows.start} to {part.rows.stop - 1}: {why}") from failures[-1]
 
     def _load_of(self, address: str) -> int:
         return sum(part.rows.stop - part.rows.start for part in self._parts if part.address == address)
