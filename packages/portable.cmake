@@ -1,5 +1,6 @@
-# How everything is built for a Python package. Nothing is linked at run time but the C library, the compiler's libgcc_s
-# and zlib, which each Linux has; and no symbol is seen by other modules of the process.
+# How everything is built for other systems than this one. A Python package loads nothing but the C library, the
+# compiler's libgcc_s and zlib, which each Linux has; and no symbol is seen by other modules of the process. With
+# RACEBEAM_STATIC the program loads nothing at all.
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
@@ -7,6 +8,10 @@ add_link_options(-static-libstdc++ -Wl,--as-needed -Wl,--gc-sections)
 add_compile_options(-ffunction-sections -fdata-sections)
 
 set(BUILD_TESTING OFF)
+if(RACEBEAM_STATIC)
+  string(APPEND CMAKE_EXE_LINKER_FLAGS " -static")
+  set(ZLIB_USE_STATIC_LIBS ON)
+endif()
 set(Boost_USE_STATIC_LIBS ON)
 set(OPENSSL_USE_STATIC_LIBS ON)
 find_library(PNG_LIBRARY NAMES libpng.a png)
