@@ -40,7 +40,7 @@ class Release(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
         cls.release = script("release").Release("HEAD", 1)
         cls.release.build = lambda *_: None
-        cls.release.pack = lambda source, _, scratch, into, pack=cls.release.pack: pack(source, BUILD, scratch, into)
+        cls.release.pack = lambda source, _, __, scratch, into, pack=cls.release.pack: pack(source, BUILD, BUILD, scratch, into)
         for name in ("first", "second"):
             (cls.folder / name).mkdir()
             cls.release.make(cls.folder / name)

@@ -181,7 +181,7 @@ class Watchers(unittest.TestCase):
         _, slowest = agent.measure(5)
         crowd.join()
         self.assertEqual(crowd.exitcode, 0)
-        self.assertLess(slowest, 1)
+        self.assertLess(slowest, 2)  # of the four that the crowd is there
 
 
 if __name__ == "__main__":
