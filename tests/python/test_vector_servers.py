@@ -198,7 +198,7 @@ class Lost(Servers):
             with self.assertWarns(RuntimeWarning) as warned:
                 here, there = self.both(count=6, servers=addresses)
         self.assertEqual([str(each.message).replace(folder, "") for each in warned.warnings], [
-            f"environments 2 to 3 begin on file:/late?wait=60: no server answers at tcp://127.0.0.1:1: [Errno 111] Connection refused",
+            f"environments 2 to 3 begin on file:/late?wait=60: no server answers at tcp://127.0.0.1:1: Connection refused",
             f"environments 4 to 5 begin on file:/late?wait=60: no server answers at file:/never?wait=0.5: "
             "[Errno 2] No such file or directory: '/never'"])
         self.assertEqual([each.filename for each in warned.warnings], [__file__] * 2)
