@@ -50,8 +50,7 @@ class Turns {
 
  private:
   static constexpr std::chrono::microseconds kCredit{250}, kShortestSlice{250}, kLongestSlice{2000};
-  static constexpr std::chrono::microseconds kOverhead{
-      20};  // of a slice: the loop receives and sends besides
+  static constexpr std::chrono::microseconds kOverhead{20};  // of a slice: to receive and to send
 
   struct Waiting {
     const Usage* usage;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,10 +39,15 @@ class LineClient {
     return answers;
   }
 
-  // Sends as many bytes as there is space for, without executing requests.
+  // Sends the text, without executing requests. There must be space for it.
   void hand_in(std::string_view text) {
-    std::ranges::copy(text, session.space().begin());
-    session.received(text.size());
+    while (!text.empty()) {
+      const std::size_t count = std::min(session.space().size(), text.size());
+      if (count == 0) throw std::length_error("the session has no space for more input");
+      std::copy_n(text.begin(), count, session.space().begin());
+      session.received(count);
+      text.remove_prefix(count);
+    }
   }
 
   // Sends one request. Returns its reply without LF.

@@ -83,11 +83,7 @@ TEST_CASE("A line of many words is read in slices") {
   LineClient client;
   std::string line = "look";
   while (line.size() < 400'000) line += " 0";
-  for (std::string_view rest = line += '\n'; !rest.empty();) {
-    const std::string_view piece = rest.substr(0, client.session.space().size());
-    client.hand_in(piece);
-    rest.remove_prefix(piece.size());
-  }
+  client.hand_in(line += '\n');
   int slices = 0;
   while (client.session.output().empty() && ++slices < 1000) client.session.run(0us);
   CHECK(slices > 100);
@@ -111,13 +107,8 @@ TEST_CASE("Commands with very many words work on them in slices") {
     INFO(request.substr(0, 20));
     LineClient client;
     for (const std::string line : {"load beamfall seed=1 max_episode_frames=0", "save a"}) client.ask(line);
-    for (std::string_view rest = request; !rest.empty();) {
-      const std::string_view piece = rest.substr(0, client.session.space().size());
-      client.hand_in(piece);
-      rest.remove_prefix(piece.size());
-    }
     std::string reply;
-    const int slices = slices_of(client, "", reply);
+    const int slices = slices_of(client, request, reply);
     CHECK(code(reply) == refusal);
     CHECK(slices >= least);
   }
