@@ -189,17 +189,15 @@ def reached(address: str | None, opened: Callable[[str], Opened]) -> tuple[Opene
     file = waits[1] if waits else address
     until = time.monotonic() + (float(waits[2]) if waits else 0)
     while True:
+        found = file
         try:
             found, token = _in_file(file)
-            try:
-                return opened(found), found, token
-            except OSError as error:
+            return opened(found), found, token
+        except OSError as error:
+            if time.monotonic() >= until:
                 if error.strerror:
                     source = "" if found == file else f", which {file.removeprefix('file:')} names"
                     error.strerror = f"no server answers at {found}{source}: {error.strerror}"
-                raise
-        except OSError:
-            if time.monotonic() >= until:
                 raise
             time.sleep(BETWEEN_TRIES)
 

@@ -40,8 +40,7 @@ class RemoteInterface:
         try:
             self.session: Session = connect(server, token=token, timeout=timeout)
         except OSError as error:
-            told = error.strerror or ""
-            raise ConnectionError(told if told.startswith("no server") else f"no server answers at {server}: {error}") from error
+            raise ConnectionError(error.strerror or f"no server answers at {server}: {error}") from error
         self._view: View | None = None
         self._colours = np.zeros((256, 3), np.uint8)
         self._greys = np.zeros(256, np.uint8)
