@@ -1,13 +1,56 @@
-// A connection, plain or over TLS, as one type. What is built on it is compiled once.
+// A connection, plain or over TLS, as one type. What is built on it is compiled once: Asio would generate its
+// code anew for each kind of stream, of handler and of buffers.
 #pragma once
 
+#include <array>
+#include <memory>
 #include <utility>  // needed by Asio 1.74
 
+#include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/associated_executor.hpp>
 #include <boost/asio/async_result.hpp>
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/generic/stream_protocol.hpp>
 #include <boost/asio/ssl/stream.hpp>
 
 namespace racebeam {
+
+// A handler of any type, which is called once with an error and a number of bytes.
+class IoHandler {
+ public:
+  using executor_type = boost::asio::any_io_executor;
+
+  template <typename Handler>
+  IoHandler(Handler handler, const executor_type& fallback)
+      : executor_(boost::asio::get_associated_executor(handler, fallback)),
+        call_(std::make_unique<CallOf<Handler>>(std::move(handler))) {}
+
+  executor_type get_executor() const { return executor_; }
+
+  // Gives the memory back before the handler goes on, as Asio demands.
+  void operator()(boost::system::error_code error, std::size_t bytes) {
+    std::exchange(call_, nullptr).release()->run(error, bytes);
+  }
+
+ private:
+  struct Call {
+    virtual ~Call() = default;
+    virtual void run(boost::system::error_code error, std::size_t bytes) = 0;  // deletes this
+  };
+  template <typename Handler>
+  struct CallOf final : Call {
+    explicit CallOf(Handler&& which) : handler(std::move(which)) {}
+    void run(boost::system::error_code error, std::size_t bytes) override {
+      Handler moved = std::move(handler);
+      delete this;
+      std::move(moved)(error, bytes);
+    }
+    Handler handler;
+  };
+
+  executor_type executor_;
+  std::unique_ptr<Call> call_;
+};
 
 // Does not own the connection.
 class ByteStream {
@@ -26,8 +69,7 @@ class ByteStream {
   auto async_read_some(const Buffers& buffers, Token&& token) {
     return boost::asio::async_initiate<Token, Signature>(
         [this](auto&& done, const Buffers& space) {
-          if (tls_ != nullptr) return tls_->async_read_some(space, std::forward<decltype(done)>(done));
-          socket_->async_read_some(space, std::forward<decltype(done)>(done));
+          start_read(first<Space>(space), IoHandler(std::move(done), get_executor()));
         },
         token, buffers);
   }
@@ -35,14 +77,33 @@ class ByteStream {
   auto async_write_some(const Buffers& buffers, Token&& token) {
     return boost::asio::async_initiate<Token, Signature>(
         [this](auto&& done, const Buffers& bytes) {
-          if (tls_ != nullptr) return tls_->async_write_some(bytes, std::forward<decltype(done)>(done));
-          socket_->async_write_some(bytes, std::forward<decltype(done)>(done));
+          start_write(first<Bytes>(bytes), IoHandler(std::move(done), get_executor()));
         },
         token, buffers);
   }
 
  private:
   using Signature = void(boost::system::error_code, std::size_t);
+  // The operations may transfer less than they are asked to, so that a few buffers are enough.
+  static constexpr std::size_t kMostBuffers = 8;
+  using Space = std::array<boost::asio::mutable_buffer, kMostBuffers>;
+  using Bytes = std::array<boost::asio::const_buffer, kMostBuffers>;
+
+  // The first buffers that are not empty.
+  template <typename Few, typename Buffers>
+  static Few first(const Buffers& buffers) {
+    Few few;
+    auto next = few.begin();
+    const auto end = boost::asio::buffer_sequence_end(buffers);
+    for (auto at = boost::asio::buffer_sequence_begin(buffers); at != end && next != few.end(); ++at) {
+      const typename Few::value_type buffer = *at;
+      if (buffer.size() != 0) *next++ = buffer;
+    }
+    return few;
+  }
+
+  void start_read(const Space& space, IoHandler done);
+  void start_write(const Bytes& bytes, IoHandler done);
 
   Socket* socket_;
   TlsStream* tls_ = nullptr;

@@ -12,8 +12,9 @@ using net::use_awaitable;
 
 constexpr std::uint64_t kLargestBody = 1024;
 
-template <typename Stream>
-net::awaitable<Exchange> exchange_over(Stream& stream, boost::beast::flat_buffer& buffer, const Site& site) {
+}  // namespace
+
+net::awaitable<Exchange> exchange(ByteStream& stream, boost::beast::flat_buffer& buffer, const Site& site) {
   boost::system::error_code error;
   Exchange done;
   http::request_parser<http::string_body> parser;
@@ -30,17 +31,6 @@ net::awaitable<Exchange> exchange_over(Stream& stream, boost::beast::flat_buffer
   co_await http::async_write(stream, serializer, net::redirect_error(use_awaitable, error));
   done.open = !error && response->keep_alive();
   co_return done;
-}
-
-}  // namespace
-
-net::awaitable<Exchange> exchange(ByteStream& stream, boost::beast::flat_buffer& buffer, const Site& site) {
-  return exchange_over(stream, buffer, site);
-}
-
-net::awaitable<Exchange> exchange(boost::beast::tcp_stream& stream, boost::beast::flat_buffer& buffer,
-                                  const Site& site) {
-  return exchange_over(stream, buffer, site);
 }
 
 }  // namespace racebeam

@@ -6,7 +6,6 @@
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 
 #include "server/web/byte_stream.hpp"
 #include "server/web/site.hpp"
@@ -21,8 +20,6 @@ struct Exchange {
 // Receives a request, and answers it unless it opens a session. Neither is open after bytes that are not
 // HTTP, and when the client has closed the connection. `buffer` keeps what follows the request.
 boost::asio::awaitable<Exchange> exchange(ByteStream& stream, boost::beast::flat_buffer& buffer,
-                                          const Site& site);
-boost::asio::awaitable<Exchange> exchange(boost::beast::tcp_stream& stream, boost::beast::flat_buffer& buffer,
                                           const Site& site);
 
 }  // namespace racebeam

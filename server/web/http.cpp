@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include <boost/asio.hpp>
-#include <boost/beast/core.hpp>
 
 #include "server/access/resolve.hpp"
 #include "server/operation/log.hpp"
@@ -21,6 +20,7 @@ using net::ip::tcp;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMostConnections = 64;
+constexpr auto kTimeout = 30s;  // for a request and its response
 
 }  // namespace
 
@@ -56,8 +56,8 @@ net::awaitable<void> Http::welcome() {
       continue;
     }
     make_room();
-    connections_.push_back(std::make_shared<boost::beast::tcp_stream>(std::move(socket)));
-    const Connection connection = connections_.back();
+    const auto connection = std::make_shared<OpenConnection>(std::move(socket));
+    connections_.push_back(connection);
     net::co_spawn(acceptor_.get_executor(), serve(connection),
                   [this, connection](const std::exception_ptr&) { connections_.remove(connection); });
   }
@@ -66,29 +66,42 @@ net::awaitable<void> Http::welcome() {
 // Closes the oldest connection, so that idle ones do not keep out others.
 void Http::make_room() {
   if (connections_.size() < kMostConnections) return;
-  connections_.front()->close();  // cancels what it waits for
+  error_code ignored;
+  connections_.front()->socket.close(ignored);  // cancels what it waits for
   connections_.pop_front();
+}
+
+// Replaces the limit that was set before.
+void Http::close_after(std::chrono::seconds limit, const Connection& connection) {
+  connection->timeout.expires_after(limit);
+  connection->timeout.async_wait([waiting = std::weak_ptr(connection)](error_code cancelled) {
+    const Connection late = waiting.lock();
+    error_code ignored;
+    if (!cancelled && late) late->socket.close(ignored);
+  });
 }
 
 // Answers requests until the client closes, times out, sends no valid HTTP, or opens a session.
 net::awaitable<void> Http::serve(Connection connection) {
-  boost::beast::tcp_stream& stream = *connection;
+  ByteStream::Socket& socket = connection->socket;
+  ByteStream stream(socket);
   boost::beast::flat_buffer buffer;
   Exchange done;
   done.open = true;
   while (done.open) {
-    stream.expires_after(30s);
+    close_after(kTimeout, connection);
     done = co_await exchange(stream, buffer, site_);
     const auto place = std::ranges::find(connections_, connection);
     if (place == connections_.end()) co_return;
     connections_.splice(connections_.end(), connections_, place);
   }
+  connection->timeout.cancel();
   if (done.session) {
-    on_session_(stream.release_socket().release(), std::move(*done.session));
+    on_session_(socket.release(), std::move(*done.session));
     co_return;
   }
   error_code ignored;
-  stream.socket().shutdown(tcp::socket::shutdown_both, ignored);
+  socket.shutdown(net::socket_base::shutdown_both, ignored);
 }
 
 }  // namespace racebeam

@@ -1,6 +1,7 @@
 // The site of a server on a port of its own (--http).
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <list>
 #include <memory>
@@ -10,9 +11,10 @@
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/asio/steady_timer.hpp>
 
 #include "server/access/address.hpp"
+#include "server/web/byte_stream.hpp"
 #include "server/web/site.hpp"
 
 namespace racebeam {
@@ -32,10 +34,18 @@ class Http {
   bool is_loopback() const;                          // only this machine can reach it
 
  private:
-  using Connection = std::shared_ptr<boost::beast::tcp_stream>;
+  struct OpenConnection {
+    explicit OpenConnection(ByteStream::Socket accepted)
+        : socket(std::move(accepted)), timeout(socket.get_executor()) {}
+
+    ByteStream::Socket socket;
+    boost::asio::steady_timer timeout;
+  };
+  using Connection = std::shared_ptr<OpenConnection>;
 
   boost::asio::awaitable<void> welcome();
   void make_room();  // for one more connection
+  static void close_after(std::chrono::seconds limit, const Connection& connection);
   boost::asio::awaitable<void> serve(Connection connection);
 
   boost::asio::ip::tcp::acceptor acceptor_;
