@@ -10,13 +10,11 @@
 namespace racebeam {
 namespace {
 
-using Kind = Statement::Kind;
-
 constexpr int kDeepestBlock = 50;
 
-class Compiler {
+class StatementCompiler {
  public:
-  Compiler(const std::vector<Token>& tokens, VariableNames& names)
+  StatementCompiler(const std::vector<Token>& tokens, VariableNames& names)
       : in_(tokens), scope_{Purpose::kMode, names} {
     scope_.locals.emplace("mode", kModeSlot);
   }
@@ -28,6 +26,8 @@ class Compiler {
   }
 
  private:
+  using Kind = Statement::Kind;
+
   std::vector<Statement> statements() {
     std::vector<Statement> list;
     for (in_.skip_separators(); !in_.at_end() && !in_.is("}"); in_.skip_separators()) {
@@ -135,7 +135,7 @@ class Compiler {
 
 ModeProgram compile_mode_program(std::string_view source, VariableNames& names) {
   const std::vector<Token> tokens = tokens_of(source);
-  return {Compiler(tokens, names).program()};
+  return {StatementCompiler(tokens, names).program()};
 }
 
 }  // namespace racebeam
