@@ -72,7 +72,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     noop_max: an episode begins with 0 to noop_max - 1 frames of NOOP, drawn from np_random.
     life_loss_ends: a lost life truncates the episode.
     reward_range: (low, high): the reward of a step, of either player, is clipped; (-inf, inf) undoes a preset's.
-    sound: the window plays the sound. server: the game runs there; token: for a server that asks for one. See racebeam.connect().
+    sound: the window plays the sound. server: the game runs there; token, timeout: as racebeam.connect() has them.
 
     A new environment has random seeds. reset(seed=S) powers the console on anew, with seeds that S gives; a reset
     without seed continues the generators. A copy, by copy.deepcopy or pickle, continues where the original is.
@@ -109,6 +109,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         sound: bool = False,
         server: str | None = None,
         token: str | None = None,
+        timeout: float | None = None,
     ) -> None:
         usual = preset_of(preset)
         images.check_name(game)
@@ -134,7 +135,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         _check_frameskip(self._frameskip)
         _check_noop_max(self._noop_max)
         _check_reward_range(self._reward_range)
-        self.ale: Any = ALEInterface() if server is None else RemoteInterface(server, token)
+        self.ale: Any = ALEInterface() if server is None else RemoteInterface(server, token, timeout)
         self._set_keys(
             rules,
             either(repeat_action_probability, usual.repeat_action_probability),
