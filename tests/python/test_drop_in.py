@@ -111,6 +111,28 @@ class Names(unittest.TestCase):
         done = in_process(script)
         self.assertEqual((done.returncode, done.stdout), (0, "108\n"), done.stderr)
 
+    def test_each_module_can_be_imported_in_the_place_of_ale_py(self):
+        script = ("import sys, racebeam.ale_py\n"
+                  "sys.modules['ale_py'] = racebeam.ale_py\n"
+                  "{}\n"
+                  "import racebeam.ale_py.vector_env, racebeam.ale_py._ale_py\n"
+                  "for name in ('AtariEnv', 'AtariVectorEnv', 'ALEInterface', 'ALEVectorInterface', 'Action'):\n"
+                  "    for module in ('ale_py', 'ale_py.env', 'ale_py.vector_env', 'ale_py._ale_py'):\n"
+                  "        if hasattr(sys.modules.get(module), name):\n"
+                  "            assert getattr(sys.modules[module], name) is getattr(racebeam.ale_py, name), (module, name)")
+        for line in ("import ale_py._ale_py", "from ale_py import _ale_py", "from ale_py._ale_py import ALEInterface, ALEVectorInterface",
+                     "import ale_py; ale_py._ale_py", "from ale_py.vector_env import AtariVectorEnv", "import ale_py.vector_env",
+                     "from ale_py import AtariVectorEnv, vector_env", "import ale_py.env, ale_py.registration, ale_py.roms",
+                     "from ale_py import *; AtariEnv, AtariVectorEnv"):
+            with self.subTest(line=line):
+                done = in_process(script.format(line))
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_names_that_are_imported_late_are_listed(self):
+        listed = in_process("import racebeam, racebeam.ale_py; print(*dir(racebeam)); print(*dir(racebeam.ale_py))").stdout.splitlines()
+        self.assertLessEqual(set(racebeam.__all__), set(listed[0].split()))
+        self.assertLessEqual({*drop_in.__all__, "env", "registration", "roms", "vector_env", "register_v5_envs"}, set(listed[1].split()))
+
     def test_the_ids_are_those_of_ale_py(self):
         tell = ("import gymnasium as gym, {0}; print(sorted((i, sorted(s.kwargs.items(), key=str), s.max_episode_steps, s.nondeterministic)"
                 " for i, s in gym.registry.items() if '{1}' in str(s.entry_point) and not i.startswith('racebeam/')))")

@@ -46,23 +46,28 @@ if TYPE_CHECKING:
     from ..env import AtariEnvStepMetadata as AtariEnvStepMetadata
     from ..registration import register_v0_v4_envs as register_v0_v4_envs
     from ..registration import register_v5_envs as register_v5_envs
-    from .vector_env import AtariVectorEnv as AtariVectorEnv
+    from .vectors import AtariVectorEnv as AtariVectorEnv
 
 __version__ = "0.12.1"
 SDL_SUPPORT = False
 
 __all__ = ["ALEInterface", "ALEState", "ALEVectorInterface", "Action", "LoggerMode", "SDL_SUPPORT"]
 
+_HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
 _NEED_GYMNASIUM = {
     "AtariEnv": "racebeam.env",
     "AtariEnvStepMetadata": "racebeam.env",
-    "AtariVectorEnv": "racebeam.ale_py.vector_env",
+    "AtariVectorEnv": "racebeam.ale_py.vectors",
     "register_v0_v4_envs": "racebeam.registration",
     "register_v5_envs": "racebeam.registration",
 }
 
+# Those of ale_py. They import by absolute names alone: as `ale_py.env`, Python loads their files once more.
+_SUBMODULES = ("_ale_py", "env", "registration", "roms", "vector_env")
 
-_SUBMODULES = ("env", "registration", "roms", "vector_env")
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *((*_SUBMODULES, *_NEED_GYMNASIUM) if _HAS_GYMNASIUM else ())})
 
 
 def __getattr__(name: str) -> Any:
@@ -73,7 +78,7 @@ def __getattr__(name: str) -> Any:
     return getattr(importlib.import_module(_NEED_GYMNASIUM[name]), name)
 
 
-if importlib.util.find_spec("gymnasium") is not None:
+if _HAS_GYMNASIUM:
     from ..registration import register_ale_ids
 
     register_ale_ids()
