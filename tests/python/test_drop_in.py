@@ -475,6 +475,17 @@ class Differences(unittest.TestCase):
                 self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", ours.step, action)
             self.assertRaisesRegex(racebeam.InvalidInput, "not a finite number", many.step, np.array([action] * 2))
             self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", ours.ale.act, 0, radius)
+        for env, action in ((ours, np.array([0, np.inf, 0], np.float32)), (many, np.array([[0, 0, 0], [0, 0, np.inf]], np.float32))):
+            self.assertRaisesRegex(racebeam.InvalidInput, "finite number", env.step, action)
+
+    def test_17_arguments_of_AtariEnv_are_checked(self):
+        for arguments in ({"repeat_action_probability": 2}, {"max_num_frames_per_episode": -5}, {"frameskip": 2**31},
+                          {"continuous_action_threshold": "x"}, {"continuous_action_threshold": float("nan"), "continuous": True}):
+            with self.subTest(**arguments):
+                self.assertRaises(gymnasium.error.Error, drop_in.AtariEnv, "pong", **arguments)
+                ale_py.AtariEnv("pong", **arguments)
+        drop_in.AtariEnv("pong", frameskip=np.int64(4))
+        self.assertRaises(gymnasium.error.Error, ale_py.AtariEnv, "pong", frameskip=np.int64(4))
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from . import _core, images, xla
-from .arguments import either, flag, whole
+from .arguments import either, flag, real, seconds, whole
 from .errors import InvalidInput
 from .vector_results import Bools, Numbers, Pixels, Results
 from .vector_settings import SEEDS, autoreset_of, settings_of
@@ -140,9 +140,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self.metadata = {**type(self).metadata, "autoreset_mode": self.autoreset_mode}
         self.render_mode = render_mode
         self.grayscale: bool = not settings["rgb"]
-        self.continuous, self.continuous_action_threshold = flag("continuous", continuous), float(continuous_action_threshold)
+        self.continuous, self.continuous_action_threshold = flag("continuous", continuous), real("continuous_action_threshold", continuous_action_threshold)
         self._shows_ram = obs_type == "ram"
-        self._machines: Any = _machines(names, game_of_env, rom, settings, server, token, timeout)
+        self._machines: Any = _machines(names, game_of_env, rom, settings, server, token, seconds("timeout", timeout))
         self._make_spaces(settings)
         self._received = np.arange(self.num_envs, dtype=np.int32)
         self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
@@ -263,7 +263,11 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         if array.dtype.kind not in "fiu":
             raise TypeError(f"actions have the type {array.dtype}; they must be numbers: radius, angle and fire")
         self._check_shape(array, (3,))
-        return np.ascontiguousarray(array, np.float32)
+        with np.errstate(over="ignore"):
+            joysticks = np.ascontiguousarray(array, np.float32)
+        if not np.isfinite(joysticks).all():
+            raise InvalidInput(f"a part of the actions is {joysticks[~np.isfinite(joysticks)][0]}, which is not a finite number")
+        return joysticks
 
     def _check_shape(self, actions: npt.NDArray[Any], rest: tuple[int, ...]) -> None:
         if actions.shape != (self.batch_size, *rest):

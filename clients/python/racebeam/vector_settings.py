@@ -13,12 +13,11 @@ from gymnasium import error
 from gymnasium.vector import AutoresetMode
 
 from . import _core
-from .arguments import check_choice, either, flag, member, share, whole
+from .arguments import MOST, check_choice, either, flag, member, share, whole
 from .presets import vector_preset
 
 OBS_TYPES = (None, "rgb", "grayscale", "ram")
 RULES = {"ale-0.12": _core.Rules.ALE_0_12, "fixed": _core.Rules.FIXED}
-MOST = 2**31 - 1
 SEEDS = (0, 2**32 - 1)
 SIDES = (0, 1000)  # the screens of a game limit them further
 

@@ -28,7 +28,9 @@ infos are the same to the byte, for the same seeds and actions. What differs:
     process for others. After close(), ClosedEnvironmentError is raised; ale_py goes on.
 15. The first reset() of ALEVectorInterface may be of some environments. What is below it and xla() is not there: AutoresetMode
     and VectorXLAReset, VectorXLAStep. xla() does not need chex. A handle of environments that were closed is an error.
-16. A paddle's strength, or a radius, that is infinite or NaN is an InvalidInput; ale_py plays it.
+16. A paddle's strength, or a part of a continuous action, that is infinite or NaN is an InvalidInput; ale_py plays it.
+17. AtariEnv refuses a repeat_action_probability that is not in 0 to 1, a negative max_num_frames_per_episode, a
+    continuous_action_threshold that is no number, and a frameskip above 2,147,483,647. It takes integers of NumPy.
 """
 
 from __future__ import annotations
