@@ -36,6 +36,7 @@ def settings_of(given: Mapping[str, Any], num_envs: int) -> dict[str, Any]:
     check_choice("obs_type", given["obs_type"], OBS_TYPES)
     check_choice("render_mode", given["render_mode"], (None, "rgb_array"))
     check_choice("rules", given["rules"], tuple(RULES))
+    _check_lives(given)
     return {
         "seed": secrets.randbits(32) if given["seed"] is None else whole("seed", given["seed"], *SEEDS),
         "rules": RULES[given["rules"]],
@@ -70,6 +71,12 @@ def _of_steps(given: Mapping[str, Any]) -> dict[str, Any]:
         "reward_max": high,
         "pool": _flag(given, "maxpool"),
     }
+
+
+def _check_lives(given: Mapping[str, Any]) -> None:
+    for name, word in (("episodic_life", "restart"), ("life_loss_info", "told")):
+        if given["lives"] not in (None, word) and _flag(given, name):
+            raise error.Error(f"{name} is True, which means lives={word!r}, but lives is {given['lives']!r}")
 
 
 def _of_episodes(given: Mapping[str, Any]) -> dict[str, Any]:

@@ -42,7 +42,7 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
         if turned.dtype.kind not in "fiu":
             raise TypeError(f"paddle strengths have the type {turned.dtype}; they must be numbers")
         self._check_shape(turned, ())
-        self.machines().send_strengths(vector_env.AtariVectorEnv._indices(self, actions), turned.astype(np.float32), self._received)
+        self.machines().send_strengths(vector_env.AtariVectorEnv._indices(self, actions), turned.astype(np.float32), self._ready())
 
     def _indices(self, actions: Any) -> npt.NDArray[np.int64]:
         assert isinstance(actions, np.ndarray) and actions.dtype in (np.int32, np.int64), \
