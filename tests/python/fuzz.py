@@ -1,4 +1,5 @@
-"""Calls everything that the package has with random arguments, on objects that are new, closed, or in use by other threads.
+"""Calls everything that the package has with random arguments, on objects that are new, closed, in use by other threads, or on
+a server.
 
     fuzz.py [--seconds N] [--seed N] [--calls N]
 
@@ -22,6 +23,7 @@ import package
 
 package.require("numpy", "gymnasium")
 
+import fuzz_servers
 import numpy as np
 from gymnasium.error import ClosedEnvironmentError, Error
 
@@ -33,8 +35,9 @@ from racebeam import _core
 
 PATIENCE = 120  # seconds
 LONGEST = 200  # frames of an act
-DOCUMENTED = (TypeError, IndexError, racebeam.InvalidInput, Error, ClosedEnvironmentError)
-DELIBERATE = re.compile("has no answer where|each must be -1, 0 or 1|has no xla|must be a float32 array")  # of other types
+DOCUMENTED = (TypeError, IndexError, racebeam.InvalidInput, Error, ClosedEnvironmentError, *fuzz_servers.DOCUMENTED)
+DELIBERATE = re.compile("has no answer where|each must be -1, 0 or 1|has no xla|must be a float32 array|"  # of other types
+                        + fuzz_servers.DELIBERATE)
 KEYS = ("random_seed", "reward_min", "sound_obs", "rules", "max_num_frames_per_episode", "repeat_action_probability", "color_averaging")
 
 LEFT_OUT = ("saveScreenPNG", "xla", "get_wrapper_attr", "set_wrapper_attr")  # writes files; needs JAX (test_xla.py); Gymnasium's
@@ -114,6 +117,8 @@ MAKERS = {
     "envpool": lambda: racebeam.envpool.make("Beamfall-v5", **{"env_type": "gymnasium", **arguments_of(POOL)}),
     "VectorMachines": machines,
 }
+SERVERS = fuzz_servers.Servers(chance, game, lambda: arguments_of(ENV), lambda: arguments_of(VECTOR))
+MAKERS.update(SERVERS.makers())
 FUNCTIONS = [_core.games, _core.md5s, _core.identify, _core.image_files, _core.xla_handle]
 
 
@@ -139,6 +144,9 @@ def is_too_long(method, arguments):
 
 def call(thing, kept):
     """One call of a random method."""
+    if isinstance(thing, racebeam.Session):
+        SERVERS.ask(thing)
+        return
     method = chance.choice([name for name in dir(thing) if not name.startswith("_") and name not in LEFT_OUT])
     arguments = sensible(thing, method) if chance.random() < 0.6 else [value() for _ in range(chance.choice([0, 1, 1, 2, 3]))]
     if method in ("restore", "restoreState", "restore_state") and kept and chance.random() < 0.7:
@@ -172,11 +180,13 @@ def round_of_calls(calls, failures):
                 thing = documented(chance.choice(list(MAKERS.values()))) or thing
             if chance.random() < 0.01:
                 documented(chance.choice(FUNCTIONS), *[value() for _ in range(chance.randrange(4))])
-            if thing is not None and chance.random() < 0.01:
+            if chance.random() < 0.005:
+                chance.choice(SERVERS.checks())()
+            if thing is not None and not isinstance(thing, racebeam.Session) and chance.random() < 0.01:
                 thing = documented(lambda: pickle.loads(pickle.dumps(thing))) or thing
             if thing is None:
                 continue
-            if chance.random() < 0.05:
+            if chance.random() < 0.05 and not isinstance(thing, racebeam.Session):
                 together(thing, kept, failures)
             documented(call, thing, kept)
         except Exception:

@@ -2,6 +2,7 @@
 
 import asyncio
 import unittest
+import unittest.mock
 
 import package
 
@@ -48,6 +49,14 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
         self.assertIn("reward", (await kept)[0])
         self.assertTrue(given_up.cancelled())
 
+    async def test_a_request_that_is_cut_off_ends_the_session(self):
+        with unittest.mock.patch.object(asyncio, "get_running_loop", side_effect=KeyboardInterrupt):  # after it is sent
+            with self.assertRaises(KeyboardInterrupt):
+                self.session.request("look", "ram").send(None)
+        for _ in range(2):
+            with self.assertRaisesRegex(ConnectionError, "was interrupted between a request and the end of its reply"):
+                await self.session.request("act", 1)
+
     async def test_it_ends(self):
         waiting = asyncio.create_task(self.session.request("act", "0*10000"))
         await asyncio.sleep(0)
@@ -82,6 +91,45 @@ class Ends(unittest.IsolatedAsyncioTestCase):
 
     async def test_a_line_that_is_too_long_is_one_too(self):
         await self.check(b"ok " + b"x" * 5000, ConnectionError, "has ended", longest_reply=1000)
+
+    async def silent(self, reader, writer):
+        """Greets, answers one request late, and no more."""
+        await reader.readline()
+        writer.write(b"ok protocol=1\n")
+        await reader.readline()
+        await asyncio.sleep(0.3)
+        writer.write(b"ok reward=1\n")
+        await reader.read()
+        writer.close()
+
+    async def test_a_silent_server_is_a_TimeoutError(self):
+        async with await asyncio.start_server(self.silent, "127.0.0.1", 0) as server:
+            address = f"tcp://127.0.0.1:{server.sockets[0].getsockname()[1]}"
+            session = await aio.connect(address, timeout=0.5)
+            begin = asyncio.get_running_loop().time()
+            first, second, third = await asyncio.gather(*(session.request("act", 1) for _ in range(3)), return_exceptions=True)
+            self.assertEqual(first, [{"reward": 1}])
+            self.assertRegex(str(second), "did not answer in time")
+            self.assertEqual((type(second), type(third)), (TimeoutError, TimeoutError))
+            self.assertGreater(asyncio.get_running_loop().time() - begin, 0.75)  # the reply began the time anew
+            with self.assertRaisesRegex(ConnectionError, "did not answer in time"):
+                await session.request("act", 1)
+            again = await session.reconnect()
+            self.assertEqual(await again.request("act", 1), [{"reward": 1}])
+            await again.close()
+
+    async def test_a_server_that_does_not_greet_is_a_TimeoutError(self):
+        async def mute(reader, writer):
+            await reader.read()
+            writer.close()
+        async with await asyncio.start_server(mute, "127.0.0.1", 0) as server:
+            with self.assertRaises(TimeoutError):
+                await aio.connect(f"tcp://127.0.0.1:{server.sockets[0].getsockname()[1]}", timeout=0.2)
+
+    async def test_a_session_is_opened_again_only_by_connect(self):
+        async with await aio.launch() as session:
+            with self.assertRaisesRegex(ValueError, "cannot be opened again"):
+                await session.reconnect()
 
     async def test_other_versions_and_addresses(self):
         for address in ("stdio", "pipes:x", "host:1", "tcp://"):

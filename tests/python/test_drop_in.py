@@ -111,6 +111,28 @@ class Names(unittest.TestCase):
         done = in_process(script)
         self.assertEqual((done.returncode, done.stdout), (0, "108\n"), done.stderr)
 
+    def test_each_module_can_be_imported_in_the_place_of_ale_py(self):
+        script = ("import sys, racebeam.ale_py\n"
+                  "sys.modules['ale_py'] = racebeam.ale_py\n"
+                  "{}\n"
+                  "import racebeam.ale_py.vector_env, racebeam.ale_py._ale_py\n"
+                  "for name in ('AtariEnv', 'AtariVectorEnv', 'ALEInterface', 'ALEVectorInterface', 'Action'):\n"
+                  "    for module in ('ale_py', 'ale_py.env', 'ale_py.vector_env', 'ale_py._ale_py'):\n"
+                  "        if hasattr(sys.modules.get(module), name):\n"
+                  "            assert getattr(sys.modules[module], name) is getattr(racebeam.ale_py, name), (module, name)")
+        for line in ("import ale_py._ale_py", "from ale_py import _ale_py", "from ale_py._ale_py import ALEInterface, ALEVectorInterface",
+                     "import ale_py; ale_py._ale_py", "from ale_py.vector_env import AtariVectorEnv", "import ale_py.vector_env",
+                     "from ale_py import AtariVectorEnv, vector_env", "import ale_py.env, ale_py.registration, ale_py.roms",
+                     "from ale_py import *; AtariEnv, AtariVectorEnv"):
+            with self.subTest(line=line):
+                done = in_process(script.format(line))
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_names_that_are_imported_late_are_listed(self):
+        listed = in_process("import racebeam, racebeam.ale_py; print(*dir(racebeam)); print(*dir(racebeam.ale_py))").stdout.splitlines()
+        self.assertLessEqual(set(racebeam.__all__), set(listed[0].split()))
+        self.assertLessEqual({*drop_in.__all__, "env", "registration", "roms", "vector_env", "register_v5_envs"}, set(listed[1].split()))
+
     def test_the_ids_are_those_of_ale_py(self):
         tell = ("import gymnasium as gym, {0}; print(sorted((i, sorted(s.kwargs.items(), key=str), s.max_episode_steps, s.nondeterministic)"
                 " for i, s in gym.registry.items() if '{1}' in str(s.entry_point) and not i.startswith('racebeam/')))")
@@ -453,6 +475,17 @@ class Differences(unittest.TestCase):
                 self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", ours.step, action)
             self.assertRaisesRegex(racebeam.InvalidInput, "not a finite number", many.step, np.array([action] * 2))
             self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", ours.ale.act, 0, radius)
+        for env, action in ((ours, np.array([0, np.inf, 0], np.float32)), (many, np.array([[0, 0, 0], [0, 0, np.inf]], np.float32))):
+            self.assertRaisesRegex(racebeam.InvalidInput, "finite number", env.step, action)
+
+    def test_17_arguments_of_AtariEnv_are_checked(self):
+        for arguments in ({"repeat_action_probability": 2}, {"max_num_frames_per_episode": -5}, {"frameskip": 2**31},
+                          {"continuous_action_threshold": "x"}, {"continuous_action_threshold": float("nan"), "continuous": True}):
+            with self.subTest(**arguments):
+                self.assertRaises(gymnasium.error.Error, drop_in.AtariEnv, "pong", **arguments)
+                ale_py.AtariEnv("pong", **arguments)
+        drop_in.AtariEnv("pong", frameskip=np.int64(4))
+        self.assertRaises(gymnasium.error.Error, ale_py.AtariEnv, "pong", frameskip=np.int64(4))
 
 
 if __name__ == "__main__":

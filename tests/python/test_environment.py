@@ -224,7 +224,18 @@ class BadInput(unittest.TestCase):
         self.refused(RuntimeError, "beamfall has no mode 7; it offers 0", make, "beamfall", mode=7)
         self.refused(RuntimeError, "beamfall has no difficulty 9; it offers 0, 1", make, "beamfall", difficulty=9)
         self.refused(racebeam.InvalidInput, "there is no preset 'dqn'; there are ale,", make, "beamfall", preset="dqn")
-        self.refused(racebeam.InvalidInput, "not a number", make, "beamfall", repeat_action_probability=float("nan"))
+        self.refused(racebeam.InvalidInput, r"there is no preset \[1\]; there are ale,", make, "beamfall", preset=[1])
+        self.refused(racebeam.InvalidInput, "rules is 5; it takes ale-0.12 or fixed", make, "beamfall", rules=5)
+        for probability in (2, -0.5, "x", float("nan"), [0.5]):
+            self.refused(wrong, "repeat_action_probability is", make, "beamfall", repeat_action_probability=probability)
+        for name, values in (("mode", ("x", 1.0, -1, 2**40)), ("difficulty", ("x", -1)), ("max_num_frames_per_episode", (1.5, -5, 2**40)),
+                             ("noop_max", (1.5, -1, 10**12)), ("frameskip", (2**31, (1, 2**31), (1.0, 2), True)), ("server", (5, ["unix:x"])),
+                             ("continuous_action_threshold", ("x", float("nan"), None)), ("timeout", ("x", 0, -1, float("nan")))):
+            for value in values:
+                self.refused(wrong, f"{name} (is|has)", make, "beamfall", **{name: value})
+        for name in ("frameskip", "max_num_frames_per_episode", "noop_max"):
+            make("beamfall", **{name: np.int64(4)}).reset(seed=1)
+        make("beamfall", frameskip=(np.int64(2), 5), mode=np.int32(0), difficulty=np.int64(1)).reset(seed=1)
         self.refused(racebeam.InvalidInput, "beamfall has no mode for two", make, "beamfall", two_player=True)
         for flag in ("two_player", "continuous", "sound", "sound_obs", "life_loss_ends", "full_action_space"):
             self.refused(wrong, f"{flag} is array.*; it takes True or False", make, "beamfall", **{flag: np.ones(2, bool)})
@@ -280,8 +291,12 @@ class BadInput(unittest.TestCase):
         env = racebeam.AtariEnv("beamfall")
         env.close()
         env.close()
-        self.refused(gym.error.ClosedEnvironmentError, "was closed", env.step, 0)
-        self.refused(gym.error.ClosedEnvironmentError, "was closed", env.reset)
+        ours = racebeam.AtariEnv("beamfall")
+        for call in (lambda: env.step(0), env.reset, env.render, env.clone_state, lambda: env.restore_state(ours.clone_state()),
+                     env.seed_game, env.load_game, lambda: env.ale.act(0), lambda: env.ale.getScreenRGB(), lambda: copy.copy(env),
+                     lambda: copy.deepcopy(env), lambda: pickle.dumps(env)):
+            self.refused(gym.error.ClosedEnvironmentError, "was closed", call)
+        self.assertEqual(env.get_action_meanings(), ours.get_action_meanings())
 
     def test_states(self):
         env = racebeam.AtariEnv("beamfall")

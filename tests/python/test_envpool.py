@@ -10,6 +10,7 @@ package.require("numpy", "gymnasium")
 
 import gymnasium
 import numpy as np
+from gymnasium.error import Error
 
 import racebeam
 from racebeam import InvalidInput, envpool
@@ -179,6 +180,44 @@ class Others(unittest.TestCase):
         envs.close()
         with self.assertRaises(gymnasium.error.ClosedEnvironmentError):
             envs.step(np.zeros(3, int))
+
+
+class Rendering(unittest.TestCase):
+    def test_what_envpool_takes_for_it(self):
+        for arguments in ({"render_mode": "rgb_array"}, {"render_mode": None}, {"from_pixels": False}, {"render_camera_id": -1}):
+            envs = make("gymnasium", **arguments)
+            self.assertNotIn(*arguments, envs.config)
+            self.assertEqual(envs.render().shape, (1, 210, 160, 3))
+        for arguments in ({"render_mode": "human"}, {"from_pixels": True}, {"render_width": 100}, {"render_height": 3}, {"render_camera_id": 4}):
+            with self.subTest(**arguments), self.assertRaisesRegex(racebeam.InvalidInput, "racebeam has"):
+                make("gymnasium", **arguments)
+
+    def test_the_environment_that_is_shown(self):
+        first, second = (make("gymnasium", num_envs=2, env_seed=[1, 9], render_env_id=env) for env in (0, 1))
+        for envs in (first, second):
+            envs.reset()
+            for _ in range(20):
+                envs.step(np.array([3, 4]))
+        self.assertTrue(np.array_equal(second.render(), first.render(1)))
+        self.assertFalse(np.array_equal(second.render(), first.render()))
+        for env in (2, -1, "x", None):
+            with self.subTest(env=env), self.assertRaisesRegex(Error, "render_env_id"):
+                make("gymnasium", num_envs=2, render_env_id=env)
+
+    def test_a_reset_without_infos_is_of_gym_alone(self):
+        for env_type in ("gymnasium", "dm"):
+            with self.assertRaisesRegex(ValueError, "gym_reset_return_info is False"):
+                make(env_type, gym_reset_return_info=False)
+        self.assertEqual(make("gym", gym_reset_return_info=False).reset().ndim, 4)
+
+    def test_rewards_and_discounts_of_dm(self):
+        try:
+            from dm_env import specs
+        except ImportError:
+            self.skipTest("there is no dm_env")
+        envs = make("dm")
+        self.assertEqual(envs.reward_spec(), specs.Array((), float, "reward"))
+        self.assertEqual(envs.discount_spec(), specs.BoundedArray((), float, 0.0, 1.0, "discount"))
 
 
 class Found(unittest.TestCase):

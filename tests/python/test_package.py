@@ -87,6 +87,22 @@ class Files(unittest.TestCase):
             done = subprocess.run([sys.executable, "-m", *command], capture_output=True, text=True, cwd=FOLDER.parent.parent)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_types_help_those_who_call(self):
+        if not has("mypy") or not has("gymnasium"):
+            self.skipTest("there is no mypy, or no Gymnasium")
+        calls = ("import numpy as np, racebeam, racebeam.envpool\n"
+                 "envs = racebeam.AtariVectorEnv('beamfall', 2, seed=np.int64(3))\n"
+                 "envs.reset(seed=np.int64(4)), envs.reset(seed=[np.int64(4), None])\n"
+                 "reveal_type(envs.step([0, 1]))\n"
+                 "reveal_type(racebeam.envpool.make('Pong-v5', env_type='gymnasium'))\n"
+                 "reveal_type(racebeam.envpool.make('Pong-v5', 'dm').reset())\n")
+        done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(package.VENV.parent / "mypy"), "-c", calls],
+                              capture_output=True, text=True, cwd=FOLDER.parent)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        told = re.findall('Revealed type is "(.*)"', done.stdout)
+        self.assertRegex(told[0], r"tuple\[.*ndarray\[.*signedinteger\[numpy._typing._nbit_base._32Bit\].*bool")
+        self.assertRegex("".join(told[1:]), "GymnasiumEnvPool.*TimeStep")
+
 
 class Program(unittest.TestCase):
     def test_it_is_beside_python(self):

@@ -339,13 +339,35 @@ class BadInput(unittest.TestCase):
                 with self.subTest(actions=actions), self.assertRaises(error):
                     one.step(actions)
         self.assertEqual(envs.step([0, 0])[0].shape, (2, 4, 84, 84))
+        for number in (2**63, 2**64 - 1):
+            with self.assertRaisesRegex(IndexError, f"action {number} is out of range; there are 0 to 17"):
+                envs.step(np.array([0, number], np.uint64))
+
+    def test_actions_before_the_first_reset_of_a_batch(self):
+        for arguments, action in (({}, [0]), ({"continuous": True}, [[0, 0, 0]])):
+            envs = AtariVectorEnv("beamfall", 2, batch_size=1, seed=1, **arguments)
+            for call in (envs.send, envs.step):
+                with self.assertRaisesRegex(InvalidInput, r"call reset\(\) first"):
+                    call(action)
+            envs.reset()
+            envs.step(action)
+
+    def test_a_lost_life_has_one_effect(self):
+        for flag, others in (("episodic_life", ("end", "told", "ignored")), ("life_loss_info", ("end", "restart"))):
+            for lives in others:
+                with self.subTest(flag=flag, lives=lives), self.assertRaisesRegex(Error, f"{flag} is True.* but lives is '{lives}'"):
+                    AtariVectorEnv("beamfall", 2, lives=lives, **{flag: True})
+        AtariVectorEnv("beamfall", 2, lives="restart", episodic_life=True)
+        AtariVectorEnv("beamfall", 2, preset="dqn2015", episodic_life=True)
 
     def test_seeds_and_masks(self):
         envs = AtariVectorEnv("beamfall", 2, seed=1)
         for seed, error in (("12", TypeError), (1.5, TypeError), (-3, InvalidInput), ([1], InvalidInput), ([1, -5], InvalidInput),
                             (2**32, InvalidInput), ([1, "x"], TypeError), (np.zeros((2, 3)), TypeError)):
-            with self.subTest(seed=seed), self.assertRaises(error):
+            with self.subTest(seed=seed), self.assertRaisesRegex(error, "seed"):
                 envs.reset(seed=seed)
+        self.assertRaisesRegex(InvalidInput, r"the seeds have the shape \(2, 1\); they must have \(2,\)", envs.reset, seed=np.zeros((2, 1), int))
+        self.assertTrue(np.array_equal(envs.reset(seed=np.array(3))[0], envs.reset(seed=3)[0]))
         for options in (3, "x", [("reset_mask", None)]):
             with self.assertRaises(TypeError):
                 envs.reset(options=options)

@@ -49,6 +49,10 @@ def _need_gymnasium(what: str) -> None:
         raise ImportError(f'racebeam.{what} needs Gymnasium; install it with: pip install "racebeam[gymnasium]"')
 
 
+def __dir__() -> list[str]:
+    return sorted({*globals(), *(_NEED_GYMNASIUM if _HAS_GYMNASIUM else ())})
+
+
 def __getattr__(name: str) -> Any:
     if name not in _NEED_GYMNASIUM:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

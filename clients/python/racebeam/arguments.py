@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import enum
+import math
 import operator
 from typing import Any, TypeVar
 
 from gymnasium import error
 
 Member = TypeVar("Member", bound=enum.Enum)
+MOST = 2**31 - 1
 
 
 def either(given: Any, usual: Any) -> Any:
@@ -59,4 +61,23 @@ def share(name: str, value: Any) -> float:
         raise error.Error(f"{name} is {value!r}; it takes a number from 0 to 1") from None
     if not 0 <= number <= 1:
         raise error.Error(f"{name} is {number}; it takes 0 to 1")
+    return number
+
+
+def real(name: str, value: Any) -> float:
+    """A number, which may be infinite."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError, OverflowError):
+        number = math.nan
+    if math.isnan(number):
+        raise error.Error(f"{name} is {value!r}; it takes a number")
+    return number
+
+
+def seconds(name: str, value: Any) -> float | None:
+    """A time limit, or None."""
+    number = None if value is None else real(name, value)
+    if number is not None and not 0 < number <= MOST:
+        raise error.Error(f"{name} is {number}; it takes None, or seconds above 0")
     return number

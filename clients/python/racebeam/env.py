@@ -16,7 +16,7 @@ from gymnasium.utils import seeding
 
 from . import images
 from ._core import Action, ALEState, View
-from .arguments import check_choice, either, flag, listed
+from .arguments import MOST, check_choice, either, flag, listed, real, seconds, share, whole
 from .errors import InvalidInput
 from .interface import ALEInterface
 from .presets import preset as preset_of
@@ -30,6 +30,7 @@ Rom = Union[str, os.PathLike[str], bytes]
 Played = tuple[Any, float, float, bool, bool, int, int, int]  # what ALEInterface.step() returns
 
 VIEWS = {"rgb": View.RGB, "grayscale": View.GRAYSCALE, "ram": View.RAM}
+RULES = ("ale-0.12", "fixed")
 RENDER_MODES = (None, "human", "rgb_array")
 FIRST_OF_B = 18  # player B's actions have the numbers after A's
 KEYS = (("UP", "w"), ("DOWN", "s"), ("RIGHT", "d"), ("LEFT", "a"), ("FIRE", " "))
@@ -72,14 +73,15 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     noop_max: an episode begins with 0 to noop_max - 1 frames of NOOP, drawn from np_random.
     life_loss_ends: a lost life truncates the episode.
     reward_range: (low, high): the reward of a step, of either player, is clipped; (-inf, inf) undoes a preset's.
-    sound: the window plays the sound. server: the game runs there; token: for a server that asks for one. See racebeam.connect().
+    sound: the window plays the sound. server: the game runs there; token, timeout: as racebeam.connect() has them.
 
     A new environment has random seeds. reset(seed=S) powers the console on anew, with seeds that S gives; a reset
     without seed continues the generators. A copy, by copy.deepcopy or pickle, continues where the original is.
 
     Raises gymnasium.error.Error for a wrong argument or seed; UnknownGame, MissingImage, or InvalidInput for what the
     game does not accept; TypeError or IndexError for a wrong action, and AssertionError for a continuous one that is no
-    float32 array of 3; ClosedEnvironmentError after close(). With a server: also Refused, ConnectionError and TimeoutError.
+    float32 array of 3; ClosedEnvironmentError after close(). With a server: also Refused, ConnectionError and TimeoutError, and RuntimeError in a
+    child process after a fork.
     """
 
     metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 30}
@@ -109,8 +111,10 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         sound: bool = False,
         server: str | None = None,
         token: str | None = None,
+        timeout: float | None = None,
     ) -> None:
         usual = preset_of(preset)
+        _check_rules(rules)
         images.check_name(game)
         check_choice("obs_type", obs_type, tuple(VIEWS))
         check_choice("render_mode", render_mode, RENDER_MODES)
@@ -118,32 +122,29 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         if two_player and continuous:
             raise error.Error("two_player and continuous are both True; a game for two takes indices of actions alone")
         self._game, self._rom = game, rom
-        self._game_mode, self._game_difficulty = mode, difficulty
+        self._game_mode, self._game_difficulty = _optional("mode", mode), _optional("difficulty", difficulty)
         self._obs_type, self._view = obs_type, VIEWS[obs_type]
-        self._frameskip = either(frameskip, usual.frameskip)
-        self._noop_max: int = either(noop_max, usual.noop_max)
+        self._frameskip = _frameskip(either(frameskip, usual.frameskip))
+        self._noop_max = whole("noop_max", either(noop_max, usual.noop_max), 0, MOST)
         self._reward_range: tuple[float, float] | None = either(reward_range, usual.reward_range)
         self._two_player = two_player
         self.continuous = continuous
-        self.continuous_action_threshold = continuous_action_threshold
+        self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
         self.sound_obs = flag("sound_obs", sound_obs)
         self.render_mode = render_mode
         self._sound = flag("sound", sound) and render_mode == "human"
         self._window: Window | None = None
         self._is_closed = False
-        _check_frameskip(self._frameskip)
-        _check_noop_max(self._noop_max)
         _check_reward_range(self._reward_range)
-        self.ale: Any = ALEInterface() if server is None else RemoteInterface(server, token)
-        self._set_keys(
-            rules,
-            either(repeat_action_probability, usual.repeat_action_probability),
-            either(max_num_frames_per_episode, usual.max_num_frames_per_episode),
-            flag("life_loss_ends", either(life_loss_ends, usual.life_loss_ends)),
-        )
+        sticky = share("repeat_action_probability", either(repeat_action_probability, usual.repeat_action_probability))
+        limit = _optional("max_num_frames_per_episode", either(max_num_frames_per_episode, usual.max_num_frames_per_episode))
+        life_loss_ends = flag("life_loss_ends", either(life_loss_ends, usual.life_loss_ends))
+        is_full = flag("full_action_space", either(full_action_space, usual.full_action_space))
+        self.ale: Any = _interface(server, token, seconds("timeout", timeout))
+        self._set_keys(rules, sticky, limit, life_loss_ends)
         self.seed_game()
         self.load_game()
-        self._set_spaces(flag("full_action_space", either(full_action_space, usual.full_action_space)))
+        self._set_spaces(is_full)
         self._open_window()
 
     def _set_keys(self, rules: str, sticky: float, limit: int | None, life_loss_ends: bool) -> None:
@@ -217,7 +218,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, AtariEnvStepMetadata]:
         """Begins an episode; with a seed, the game from power-on. There are no options."""
-        self._check_open("reset")
+        self._check_open("reset()")
         seeds = None
         if seed is not None:
             seeds = self.seed_game(seed)
@@ -243,7 +244,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self, action: PlayerAction
     ) -> tuple[Observation, float, bool, bool, AtariEnvStepMetadata]:
         """Plays an action for the frames of a step, all of them, also where the game ends before."""
-        self._check_open("step")
+        self._check_open("step()")
         meant = self._meant(action)
         frames = self._frameskip
         if isinstance(frames, tuple):
@@ -301,6 +302,8 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     def _of_continuous(self, action: Any) -> tuple[int, float]:
         if not (isinstance(action, np.ndarray) and action.dtype == np.float32 and action.shape == (3,)):
             raise AssertionError(f"action is {action!r}; it must be a float32 array of 3: radius, angle and fire")
+        if not np.isfinite(action).all():
+            raise InvalidInput(f"action is {action!r}; each part must be a finite number")
         radius, angle, fire = action
         threshold = np.float32(self.continuous_action_threshold)  # the comparisons are those of float32
         x, y = radius * np.cos(angle), radius * np.sin(angle)
@@ -349,7 +352,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
 
     def render(self) -> Pixels | None:
         """The picture, for "rgb_array"; None for "human", whose window shows it already."""
-        self._check_open("render")
+        self._check_open("render()")
         if self.render_mode == "human":
             return None
         if self.render_mode != "rgb_array":
@@ -384,12 +387,12 @@ class AtariEnv(gymnasium.Env[Any, Any]):
 
     def __getstate__(self) -> dict[str, Any]:
         """The game as it is. A copy opens a window of its own."""
+        self._check_open("a copy")
         return {**self.__dict__, "_window": None}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
-        if not self._is_closed:
-            self._open_window()
+        self._open_window()
 
     def close(self) -> None:
         """Closes the window, and the session with a server. A second call does nothing."""
@@ -401,33 +404,63 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             self._window = None
         if isinstance(self.ale, RemoteInterface):
             self.ale.close()
+        self.ale = _Closed(self._game)
 
     def _check_open(self, what: str) -> None:
         if self._is_closed:
-            raise error.ClosedEnvironmentError(f"{what}() is not possible: this environment of {self._game} was closed")
+            raise _closed(what, self._game)
+
+
+class _Closed:
+    """In the place of the interface of an environment that was closed."""
+
+    def __init__(self, game: str) -> None:
+        self._game = game
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        raise _closed(name, self._game)
+
+
+def _closed(what: str, game: str) -> error.ClosedEnvironmentError:
+    return error.ClosedEnvironmentError(f"{what} is not possible: this environment of {game} was closed")
 
 
 def _keys_of(action: str) -> tuple[str, ...]:
     return tuple(key for part, key in KEYS if part in action) or (KEY_OF_NOOP,)
 
 
+def _interface(server: object, token: str | None, timeout: float | None) -> Any:
+    if server is None:
+        return ALEInterface()
+    if not isinstance(server, str):
+        raise error.Error(f"server is {server!r}; it takes the address of one server")
+    return RemoteInterface(server, token, timeout)
+
+
+def _check_rules(rules: object) -> None:
+    if not isinstance(rules, str) or rules not in RULES:
+        raise InvalidInput(f"rules is {rules!r}; it takes {' or '.join(RULES)}")
+
+
+def _optional(name: str, value: Any) -> int | None:
+    return None if value is None else whole(name, value, 0, MOST)
+
+
 def _is_whole(value: object) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool)
+    return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
 
 
-def _check_frameskip(frameskip: object) -> None:
-    accepted = "it takes a positive int, or a tuple (low, high) of ints with 0 < low < high"
-    if not isinstance(frameskip, tuple) and not _is_whole(frameskip):
-        raise error.Error(f"frameskip has the type {type(frameskip).__name__}; {accepted}")
-    ends = frameskip if isinstance(frameskip, tuple) else (0, frameskip)
-    is_in_order = len(ends) == 2 and all(map(_is_whole, ends)) and ends[0] < ends[1]
-    if not is_in_order or (isinstance(frameskip, tuple) and ends[0] <= 0):
-        raise error.Error(f"frameskip is {frameskip}; {accepted}")
-
-
-def _check_noop_max(noop_max: object) -> None:
-    if not isinstance(noop_max, int) or isinstance(noop_max, bool) or noop_max < 0:
-        raise error.Error(f"noop_max is {noop_max!r}; it takes an int of 0 or more")
+def _frameskip(given: Any) -> int | tuple[int, int]:
+    """Checked, in Python's own ints."""
+    accepted = f"it takes an int from 1 to {MOST}, or a tuple (low, high) of such ints with low < high"
+    if not isinstance(given, tuple) and not _is_whole(given):
+        raise error.Error(f"frameskip has the type {type(given).__name__}; {accepted}")
+    ends = given if isinstance(given, tuple) else (given, MOST + 1)
+    if not (len(ends) == 2 and all(map(_is_whole, ends)) and 0 < ends[0] < ends[1] <= MOST + (ends is not given)):
+        raise error.Error(f"frameskip is {given}; {accepted}")
+    return (int(ends[0]), int(ends[1])) if ends is given else int(given)
 
 
 def _check_reward_range(reward_range: object) -> None:

@@ -3,7 +3,8 @@
 What differs from EnvPool 1.2.5: the games are those of ALE 0.12, and not 0.7.5. env_type="gym" has the interface of Gym 0.21,
 as EnvPool 0.6 had it: reset() returns observations, and step() four values; gym_reset_return_info=True undoes that. All
 environments are stepped, or as many as recv() returned; reset() alone takes some. Resizing is by area. An action that is out
-of range is an IndexError. There is no xla(); racebeam.AtariVectorEnv has one. A spec's least reward is negative.
+of range is an IndexError. There is no xla(); racebeam.AtariVectorEnv has one. A spec's least reward is negative. render() returns the
+pictures with render_mode=None, too, in the size of the game; there is neither another size nor a window.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import re
 import sys
 import warnings
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, overload
 
 import gymnasium
 import numpy as np
@@ -22,7 +23,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 
 from . import ale_games, images
 from .arguments import flag, whole
-from .envpool_spec import EnvSpec, whole_config
+from .envpool_spec import EnvSpec, dm_specs, rendered_env, whole_config
 from .errors import InvalidInput, UnknownGame
 from .interface import ALEInterface
 from .registration import rom_id_to_name
@@ -126,7 +127,7 @@ class _Pool:
         self._envs = _Envs(game, self.config)
         self.num_envs, self.batch_size = self._envs.num_envs, self._envs.batch_size
         self._seeds: Any = self.config["env_seed"] if np.size(self.config["env_seed"]) else self.config["seed"]
-        self._is_new = True
+        self._is_new, self._shown_by_render = True, rendered_env(config, self.num_envs)
         self.action_space = self.single_action_space = self._envs.single_action_space
         actions = self._envs.machines().numbers_of_actions()[0]
         self.spec: Any = EnvSpec(self.config, actions, _observations(self.config))
@@ -157,7 +158,7 @@ class _Pool:
 
     def render(self, env_ids: Any = None) -> Pixels:
         pictures = self._envs.render() or ()
-        chosen = np.atleast_1d(0 if env_ids is None else env_ids)
+        chosen = np.atleast_1d(self._shown_by_render if env_ids is None else env_ids)
         if chosen.size == 0:
             raise InvalidInput("env_ids is empty; it takes one environment or more")
         return np.stack([pictures[env] for env in chosen])
@@ -332,6 +333,14 @@ class DmEnvPool(_Pool):
     def recv(self, reset: bool = False, return_info: bool = True) -> TimeStep:
         return self._time_step(self._recv())
 
+    def reward_spec(self) -> Any:
+        """As dm_env has it, and EnvPool."""
+        return dm_specs().Array((), float, "reward")
+
+    def discount_spec(self) -> Any:
+        """As dm_env has it, and EnvPool."""
+        return dm_specs().BoundedArray((), float, 0.0, 1.0, "discount")
+
     def _time_step(self, shown: tuple[Any, Any, Any, Any, Info]) -> TimeStep:
         observations, rewards, terminated, truncated, info = shown
         done = terminated | truncated
@@ -342,6 +351,7 @@ class DmEnvPool(_Pool):
 
 
 def make_gymnasium(task_id: str, **config: Any) -> GymnasiumEnvPool:
+    _check_info_wanted("gymnasium", config)
     return GymnasiumEnvPool(task_id, config)
 
 
@@ -353,12 +363,25 @@ def make_dm(task_id: str, **config: Any) -> DmEnvPool:
     """It is a dm_env.Environment to a program that has imported dm_env."""
     if "dm_env" in sys.modules:
         sys.modules["dm_env"].Environment.register(DmEnvPool)
+    _check_info_wanted("dm", config)
     return DmEnvPool(task_id, config)
+
+
+def _check_info_wanted(env_type: str, config: Mapping[str, Any]) -> None:
+    wanted = config.get("gym_reset_return_info")
+    if wanted is not None and not flag("gym_reset_return_info", wanted):
+        raise InvalidInput(f'gym_reset_return_info is {wanted!r}; with env_type="{env_type}" it takes True, and "gym" takes both')
 
 
 MAKERS = {"gymnasium": make_gymnasium, "gym": make_gym, "dm": make_dm}
 
 
+@overload
+def make(task_id: str, env_type: Literal["gymnasium"], **config: Any) -> GymnasiumEnvPool: ...
+@overload
+def make(task_id: str, env_type: Literal["dm"], **config: Any) -> DmEnvPool: ...
+@overload
+def make(task_id: str, env_type: str, **config: Any) -> Any: ...
 def make(task_id: str, env_type: str, **config: Any) -> Any:
     """Environments of the task, such as "Pong-v5". config: the settings of envpool_spec.CONFIG."""
     if env_type not in MAKERS:

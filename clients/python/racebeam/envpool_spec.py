@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from gymnasium import spaces
 
-from .arguments import flag
+from .arguments import flag, listed, whole
 from .errors import InvalidInput
 
 __all__ = ["CONFIG", "ArraySpec", "EnvSpec", "whole_config"]
@@ -43,6 +43,15 @@ CONFIG: dict[str, Any] = {
     "gray_scale": True,
 }
 FIXED = {"max_num_players": 1, "use_inter_area_resize": True}  # no other value is played
+# What make() takes beside the settings, and the values that are played; render_env_id takes an environment.
+RENDERING: dict[str, tuple[Any, ...]] = {
+    "render_mode": (None, "rgb_array"),
+    "render_env_id": (),
+    "render_width": (None, 0),
+    "render_height": (None, 0),
+    "render_camera_id": (None, -1),
+    "from_pixels": (None, False),
+}
 Config = NamedTuple("Config", [(name, Any) for name in CONFIG])  # type: ignore[misc]
 
 INT = np.iinfo(np.int32)
@@ -51,6 +60,7 @@ FLOAT = np.finfo(np.float32)
 
 def whole_config(task_id: str, given: Mapping[str, Any]) -> dict[str, Any]:
     """All settings of a task. Raises InvalidInput for one that is not there or not played."""
+    given = {name: value for name, value in given.items() if not _is_of_rendering(name, value)}
     for name, value in given.items():
         if name not in CONFIG:
             raise InvalidInput(f"there is no setting {name!r}; there are {', '.join(CONFIG)}")
@@ -58,6 +68,19 @@ def whole_config(task_id: str, given: Mapping[str, Any]) -> dict[str, Any]:
             raise InvalidInput(f"{name} is {value!r}; racebeam has {FIXED[name]!r} alone")
     flags = {name: flag(name, value) for name, value in given.items() if isinstance(CONFIG[name], bool)}
     return {**CONFIG, **given, **flags, "task": task_id}
+
+
+def rendered_env(given: Mapping[str, Any], num_envs: int) -> int:
+    """The environment that render() shows."""
+    return whole("render_env_id", given.get("render_env_id", 0), 0, num_envs - 1)
+
+
+def _is_of_rendering(name: str, value: Any) -> bool:
+    """Raises InvalidInput for a value that is not played."""
+    played = RENDERING.get(name, ())
+    if played and not any(value is one or _is(value, one) for one in played):
+        raise InvalidInput(f"{name} is {value!r}; racebeam has {listed(map(repr, played))} alone")
+    return name in RENDERING
 
 
 def _is(value: Any, wanted: Any) -> bool:
@@ -132,11 +155,16 @@ class EnvSpec:
         return f"AtariEnvSpec({', '.join(f'{name}={value!r}' for name, value in self.config._asdict().items())})"
 
 
-def _dm_spec(name: str, array: ArraySpec) -> Any:
+def dm_specs() -> Any:
+    """dm_env.specs, if it is installed."""
     try:
-        specs = importlib.import_module("dm_env.specs")
+        return importlib.import_module("dm_env.specs")
     except ImportError:
         raise ImportError("a spec of dm_env needs that package; install it with: pip install dm-env") from None
+
+
+def _dm_spec(name: str, array: ArraySpec) -> Any:
+    specs = dm_specs()
     if array.is_discrete:
         return specs.DiscreteArray(array.maximum + 1, np.int32, name)
     shape = [length for length in array.shape if length != -1]

@@ -65,5 +65,5 @@ def vector_preset(name: str) -> VectorPreset:
 
 def check_name(name: str) -> None:
     """Raises InvalidInput for the name of no preset."""
-    if name not in PRESETS:
+    if not isinstance(name, str) or name not in PRESETS:
         raise InvalidInput(f"there is no preset {name!r}; there are {', '.join(PRESETS)}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 import os
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, Protocol, Union
+from typing import Any, Literal, Optional, Protocol, SupportsIndex, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from . import _core, images, xla
-from .arguments import either, flag, whole
+from .arguments import either, flag, real, seconds, whole
 from .errors import InvalidInput
 from .vector_results import Bools, Numbers, Pixels, Results
 from .vector_settings import SEEDS, autoreset_of, settings_of
@@ -25,6 +25,8 @@ __all__ = ["AtariVectorEnv"]
 
 Rom = Union[str, os.PathLike[str], bytes]
 Info = dict[str, Any]
+Seeds = Union[SupportsIndex, Sequence[Optional[SupportsIndex]], npt.NDArray[np.integer[Any]]]
+Step = tuple[Pixels, npt.NDArray[np.int32], Bools, Bools, Info]  # observations, rewards, terminated, truncated
 RAM_SIZE, SCREEN_WIDTH = 128, 160
 MOST_ENVS = 10**7  # the memory sets a lower limit
 
@@ -125,7 +127,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         stack_start: str = "zeros",
         rules: str = "ale-0.12",
         rom: Rom | None = None,
-        seed: int | None = None,
+        seed: SupportsIndex | None = None,
         render_mode: Literal["rgb_array"] | None = None,
         server: str | Sequence[str] | None = None,
         token: str | None = None,
@@ -140,9 +142,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self.metadata = {**type(self).metadata, "autoreset_mode": self.autoreset_mode}
         self.render_mode = render_mode
         self.grayscale: bool = not settings["rgb"]
-        self.continuous, self.continuous_action_threshold = flag("continuous", continuous), float(continuous_action_threshold)
+        self.continuous, self.continuous_action_threshold = flag("continuous", continuous), real("continuous_action_threshold", continuous_action_threshold)
         self._shows_ram = obs_type == "ram"
-        self._machines: Any = _machines(names, game_of_env, rom, settings, server, token, timeout)
+        self._machines: Any = _machines(names, game_of_env, rom, settings, server, token, seconds("timeout", timeout))
         self._make_spaces(settings)
         self._received = np.arange(self.num_envs, dtype=np.int32)
         self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
@@ -168,8 +170,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
     # Playing
 
-    def reset(self, *, seed: int | Sequence[int | None] | npt.NDArray[np.integer[Any]] | None = None,
-              options: dict[str, Any] | None = None, out: Pixels | None = None) -> tuple[Any, Info]:
+    def reset(self, *, seed: Seeds | None = None, options: dict[str, Any] | None = None,
+              out: Pixels | None = None) -> tuple[Pixels, Info]:
         """New episodes. A seed powers the first environment on anew, and the next with one more; of a list or array, each has
         its own, and None or -1 is no seed.
 
@@ -190,7 +192,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             self._machines.receive(results)
         return self._begun(results)
 
-    def step(self, actions: Any, *, out: Pixels | None = None) -> tuple[Any, Any, Any, Any, Info]:
+    def step(self, actions: npt.ArrayLike, *, out: Pixels | None = None) -> Step:
         """An action for each environment; with batch_size, for each of those that the last call returned."""
         self._check_open()
         meant: Any = self._joysticks(actions) if self.continuous else self._indices(actions)
@@ -204,12 +206,12 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             self._machines.step(meant, results)
         return self._shown(results)
 
-    def send(self, actions: Any) -> None:
+    def send(self, actions: npt.ArrayLike) -> None:
         """Begins a step of the environments that the last call returned."""
         self._check_open()
         self._send(self._joysticks(actions) if self.continuous else self._indices(actions))
 
-    def recv(self, *, out: Pixels | None = None) -> tuple[Any, Any, Any, Any, Info]:
+    def recv(self, *, out: Pixels | None = None) -> Step:
         """What those batch_size environments show that have finished first."""
         self._check_open()
         results = self._room(out)
@@ -218,11 +220,17 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _send(self, meant: npt.NDArray[Any]) -> None:
         if self.continuous:
-            self._machines.send_joysticks(meant, self.continuous_action_threshold, self._received)
+            self._machines.send_joysticks(meant, self.continuous_action_threshold, self._ready())
         else:
-            self._machines.send(meant, self._received)
+            self._machines.send(meant, self._ready())
 
-    def show(self) -> tuple[Any, Info]:
+    def _ready(self) -> Numbers:
+        """The environments that the last call returned. Before the first one, those are all."""
+        if len(self._received) != self.batch_size:
+            raise InvalidInput("no environment was received yet; call reset() first")
+        return self._received
+
+    def show(self) -> tuple[Pixels, Info]:
         """What all environments show now, such as after restore()."""
         self._check_open()
         results = self._room(None, self.num_envs)
@@ -235,8 +243,13 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     def _seeds(self, seed: Any) -> npt.NDArray[np.int64] | None:
         if seed is None:
             return None
-        if not isinstance(seed, (Sequence, np.ndarray)):
+        is_array = isinstance(seed, np.ndarray) and seed.ndim > 0
+        if not is_array and not isinstance(seed, Sequence):
             return _seed(seed) + np.arange(self.num_envs, dtype=np.int64)
+        if is_array and (seed.dtype.kind not in "iuO"):
+            raise TypeError(f"the seeds have the type {seed.dtype}; they must be integers")
+        if is_array and seed.ndim > 1:
+            raise InvalidInput(f"the seeds have the shape {seed.shape}; they must have {(self.num_envs,)}")
         seeds = [-1 if one is None else _seed(one, -1) for one in seed]
         if len(seeds) != self.num_envs:
             raise InvalidInput(f"there are {len(seeds)} seeds for {self.num_envs} environments")
@@ -256,6 +269,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         if array.dtype.kind not in "iu":
             raise TypeError(f"actions have the type {array.dtype}; they must be integers")
         self._check_shape(array, ())
+        if array.dtype.kind == "u" and (large := array[array > np.iinfo(np.int64).max]).size:
+            raise IndexError(f"action {large[0]} is out of range; there are 0 to {self._machines.numbers_of_actions()[0] - 1}")
         return np.ascontiguousarray(array, np.int64)
 
     def _joysticks(self, actions: Any) -> npt.NDArray[np.float32]:
@@ -263,7 +278,11 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         if array.dtype.kind not in "fiu":
             raise TypeError(f"actions have the type {array.dtype}; they must be numbers: radius, angle and fire")
         self._check_shape(array, (3,))
-        return np.ascontiguousarray(array, np.float32)
+        with np.errstate(over="ignore"):
+            joysticks = np.ascontiguousarray(array, np.float32)
+        if not np.isfinite(joysticks).all():
+            raise InvalidInput(f"a part of the actions is {joysticks[~np.isfinite(joysticks)][0]}, which is not a finite number")
+        return joysticks
 
     def _check_shape(self, actions: npt.NDArray[Any], rest: tuple[int, ...]) -> None:
         if actions.shape != (self.batch_size, *rest):
@@ -285,11 +304,11 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     def _seen(self, results: Results) -> Any:
         return results.ram if self._shows_ram else results.observations
 
-    def _begun(self, results: Results) -> tuple[Any, Info]:
+    def _begun(self, results: Results) -> tuple[Pixels, Info]:
         observations, *_, info = self._shown(results)
         return observations, info
 
-    def _shown(self, results: Results) -> tuple[Any, Any, Any, Any, Info]:
+    def _shown(self, results: Results) -> Step:
         self._received = results.env_id
         observations, info = self._seen(results), self._info(results)
         if self._has_finals and results.finished.any():
@@ -410,7 +429,10 @@ def _machines(names: list[str], game_of_env: Numbers, rom: Rom | None, settings:
 
 def _seed(value: Any, least: int = SEEDS[0]) -> int:
     """Raises TypeError for what is no whole number."""
-    seed = operator.index(value)
+    try:
+        seed = operator.index(value)
+    except TypeError:
+        raise TypeError(f"the seed is {value!r}; it takes a whole number") from None
     if not least <= seed <= SEEDS[1]:
         raise InvalidInput(f"the seed is {seed}; it takes {least} to {SEEDS[1]}")
     return seed

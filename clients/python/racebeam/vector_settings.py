@@ -13,12 +13,11 @@ from gymnasium import error
 from gymnasium.vector import AutoresetMode
 
 from . import _core
-from .arguments import check_choice, either, flag, member, share, whole
+from .arguments import MOST, check_choice, either, flag, member, share, whole
 from .presets import vector_preset
 
 OBS_TYPES = (None, "rgb", "grayscale", "ram")
 RULES = {"ale-0.12": _core.Rules.ALE_0_12, "fixed": _core.Rules.FIXED}
-MOST = 2**31 - 1
 SEEDS = (0, 2**32 - 1)
 SIDES = (0, 1000)  # the screens of a game limit them further
 
@@ -37,6 +36,7 @@ def settings_of(given: Mapping[str, Any], num_envs: int) -> dict[str, Any]:
     check_choice("obs_type", given["obs_type"], OBS_TYPES)
     check_choice("render_mode", given["render_mode"], (None, "rgb_array"))
     check_choice("rules", given["rules"], tuple(RULES))
+    _check_lives(given)
     return {
         "seed": secrets.randbits(32) if given["seed"] is None else whole("seed", given["seed"], *SEEDS),
         "rules": RULES[given["rules"]],
@@ -71,6 +71,12 @@ def _of_steps(given: Mapping[str, Any]) -> dict[str, Any]:
         "reward_max": high,
         "pool": _flag(given, "maxpool"),
     }
+
+
+def _check_lives(given: Mapping[str, Any]) -> None:
+    for name, word in (("episodic_life", "restart"), ("life_loss_info", "told")):
+        if given["lives"] not in (None, word) and _flag(given, name):
+            raise error.Error(f"{name} is True, which means lives={word!r}, but lives is {given['lives']!r}")
 
 
 def _of_episodes(given: Mapping[str, Any]) -> dict[str, Any]:

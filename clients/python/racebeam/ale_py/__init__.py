@@ -28,7 +28,9 @@ infos are the same to the byte, for the same seeds and actions. What differs:
     process for others. After close(), ClosedEnvironmentError is raised; ale_py goes on.
 15. The first reset() of ALEVectorInterface may be of some environments. What is below it and xla() is not there: AutoresetMode
     and VectorXLAReset, VectorXLAStep. xla() does not need chex. A handle of environments that were closed is an error.
-16. A paddle's strength, or a radius, that is infinite or NaN is an InvalidInput; ale_py plays it.
+16. A paddle's strength, or a part of a continuous action, that is infinite or NaN is an InvalidInput; ale_py plays it.
+17. AtariEnv refuses a repeat_action_probability that is not in 0 to 1, a negative max_num_frames_per_episode, a
+    continuous_action_threshold that is no number, and a frameskip above 2,147,483,647. It takes integers of NumPy.
 """
 
 from __future__ import annotations
@@ -46,23 +48,28 @@ if TYPE_CHECKING:
     from ..env import AtariEnvStepMetadata as AtariEnvStepMetadata
     from ..registration import register_v0_v4_envs as register_v0_v4_envs
     from ..registration import register_v5_envs as register_v5_envs
-    from .vector_env import AtariVectorEnv as AtariVectorEnv
+    from .vectors import AtariVectorEnv as AtariVectorEnv
 
 __version__ = "0.12.1"
 SDL_SUPPORT = False
 
 __all__ = ["ALEInterface", "ALEState", "ALEVectorInterface", "Action", "LoggerMode", "SDL_SUPPORT"]
 
+_HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
 _NEED_GYMNASIUM = {
     "AtariEnv": "racebeam.env",
     "AtariEnvStepMetadata": "racebeam.env",
-    "AtariVectorEnv": "racebeam.ale_py.vector_env",
+    "AtariVectorEnv": "racebeam.ale_py.vectors",
     "register_v0_v4_envs": "racebeam.registration",
     "register_v5_envs": "racebeam.registration",
 }
 
+# Those of ale_py. They import by absolute names alone: as `ale_py.env`, Python loads their files once more.
+_SUBMODULES = ("_ale_py", "env", "registration", "roms", "vector_env")
 
-_SUBMODULES = ("env", "registration", "roms", "vector_env")
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *((*_SUBMODULES, *_NEED_GYMNASIUM) if _HAS_GYMNASIUM else ())})
 
 
 def __getattr__(name: str) -> Any:
@@ -73,7 +80,7 @@ def __getattr__(name: str) -> Any:
     return getattr(importlib.import_module(_NEED_GYMNASIUM[name]), name)
 
 
-if importlib.util.find_spec("gymnasium") is not None:
+if _HAS_GYMNASIUM:
     from ..registration import register_ale_ids
 
     register_ale_ids()

@@ -1,9 +1,8 @@
 """The names of ale_py's compiled module."""
 
 from racebeam._core import Action, ALEState, LoggerMode
+from racebeam.ale_py.vector_interface import ALEVectorInterface
 from racebeam.interface import ALEInterface
-
-from .vector_interface import ALEVectorInterface
 
 SDL_SUPPORT = False
 __all__ = ["ALEInterface", "ALEState", "ALEVectorInterface", "Action", "LoggerMode", "SDL_SUPPORT"]

@@ -14,7 +14,7 @@ from .. import _core, xla
 from ..errors import InvalidInput
 
 if TYPE_CHECKING:
-    from .vector_env import AtariVectorEnv
+    from .vectors import AtariVectorEnv
 
 __all__ = ["ALEVectorInterface"]
 
@@ -30,7 +30,7 @@ class ALEVectorInterface:
                  episodic_life: bool = False, life_loss_info: bool = False, reward_clipping: bool = True,
                  max_episode_steps: int = 108000, repeat_action_probability: float = 0.0, full_action_space: bool = False,
                  batch_size: int = 0, num_threads: int = 0, thread_affinity_offset: int = -1, autoreset_mode: str = "NextStep") -> None:
-        from .vector_env import AtariVectorEnv
+        from .vectors import AtariVectorEnv
 
         md5, game = _core.identify(rom_path)
         if game is None:

@@ -13,6 +13,7 @@ from __future__ import annotations
 import asyncio
 import collections
 import ssl
+from collections.abc import Awaitable, Callable
 from typing import IO, Any, cast
 
 from . import client
@@ -22,13 +23,21 @@ __all__ = ["AsyncSession", "connect", "launch"]
 
 
 async def connect(address: str | None = None, *, token: str | None = None, tls: ssl.SSLContext | None = None,
-                  longest_reply: int = LONGEST_REPLY, arrays: bool = False) -> AsyncSession:
+                  timeout: float | None = None, longest_reply: int = LONGEST_REPLY, arrays: bool = False) -> AsyncSession:
     """As racebeam.connect(), of sockets: tcp://, tls:// and unix: addresses, and file: with one of these."""
-    (connection, host), address, announced = await asyncio.to_thread(client.reached, address, lambda found: client.connected(found, None))
+    opened = await asyncio.to_thread(client.reached, address, lambda found: client.connected(found, timeout))
+    (connection, host), found, announced = opened
     context = (tls or ssl.create_default_context()) if host else None
-    reader, writer = await asyncio.open_connection(sock=connection, limit=longest_reply, ssl=context,
-                                                   server_hostname=host or None)
-    return await _greeted(AsyncSession(reader, writer, address, longest_reply, arrays), token or announced)
+    opening = asyncio.open_connection(sock=connection, limit=longest_reply, ssl=context, server_hostname=host or None)
+    try:
+        reader, writer = await asyncio.wait_for(opening, timeout)
+    except asyncio.TimeoutError:
+        connection.close()
+        raise TimeoutError(f"no server answers at {found}: timed out") from None
+    session = AsyncSession(reader, writer, found, longest_reply, arrays, timeout=timeout)
+    token = token or announced
+    session.again = lambda: connect(found, token=token, tls=tls, timeout=timeout, longest_reply=longest_reply, arrays=arrays)
+    return await _greeted(session, token)
 
 
 async def launch(*options: str, program: str | None = None, arrays: bool = False) -> AsyncSession:
@@ -53,10 +62,12 @@ class AsyncSession:
     """One session. connect() and launch() make them. A request that is cancelled is carried out all the same."""
 
     def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, address: str, longest_reply: int, arrays: bool,
-                 process: asyncio.subprocess.Process | None = None) -> None:
+                 process: asyncio.subprocess.Process | None = None, timeout: float | None = None) -> None:
         self._reader, self._writer, self._process = reader, writer, process
         self._session = client.Session(cast(IO[bytes], None), cast(IO[bytes], writer), writer.close, arrays)
         self._session.address, self._session.longest_reply = address, longest_reply
+        self._timeout, self._heard = timeout, 0.0  # when the last reply came
+        self.again: Callable[[], Awaitable[AsyncSession]] | None = None
         self._answers: collections.deque[asyncio.Future[list[Values]]] = collections.deque()  # of the requests, in order
         self._reading = asyncio.create_task(self._read())
 
@@ -71,13 +82,38 @@ class AsyncSession:
         self._session.check_greeting(said)
 
     async def request(self, *words: object, **settings: object) -> list[Values]:
-        """The groups of the reply, with numbers, and bytes or arrays. Raises Refused, and ConnectionError when the server has
-        gone."""
+        """The groups of the reply, with numbers, and bytes or arrays. Raises Refused; ConnectionError when the server has gone; and
+        TimeoutError when nothing came from it for as long as `timeout` of connect() says."""
         self._session.send(*words, **settings)
         answer: asyncio.Future[list[Values]] = asyncio.get_running_loop().create_future()
         self._answers.append(answer)
-        await self._writer.drain()
-        return await answer
+        if self._timeout is None:
+            await self._writer.drain()
+            return await answer
+        try:
+            await self._await_reply(answer, self._timeout)
+        except asyncio.CancelledError:
+            answer.cancel()
+            raise
+        return answer.result()
+
+    async def _await_reply(self, answer: asyncio.Future[list[Values]], limit: float) -> None:
+        """Returns when it is there. Each reply to an earlier request begins the time anew."""
+        clock = asyncio.get_running_loop().time
+        begin = clock()
+        while not answer.done():
+            left = max(begin, self._heard) + limit - clock()
+            if left <= 0:
+                answer.cancel()
+                raise self._session.lost(TimeoutError())
+            await asyncio.wait([answer], timeout=left)
+
+    async def reconnect(self) -> AsyncSession:
+        """A new session of the same server, after the old one ended. It has no game yet. Only for sessions of connect()."""
+        if self.again is None:
+            raise ValueError("this session cannot be opened again: connect() did not make it")
+        await self.close()
+        return await self.again()
 
     async def close(self) -> None:
         """Ends the session. More than once does nothing."""
@@ -120,5 +156,8 @@ class AsyncSession:
 
     def _answer(self, how: Any) -> None:
         """The oldest request, if it still waits."""
+        self._heard = asyncio.get_running_loop().time()
+        if self._answers and len(self._answers) != len(self._session.unanswered) + 1:  # Ctrl-C came between send() and append()
+            raise self._session.lost(ConnectionError("it was interrupted between a request and the end of its reply"))
         if self._answers and not (oldest := self._answers.popleft()).done():
             how(oldest)

@@ -19,6 +19,7 @@ from __future__ import annotations
 import base64
 import binascii
 import collections
+import contextlib
 import json
 import os
 import re
@@ -30,12 +31,13 @@ import subprocess
 import sys
 import time
 import zlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import IO, Any, NamedTuple, TypeVar
 
 PROTOCOL = 1  # the version that this client speaks
 ANNOUNCEMENT = 1  # the version of announce files that this client reads
 LONGEST_REPLY = 1 << 28  # bytes; a server that sends a longer line is taken for broken
+MOST_UNSENT = 1 << 13  # bytes of requests that are gathered
 
 # What bytes are written in when `observe` does not say.
 USUAL_ENCODING = {"ram": "hex", "tia": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
@@ -52,6 +54,7 @@ RAW = re.compile(r" raw=(\S+)$")
 Texts = dict[str, Any]  # texts by key, and bytes where the encoding is raw
 Values = dict[str, Any]
 Opened = TypeVar("Opened")
+Got = TypeVar("Got")
 
 
 class Refused(Exception):
@@ -120,6 +123,14 @@ def number(text: str) -> int | float | str:
 def _groups(text: str) -> list[Texts]:
     """Those of a reply's text after `ok`."""
     return [dict(word.split("=", 1) for word in group.split(" ") if "=" in word) for group in f" {text}".split(" |")]
+
+
+def _line_of(words: Iterable[object], settings: Mapping[str, object]) -> str:
+    """A request without its end."""
+    line = " ".join([*map(str, words), *(f"{key}={value}" for key, value in settings.items())])
+    if "\n" in line or line.lstrip(" ").startswith("#"):
+        raise ValueError(f"a request is one line, and no comment: {line!r}")
+    return line
 
 
 def launch(*options: str, program: str | None = None, arrays: bool = False) -> Session:
@@ -195,9 +206,11 @@ def reached(address: str | None, opened: Callable[[str], Opened]) -> tuple[Opene
             return opened(found), found, token
         except OSError as error:
             if time.monotonic() >= until:
-                if error.strerror:
-                    source = "" if found == file else f", which {file.removeprefix('file:')} names"
-                    error.strerror = f"no server answers at {found}{source}: {error.strerror}"
+                source = "" if found == file else f", which {file.removeprefix('file:')} names"
+                sentence = f"no server answers at {found}{source}: {error.strerror or error}"
+                if not error.strerror:  # as of a TimeoutError
+                    raise type(error)(sentence) from error
+                error.strerror = sentence
                 raise
             time.sleep(BETWEEN_TRIES)
 
@@ -278,19 +291,32 @@ def connected(address: str, timeout: float | None) -> tuple[socket.socket, str]:
     return connection, host if kind == "tls" else ""
 
 
-def _close(*ends: IO[bytes] | socket.socket) -> None:
-    for end in ends:
+def _close(writer: IO[bytes], reader: IO[bytes]) -> None:
+    """Closes pipes. A server that does not read gets no more: closing never waits."""
+    os.set_blocking(writer.fileno(), False)
+    for end in (writer, reader):
         try:
             end.close()
         except OSError:  # what was not sent cannot be
             continue
 
 
-class _Lines:
-    """Reads lines and bytes from a socket, each within the time limit of the socket."""
+class _Socket:
+    """Reads lines and bytes from a socket, and gathers what is sent. Each takes the time limit of the socket at most."""
 
     def __init__(self, connection: socket.socket) -> None:
         self.connection, self.limit, self.data = connection, connection.gettimeout(), b""
+        self.unsent = bytearray()
+
+    def write(self, data: bytes) -> None:
+        self.unsent += data
+        if len(self.unsent) > MOST_UNSENT:
+            self.flush()
+
+    def flush(self) -> None:
+        data, self.unsent = self.unsent, bytearray()
+        if data:
+            self.connection.sendall(data)
 
     def readline(self, most: int) -> bytes:
         """As that of a file. Raises TimeoutError if the line takes longer than the limit."""
@@ -328,6 +354,9 @@ class _Lines:
         return data
 
     def close(self) -> None:
+        """Without waiting for a server that does not read. Another thread that reads or writes gets an error."""
+        with contextlib.suppress(OSError):  # the server has closed it
+            self.connection.shutdown(socket.SHUT_RDWR)
         self.connection.close()
 
 
@@ -351,7 +380,8 @@ class Stack:
 class Session:
     """One session. connect() and launch() make them."""
 
-    def __init__(self, reader: IO[bytes] | _Lines, writer: IO[bytes], close: Callable[[], object], arrays: bool = False) -> None:
+    def __init__(self, reader: IO[bytes] | _Socket, writer: IO[bytes] | _Socket, close: Callable[[], object],
+                 arrays: bool = False) -> None:
         self.reader, self.writer, self._close = reader, writer, close
         self.arrays_wanted = arrays
         self.longest_reply = LONGEST_REPLY
@@ -362,23 +392,20 @@ class Session:
         self.arrays: dict[tuple[int, str], bytearray] = {}  # (machine, field): what deltas have made so far
         self.address = ""
         self._again: Callable[[], Session] | None = None
-        self._is_closed = False
+        self._process = os.getpid()
+        self._ended = ""  # why the session has ended
 
     @classmethod
     def start(cls, racebeam: str = "racebeam", *options: str, arrays: bool = False) -> Session:
         """As launch(), of a program that is named."""
         process = subprocess.Popen([racebeam, "serve", "--stdio", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        assert process.stdin is not None and process.stdout is not None
-        ends = (process.stdin, process.stdout)
+        writer, reader = process.stdin, process.stdout
+        assert writer is not None and reader is not None
 
         def close() -> None:
-            for end in ends:
-                try:
-                    end.close()
-                except BrokenPipeError:  # it has gone, and takes nothing more
-                    continue
+            _close(writer, reader)
             process.wait()
-        return cls(process.stdout, process.stdin, close, arrays)
+        return cls(reader, writer, close, arrays)
 
     @classmethod
     def tcp(cls, host: str, port: int, tls: ssl.SSLContext | None = None) -> Session:
@@ -393,8 +420,8 @@ class Session:
     @classmethod
     def connected(cls, connection: socket.socket, arrays: bool = False) -> Session:
         """A session on a socket, which it closes."""
-        writer = connection.makefile("wb")
-        return cls(_Lines(connection), writer, lambda: _close(writer, connection), arrays)
+        both = _Socket(connection)
+        return cls(both, both, both.close, arrays)
 
     def __enter__(self) -> Session:
         return self
@@ -403,11 +430,19 @@ class Session:
         self.close_connection()
 
     def close_connection(self) -> None:
-        """Ends the session. More than once does nothing."""
-        if not self._is_closed:
-            self._is_closed = True
+        """Ends the session. More than once does nothing; in a child process after a fork, the parent's goes on."""
+        self._end("the session was closed")
+
+    def cut(self) -> None:
+        """Ends the session, where a request may be left without its reply."""
+        self._end("the session has ended: it was interrupted between a request and the end of its reply")
+
+    def _end(self, why: str) -> None:
+        if not self._ended:
+            self._ended = why
             self.unanswered.clear()
-            self._close()
+            if os.getpid() == self._process:
+                self._close()
 
     def reconnect(self) -> Session:
         """A new session of the same server, after the old one ended. It has no game yet. Only for sessions of connect()."""
@@ -418,36 +453,80 @@ class Session:
 
     # Requests and replies
 
+    def check(self) -> None:
+        """Raises what stands in the way of a request: ConnectionError after the session's end, or as check_process() does."""
+        self.check_process()
+        if self._ended:
+            raise ConnectionError(self._ended)
+
+    def check_process(self) -> None:
+        """Raises RuntimeError in a child process after a fork."""
+        if os.getpid() != self._process:
+            raise RuntimeError("this session of a server was opened before the process forked; open a new one")
+
     def send(self, *words: object, **settings: object) -> None:
-        """A request without waiting for its reply; receive() gives the replies in their order."""
-        line = " ".join([*map(str, words), *(f"{key}={value}" for key, value in settings.items())])
-        if "\n" in line or line.lstrip(" ").startswith("#"):
-            raise ValueError(f"a request is one line, and no comment: {line!r}")
-        if self._is_closed:
-            raise ConnectionError("the session was closed")
+        """A request without waiting for its reply; receive() gives the replies in their order. A server whose replies are not
+        received stops reading: of many requests, send some dozens at a time."""
+        line = _line_of(words, settings)
+        self.check()
+        self._uncut(lambda: self._write(line))
+
+    def begin(self, *words: object, **settings: object) -> None:
+        """A request that is sent at once, and alone; receive() gives its reply. Raises ValueError where others were sent ahead."""
+        self._check_alone()
+        self.send(*words, **settings)
+        self.flush()
+
+    def flush(self) -> None:
+        """Passes the requests on that send() has buffered, as receive() does first."""
+        self.check()
+        self._uncut(self._flush)
+
+    def _uncut(self, call: Callable[[], Got]) -> Got:
+        """What a part of an exchange returns. Where it is cut off, such as by Ctrl-C, the session ends: a reply that is read later
+        would be taken for another's."""
+        try:
+            return call()
+        except Refused:
+            raise
+        except BaseException:
+            self.cut()
+            raise
+
+    def _write(self, line: str) -> None:
         self.unanswered.append(line.split())
         try:
             self.writer.write(f"{line}\n".encode())
         except OSError as error:
             raise self.lost(error) from error
 
-    def flush(self) -> None:
-        """Passes the requests on that send() has buffered, as receive() does first."""
+    def _flush(self) -> None:
         try:
             self.writer.flush()
         except ConnectionError:
             pass  # the server may have said why it ends, before it did
+        except OSError as error:
+            raise self.lost(error) from error
 
     def receive(self) -> list[Texts]:
         """The groups of the next reply, each a dictionary of texts."""
-        return self._receive()[1]
+        self.check()
+        return self._uncut(self._receive)[1]
 
     def received(self) -> list[Values]:
         """The groups of the next reply, with numbers and bytes."""
+        self.check()
+        return self._uncut(self._received)
+
+    def _received(self) -> list[Values]:
         return self.all_decoded(*self._receive())
 
     def receive_plain(self) -> Reply:
         """The next reply, to a request that changes nothing about later replies, such as `step`."""
+        self.check()
+        return self._uncut(self._receive_plain)
+
+    def _receive_plain(self) -> Reply:
         words, text = self._read_status(self._line())
         count = RAW.search(text)
         return Reply(words, text, self._bytes(self._count_of(count[1])) if count else b"")
@@ -524,24 +603,16 @@ class Session:
             data = self.reader.read(count)
         except OSError as error:
             raise self.lost(error) from error
-        except BaseException:
-            self.close_connection()  # as in _line()
-            raise
         if len(data) < count:
             raise self.lost(None)
         return data
 
     def _line(self) -> str:
-        if self._is_closed:
-            raise ConnectionError("the session was closed")
+        self._flush()
         try:
-            self.flush()
             line = self.reader.readline(self.longest_reply)
         except OSError as error:  # a TimeoutError is one, too: half a reply may have been read
             raise self.lost(error) from error
-        except BaseException:
-            self.close_connection()  # a reply that is read later would be taken for another's
-            raise
         if not line.endswith(b"\n"):
             long = ConnectionError(f"its reply is longer than {self.longest_reply} bytes")
             raise self.lost(long if len(line) >= self.longest_reply else None)
@@ -549,26 +620,34 @@ class Session:
 
     def lost(self, error: Exception | None) -> OSError:
         """Ends the session. Returns what says so."""
-        self.close_connection()
         at = f" at {self.address}" if self.address else ""
-        if isinstance(error, TimeoutError):
-            return TimeoutError(f"the server{at} did not answer in time; the session has ended")
-        return ConnectionError(f"the session of the server{at} has ended" + (f": {error}" if error else ""))
+        is_late = isinstance(error, TimeoutError)
+        ended = f"the session of the server{at} has ended" + (f": {error}" if error else "")
+        self._end(f"the server{at} did not answer in time; the session has ended" if is_late else ended)
+        return TimeoutError(self._ended) if is_late else ConnectionError(ended)
 
     def ask(self, *words: object, **settings: object) -> list[Texts]:
         """A request and its reply."""
-        self._send_alone(*words, **settings)
-        return self.receive()
+        return self._exchange(lambda: self._receive()[1], *words, **settings)
 
     def request(self, *words: object, **settings: object) -> list[Values]:
         """A request and its reply, with numbers and bytes: what the methods below do, for any request."""
-        self._send_alone(*words, **settings)
-        return self.received()
+        return self._exchange(self._received, *words, **settings)
 
-    def _send_alone(self, *words: object, **settings: object) -> None:
+    def _exchange(self, read: Callable[[], Got], *words: object, **settings: object) -> Got:
+        """What `read` makes of the reply to a request."""
+        line = _line_of(words, settings)
+        self.check()
+        self._check_alone()
+
+        def both() -> Got:
+            self._write(line)
+            return read()
+        return self._uncut(both)
+
+    def _check_alone(self) -> None:
         if self.unanswered:
             raise ValueError(f"{len(self.unanswered)} requests were sent ahead; receive their replies first")
-        self.send(*words, **settings)
 
     def values(self, *words: object, **settings: object) -> Values:
         """The first group of a reply, with numbers."""
@@ -634,10 +713,10 @@ class Session:
         return numpy.frombuffer(data, numpy.uint8).reshape(self._shape(field))
 
     def _shown(self, *words: object, **settings: object) -> Values:
-        return self.decoded(self.ask(*words, **settings)[0])
+        return self._exchange(lambda: self.decoded(self._receive()[1][0]), *words, **settings)
 
     def _machines(self, *words: object, **settings: object) -> list[Values]:
-        return [self.decoded(texts, machine) for machine, texts in enumerate(self.ask(*words, **settings)[1:], 1)]
+        return self._exchange(lambda: self.all_decoded(*self._receive())[1:], *words, **settings)
 
     @staticmethod
     def _encodings(fields: Iterable[str]) -> dict[str, str]:
@@ -654,9 +733,12 @@ class Session:
         return self.values("hello", token=token) if token else self.values("hello")
 
     def help(self, *words: str) -> str:
-        self.send("help", *words)
+        return self._exchange(self._help, "help", *words)
+
+    def _help(self) -> str:
+        said = self._line().partition(" ")[2]
         self.unanswered.pop()
-        return self._line().partition(" ")[2]
+        return said
 
     def games(self, *words: str) -> list[str]:
         return self.list_of("games", "games", *words)
@@ -703,8 +785,8 @@ class Session:
         return self.list_of("fields", "observe", *fields)
 
     def look(self, *fields: str) -> Values:
-        texts = self.ask("look", *fields)[0]
-        return self.decoded(texts, 0, self._encodings(fields) if fields else None)
+        encodings = self._encodings(fields) if fields else None
+        return self._exchange(lambda: self.decoded(self._receive()[1][0], 0, encodings), "look", *fields)
 
     def palette(self) -> list[tuple[int, int, int]]:
         """Red, green and blue of each value that a pixel of `screen` can have."""

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 import os
 import pathlib
 import struct
-from typing import Any
+import threading
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -17,10 +21,12 @@ from ..interface import ALEInterface, png
 from .client import Refused, Session, connect
 
 Pixels = npt.NDArray[np.uint8]
+Kind = TypeVar("Kind")
 
 STATE = "racebeam-env"  # the name under which states pass through the session
 STATE_HEAD = struct.Struct("<8s4i")  # what ALEState.serialize() has before the server's bytes
 NO_LIMITS = {-2**31: "none", 2**31 - 1: "none"}
+MOST_AHEAD = 64  # requests, whose replies fit into what a connection buffers
 ALWAYS = ("reward", "reward_b", "ends", "lives", "episode_frame", "frame", "acts")
 FIELDS = {View.RGB: ("screen:delta",), View.GRAYSCALE: ("screen:delta",), View.PALETTE: ("screen:delta",), View.RAM: ("ram:hex",),
           View.NONE: ()}
@@ -28,19 +34,45 @@ OWN_ERRORS = {"unknown-game": UnknownGame, "bad-value": InvalidInput, "bad-image
               "bad-action": InvalidInput, "no-game": InvalidInput}
 
 
+def _takes_turns(kind: type[Kind]) -> type[Kind]:
+    """Each public method is a turn of one thread, except close(), which ends the turn of another."""
+    for name, method in list(vars(kind).items()):
+        if inspect.isfunction(method) and name != "close" and (not name.startswith("_") or name == "__getstate__"):
+            setattr(kind, name, _turn(method))
+    return kind
+
+
+def _turn(method: Callable[..., Any]) -> Callable[..., Any]:
+    @functools.wraps(method)
+    def taken(self: RemoteInterface, *words: Any, **settings: Any) -> Any:
+        self.session.check_process()  # the turn may be that of a thread which a child does not have
+        with self.turn:
+            try:
+                return method(self, *words, **settings)
+            except BaseException:
+                if self.session.unanswered:
+                    self.session.cut()
+                raise
+    return taken
+
+
+@_takes_turns
 class RemoteInterface:
     """Settings are kept here, and go to the server when an image is loaded. The server needs the image, or it is sent.
 
-    Raises what ALEInterface does; ConnectionError when there is no server, or it has gone; and Refused for a limit of the server.
+    Threads take turns. Raises what ALEInterface does; ConnectionError when there is no server, or it has gone; TimeoutError when it
+    is silent for `timeout` seconds; RuntimeError in a child process after a fork; and Refused for a limit of the server.
     """
 
     def __init__(self, server: str, token: str | None = None, timeout: float | None = None) -> None:
-        self._server, self._token = server, token
+        self._server, self._token, self._timeout = server, token, timeout
         self._keys = ALEInterface()
+        self.turn = threading.RLock()
         try:
             self.session: Session = connect(server, token=token, timeout=timeout)
         except OSError as error:
-            raise ConnectionError(error.strerror or f"no server answers at {server}: {error}") from error
+            kind = TimeoutError if isinstance(error, TimeoutError) else ConnectionError
+            raise kind(error.strerror or str(error)) from error
         self._view: View | None = None
         self._colours = np.zeros((256, 3), np.uint8)
         self._greys = np.zeros(256, np.uint8)
@@ -93,6 +125,7 @@ class RemoteInterface:
         self.load(rom, game, self._settings())
 
     def load(self, rom: Any, game: str | None, settings: dict[str, object]) -> None:
+        self._view = None
         if rom is None:
             rom = self._image_to_send(game)
         if rom is None:
@@ -101,7 +134,6 @@ class RemoteInterface:
             named = {"as": game} if game is not None else {}
             self.ask(self.session.load, "inline", image=_bytes_of(rom), **named, **settings)
         self._loaded = rom, game, settings
-        self._view = None
         self._colours = np.array(self.session.palette(), np.uint8)
         self._greys = np.append(self._colours[1:, 2], np.uint8(0))  # the blue of the entry after it
 
@@ -169,11 +201,15 @@ class RemoteInterface:
                 bool(shown["truncated"]), shown["lives"], shown["episode_frame"], shown["frame"])
 
     def _act_after_the_end(self, word: str, acts: int) -> None:
-        """Such acts run no frame; but the generator of sticky actions goes on, as it does in this process."""
-        for _ in range(acts):
-            self.session.send("act", word)
-        for _ in range(acts):
-            self.session.decoded(self.session.receive()[0])
+        """Such acts run no frame; but the generator of sticky actions goes on, as it does in this process. The server plays one in
+        a request, and stops reading while its replies are not read."""
+        while acts > 0:
+            burst = min(acts, MOST_AHEAD)
+            for _ in range(burst):
+                self.session.send("act", word)
+            for _ in range(burst):
+                self.session.received()
+            acts -= burst
 
     def act(self, action: int | Action, paddle_strength: float = 1.0) -> int:
         number = action.value if isinstance(action, Action) else action
@@ -271,11 +307,11 @@ class RemoteInterface:
 
     def __getstate__(self) -> dict[str, Any]:
         """A copy has a session of its own."""
-        return {"server": self._server, "token": self._token, "keys": self._keys, "loaded": self._loaded,
+        return {"server": self._server, "token": self._token, "timeout": self._timeout, "keys": self._keys, "loaded": self._loaded,
                 "state": self.cloneState(True) if self._loaded else None}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        RemoteInterface.__init__(self, state["server"], state["token"])
+        RemoteInterface.__init__(self, state["server"], state["token"], state["timeout"])
         self._keys = state["keys"]
         if state["loaded"]:
             self.load(*state["loaded"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import threading
 from collections.abc import Callable
@@ -68,7 +67,7 @@ class RemoteMachines(OnServers):
                  settings: dict[str, Any]) -> None:
         if settings["batch_size"] not in (0, count):
             raise InvalidInput(f"batch_size is {settings['batch_size']}; a server plays all {count} environments together")
-        self._count, self._process = count, os.getpid()
+        self._count = count
         self._turn = threading.Lock()
         self._machine = RemoteInterface(server, token, timeout)
         self._session = self._machine.session
@@ -149,16 +148,28 @@ class RemoteMachines(OnServers):
         self._ask(results, "restart", "0" * self._count)
 
     def _ask(self, results: Results, *words: object, **settings: object) -> None:
+        self._session.check_process()  # the turn may be that of a thread which a child does not have
         with self._turn:
-            self.begin(*words, **settings)
-            self.finish(results)
+            try:
+                self.begin(*words, **settings)
+                self.finish(results)
+            except BaseException:
+                if self.waits():
+                    self._session.cut()
+                raise
 
     def begin(self, *words: object, **settings: object) -> None:
-        """Sends a request about the machines. finish() comes next, and no other thread between them."""
-        if os.getpid() != self._process:
-            raise RuntimeError("these environments were made before the process forked; make new ones")
-        self._session.send(*words, **settings)
-        self._session.flush()
+        """Sends a request about the machines. finish() comes next, and no other thread between them. If an exception comes between
+        them, the session has to end."""
+        self._session.begin(*words, **settings)
+
+    def waits(self) -> bool:
+        """Whether a request is without its reply, which a later request would take for its own."""
+        return bool(self._session.unanswered)
+
+    def check_process(self) -> None:
+        """Raises RuntimeError in a child process after a fork."""
+        self._session.check_process()
 
     def finish(self, results: Results) -> None:
         self._reply = self._machine.ask(self._session.receive_plain)

@@ -58,7 +58,7 @@ class SpreadMachines(OnServers):
         if not servers or not all(isinstance(server, str) for server in servers):
             raise TypeError(f"server is {servers!r}; it takes an address, or a list of addresses")
         self._how, self._count, self._settings = (token, timeout, game, rom), count, settings
-        self._turn = threading.Lock()
+        self._turn, self._is_cut = threading.Lock(), False
         self._servers = list(dict.fromkeys(servers))  # those that are not lost
         self.lost: Bools = np.zeros(count, np.bool_)  # of the last call
         self._lost_before: Bools = np.zeros(count, np.bool_)  # what no call has told yet
@@ -132,21 +132,35 @@ class SpreadMachines(OnServers):
     def _step(self, words: list[list[Any]], results: Results) -> None:
         """All servers play at the same time."""
         requests = [("restart", "0" * len(acts)) if part.is_fresh else ("step", *acts) for part, acts in zip(self._parts, words)]
-        with self._turn:
-            self.lost, self._lost_before = self._lost_before, np.zeros(self._count, np.bool_)
+
+        def play() -> None:
             failures = [self._failure(part.machines.begin, *request) for part, request in zip(self._parts, requests)]
-            try:
-                for index, part in enumerate(self._parts):
-                    failures[index] = failures[index] or self._failure(part.machines.finish, results.of(part.rows))
-            except BaseException:
-                self.close()  # replies that are read later would be taken for others'
-                raise
+            for index, part in enumerate(self._parts):
+                failures[index] = failures[index] or self._failure(part.machines.finish, results.of(part.rows))
             for part, failure in zip(self._parts, failures):
                 if failure is not None:
                     self._truncate(part, failure, results.of(part.rows))
                 else:
                     part.is_fresh = False
-        self._number(results)
+
+        self._exchange(play, results)
+
+    def _exchange(self, play: Callable[[], None], results: Results) -> None:
+        """A turn of one thread. Where it is cut off, such as by Ctrl-C, all sessions end: replies that are read later would be taken
+        for others', and a session that ended alone for a server that is lost."""
+        self._parts[0].machines.check_process()
+        with self._turn:
+            if self._is_cut:
+                raise ConnectionError("the sessions have ended: they were interrupted between a request and the end of its reply")
+            try:
+                self.lost, self._lost_before = self._lost_before, np.zeros(self._count, np.bool_)
+                play()
+            except BaseException as error:
+                if not isinstance(error, Exception) or any(part.machines.waits() for part in self._parts):
+                    self._is_cut = True
+                    self.close()
+                raise
+        results.env_id[:] = range(self._count)
 
     @staticmethod
     def _failure(call: Callable[..., None], *arguments: object) -> Exception | None:
@@ -171,19 +185,16 @@ class SpreadMachines(OnServers):
         self._each(lambda part: part.machines.show(results.of(part.rows)), results)
 
     def _each(self, ask: Callable[[_Part], None], results: Results) -> None:
-        with self._turn:
-            self.lost, self._lost_before = self._lost_before, np.zeros(self._count, np.bool_)
+        def play() -> None:
             for part in self._parts:
                 self._ask(part, ask)
-        self._number(results)
+
+        self._exchange(play, results)
 
     def _ask(self, part: _Part, ask: Callable[[_Part], None]) -> None:
         """Asks the server of a part, and the next one while a server is lost."""
         while (failure := self._failure(ask, part)) is not None:
             self._move(part, failure)
-
-    def _number(self, results: Results) -> None:
-        results.env_id[:] = range(self._count)
 
     # Losing a server
 

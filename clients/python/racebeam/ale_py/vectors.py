@@ -1,0 +1,69 @@
+"""AtariVectorEnv with the infos and the checks of ale_py's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .. import vector_env
+from ..env import AtariEnv
+from ..vector_results import Results
+from .vector_interface import ALEVectorInterface
+
+__all__ = ["ALEVectorInterface", "AtariEnv", "AtariVectorEnv"]
+
+
+class AtariVectorEnv(vector_env.AtariVectorEnv):
+    """racebeam.AtariVectorEnv with the infos and the checks of ale_py's."""
+
+    _xla_infos = ("env_id", "lives", "frame_number", "episode_frame_number")
+    is_xla_registered = False
+
+    @property
+    def ale(self) -> ALEVectorInterface:
+        """The same environments as lists and arrays."""
+        return ALEVectorInterface.of(self)
+
+    def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
+        functions = super().xla()
+        self.is_xla_registered = True
+        return functions
+
+    def action_numbers(self) -> list[int]:
+        """Those of the actions that step() takes indices of."""
+        return self.machines().actions_of(0)
+
+    def send_strengths(self, actions: Any, strengths: Any) -> None:
+        """As send(), with how far each paddle is turned, 0 to 1."""
+        turned = vector_env.array_of(strengths)
+        if turned.dtype.kind not in "fiu":
+            raise TypeError(f"paddle strengths have the type {turned.dtype}; they must be numbers")
+        self._check_shape(turned, ())
+        self.machines().send_strengths(vector_env.AtariVectorEnv._indices(self, actions), turned.astype(np.float32), self._ready())
+
+    def _indices(self, actions: Any) -> npt.NDArray[np.int64]:
+        assert isinstance(actions, np.ndarray) and actions.dtype in (np.int32, np.int64), \
+            f"actions are {actions!r}; they must be an array of int32 or int64"
+        assert actions.shape == (self.batch_size,), f"actions have the shape {actions.shape}; they must have {(self.batch_size,)}"
+        return super()._indices(actions)
+
+    def _joysticks(self, actions: Any) -> npt.NDArray[np.float32]:
+        assert isinstance(actions, np.ndarray) and actions.dtype == np.float32, \
+            f"actions are {actions!r}; they must be an array of float32"
+        assert actions.shape == (self.batch_size, 3), f"actions have the shape {actions.shape}; they must have {(self.batch_size, 3)}"
+        return super()._joysticks(actions)
+
+    def _info(self, results: Results) -> vector_env.Info:
+        return {"env_id": results.env_id, "lives": results.lives, "frame_number": results.frames,
+                "episode_frame_number": results.episode_frames}
+
+    def _add_finals(self, info: vector_env.Info, observations: Any, results: Results) -> None:
+        """One array of all environments. Where no episode ended, it has the present observation."""
+        finals = results.final_observations
+        assert finals is not None
+        goes_on = ~results.finished
+        finals[goes_on] = observations[goes_on]
+        info["final_obs"] = finals
