@@ -3,9 +3,11 @@
 import os
 import pathlib
 import resource
+import signal
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 import package
@@ -328,6 +330,26 @@ class BadInput(unittest.TestCase):
             with self.assertRaisesRegex(InvalidInput, "this process may use"):
                 AtariVectorEnv("beamfall", count)
 
+    def test_memory_that_runs_out(self):
+        """Where more than the machines take it: thousands of them fail."""
+        script = ("import pathlib, racebeam, resource\n"
+                  "few = racebeam.AtariVectorEnv('beamfall', 2, num_threads=2)\n"
+                  "used = int(pathlib.Path('/proc/self/statm').read_text().split()[0]) * resource.getpagesize()\n"
+                  "resource.setrlimit(resource.RLIMIT_AS, (used + (1000 << 20), -1))\n"
+                  "try: racebeam.AtariVectorEnv('beamfall', 4000, img_height=210, img_width=160, stack_num=16, grayscale=False)\n"
+                  "except MemoryError: print('refused')\n"
+                  "try: racebeam.AtariVectorEnv('beamfall', 50_000)\n"
+                  "except racebeam.InvalidInput as error: print('this process may use' in str(error))\n"
+                  "few.step([0, 0]); print('on')")
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=Threads.PATIENCE)
+        self.assertEqual(done.stdout.split(), ["refused", "True", "on"], done.stderr)
+
+    def test_more_threads_than_environments(self):
+        settings = racebeam._core.VectorSettings()
+        settings.threads = settings.first_processor = 2**31 - 1
+        machines = racebeam._core.VectorMachines([("builtin:beamfall", "beamfall")], np.zeros(2, np.int32), settings)
+        self.assertEqual(len(machines.numbers_of_actions()), 2)
+
     def test_actions(self):
         envs, sticks = AtariVectorEnv("beamfall", 2, seed=1), AtariVectorEnv("beamfall", 2, continuous=True)
         for one, cases in ((envs, (([0, 99], IndexError), ([-1, 0], IndexError), ([0, 2**40], IndexError), (np.array([0, 2**64 - 1], np.uint64), IndexError),
@@ -407,6 +429,50 @@ class Threads(unittest.TestCase):
         for _ in range(50):
             play(envs, 10)  # 110 MB of observations in all
         self.assertLess(resident() - before, 20 << 20)
+
+
+class Interrupts(unittest.TestCase):
+    """Ctrl-C ends what takes long, and leaves the environments so that they can go on."""
+
+    LONG = {"num_envs": 500, "frameskip": 1000, "noop_max": 1000}
+
+    def interrupt(self, call, raised=KeyboardInterrupt, handler=signal.default_int_handler):
+        """`call` raises that, soon after a signal. Returns the seconds of processors it took."""
+        before = signal.signal(signal.SIGALRM, handler)
+        begin = time.process_time()
+        try:
+            with self.assertRaises(raised):
+                signal.setitimer(signal.ITIMER_REAL, 0.1)
+                call()
+                time.sleep(1)  # a signal that comes late
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        return time.process_time() - begin
+
+    def test_a_step_and_a_reset(self):
+        envs = AtariVectorEnv("beamfall", **self.LONG, seed=1)
+        for call in (lambda: envs.step([1] * 500), lambda: envs.reset(seed=1)):
+            before = envs.show()[1]["frame_number"]
+            self.interrupt(call)
+            self.assertTrue((envs.show()[1]["frame_number"] == before).any())
+        self.assertEqual(envs.reset(seed=1)[0].shape[0], 500)
+
+    def test_making_them(self):
+        begin = time.process_time()
+        AtariVectorEnv("beamfall", **self.LONG)
+        whole = time.process_time() - begin
+        self.assertLess(self.interrupt(lambda: AtariVectorEnv("beamfall", **self.LONG)), whole)
+
+    def test_what_is_received_later_is_not_lost(self):
+        envs, others = (AtariVectorEnv("beamfall", **self.LONG, seed=1) for _ in range(2))
+        envs.send([1] * 500)
+        self.interrupt(envs.recv)
+        self.assertTrue(same([envs.recv()], [others.step([1] * 500)]))
+
+    def test_a_handler_that_uses_them(self):
+        envs = AtariVectorEnv("beamfall", **self.LONG)
+        self.interrupt(lambda: envs.step([1] * 500), RuntimeError, lambda *_: envs.save(0))
 
 
 class Found(unittest.TestCase):

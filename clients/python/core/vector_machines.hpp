@@ -5,6 +5,7 @@
 #include <span>
 
 #include "clients/python/core/lock.hpp"
+#include "clients/python/core/signals.hpp"
 #include "environment/vector/batch.hpp"
 
 namespace racebeam::python {
@@ -12,8 +13,9 @@ namespace racebeam::python {
 // Calls that XLA makes (bind_xla.cpp) share it with the object of Python, and may outlive that.
 class SharedBatch {
  public:
+  // Throws what a handler of signals raises meanwhile.
   SharedBatch(std::span<const Cartridge> cartridges, const BatchSettings& settings)
-      : batch_(std::make_unique<Batch>(cartridges, settings)) {}
+      : batch_(std::make_unique<Batch>(cartridges, settings, look_for_signals)) {}
   ~SharedBatch();
   SharedBatch(const SharedBatch&) = delete;
   SharedBatch& operator=(const SharedBatch&) = delete;
@@ -21,7 +23,8 @@ class SharedBatch {
   Lock& lock() { return lock_; }
 
   // The caller holds lock(). Throws std::runtime_error in a child of the process that made the machines.
-  Batch& batch();
+  // `watch`: for the requests that follow (Batch::set_watch()).
+  Batch& batch(Watch watch);
 
  private:
   bool is_forked() const { return made_in_ != process_generation(); }
@@ -38,7 +41,7 @@ class VectorMachines {
 
   // As those of SharedBatch.
   Lock& lock() { return shared_->lock(); }
-  Batch& batch() { return shared_->batch(); }
+  Batch& batch() { return shared_->batch(look_for_signals); }
 
   std::weak_ptr<SharedBatch> shared() const { return shared_; }
 

@@ -175,6 +175,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
         options["reset_mask"]: an array of bools that chooses environments; the others are shown as they are.
         out: the array that becomes the observations; None: a new one.
+        KeyboardInterrupt ends a long call, as it ends step().
         """
         self._check_open()
         if not isinstance(options, (dict, type(None))):
@@ -191,7 +192,11 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         return self._begun(results)
 
     def step(self, actions: Any, *, out: Pixels | None = None) -> tuple[Any, Any, Any, Any, Info]:
-        """An action for each environment; with batch_size, for each of those that the last call returned."""
+        """An action for each environment; with batch_size, for each of those that the last call returned.
+
+        What a signal's handler raises, such as KeyboardInterrupt, ends a long call. Each environment has then made the step, or is
+        as it was, and reset() or restore() makes them agree. With batch_size, the step goes on, and recv() returns it.
+        """
         self._check_open()
         meant: Any = self._joysticks(actions) if self.continuous else self._indices(actions)
         if self.batch_size < self.num_envs:
@@ -210,7 +215,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self._send(self._joysticks(actions) if self.continuous else self._indices(actions))
 
     def recv(self, *, out: Pixels | None = None) -> tuple[Any, Any, Any, Any, Info]:
-        """What those batch_size environments show that have finished first."""
+        """What those batch_size environments show that have finished first. After KeyboardInterrupt, the next recv() returns it."""
         self._check_open()
         results = self._room(out)
         self._machines.receive(results)
