@@ -1,7 +1,9 @@
 """AtariVectorEnv: what ale_py's lacks, bad input, threads and forks, and Gymnasium's own wrappers."""
 
+import copy
 import os
 import pathlib
+import pickle
 import resource
 import signal
 import subprocess
@@ -239,6 +241,83 @@ class States(unittest.TestCase):
             envs.restore(-1, envs.save(0))
         with self.assertRaises(TypeError):
             envs.restore(0, None)
+
+
+    def test_later_episodes_are_the_same(self):
+        for mode in ("NextStep", "SameStep", "Disabled"):
+            for sticky in (0.0, 0.25):
+                envs = AtariVectorEnv("beamfall", 2, autoreset_mode=mode, repeat_action_probability=sticky, max_num_frames_per_episode=100,
+                                      seed=1)
+                play(envs, 33)
+                states = [envs.save(env) for env in range(2)]
+
+                def on():
+                    shown = []
+                    for step in range(100):
+                        shown.append(envs.step([step % 4, 1]))
+                        ended = shown[-1][2] | shown[-1][3]
+                        if mode == "Disabled" and ended.any():
+                            observations, info = envs.reset(options={"reset_mask": ended})
+                            shown.append((observations, info))
+                    return shown
+                first = on()
+                for env in range(2):
+                    envs.restore(env, states[env])
+                second = on()
+                with self.subTest(mode=mode, sticky=sticky):
+                    lengths = {int(one[-1]["frame_number"][0]) for one in first}
+                    self.assertGreater(len(lengths), 50)
+                    self.assertTrue(all(np.array_equal(a[0], b[0]) and np.array_equal(a[-1]["frame_number"], b[-1]["frame_number"])
+                                        for a, b in zip(first, second)))
+
+    def test_a_state_of_other_screens_is_refused(self):
+        envs = AtariVectorEnv("beamfall", 1, seed=1)
+        before = play(envs, 5)[-1][0]
+        for settings, sentence in (({"stack_num": 2}, "a stack of 2 grey screens of 84 x 84; here, one has a stack of 4 grey screens"),
+                                   ({"img_height": 50}, "84 x 50"), ({"img_width": 42, "img_height": 168}, "42 x 168"),
+                                   ({"grayscale": False}, "4 colour screens"), ({"obs_type": "ram"}, "no stack of screens")):
+            with self.subTest(**settings), self.assertRaisesRegex(InvalidInput, sentence):
+                envs.restore(0, AtariVectorEnv("beamfall", 1, seed=9, **settings).save(0))
+        self.assertTrue(np.array_equal(envs.show()[0], before))
+
+    def test_a_state_is_pickled_and_copied(self):
+        for settings in ({}, {"obs_type": "ram"}, {"lives": "end", "grayscale": False}, {"noop_max": 7, "rules": "fixed"}):
+            envs = AtariVectorEnv("beamfall", 1, seed=1, max_num_frames_per_episode=90, **settings)
+            play(envs, 10)
+            state = envs.save(0)
+            expected = play(envs, 60)
+            others = AtariVectorEnv("beamfall", 1, seed=2, max_num_frames_per_episode=90, **settings)
+            for copied in (pickle.loads(pickle.dumps(state)), copy.deepcopy(state), pickle.loads(pickle.dumps(copy.copy(state)))):
+                others.restore(0, copied)
+                with self.subTest(**settings):
+                    self.assertTrue(same(play(others, 60), expected))
+            envs.close()
+            del envs
+            self.assertEqual(pickle.dumps(state), pickle.dumps(copied))
+
+    def test_pickled_bytes_that_were_altered_are_refused(self):
+        envs, others = AtariVectorEnv("beamfall", 1, seed=1), AtariVectorEnv("updraft", 1)
+        state = envs.save(0).__getstate__()
+        kind = type(envs.save(0))
+
+        def restored(data):
+            copied = kind.__new__(kind)
+            copied.__setstate__(data)
+            envs.restore(0, copied)
+        restored(state)
+        for wrong in (b"", b"x" * 100, state[:-1], state + b"x", state[:500] + b"\0\1\2" + state[503:], state[:8] + b"\7" + state[9:]):
+            with self.assertRaises(InvalidInput):
+                restored(wrong)
+        with self.assertRaises(TypeError):
+            restored(3)
+        with self.assertRaisesRegex(InvalidInput, "the state is of the image"):
+            others.restore(0, pickle.loads(pickle.dumps(envs.save(0))))
+
+    def test_environments_say_how_they_are_carried(self):
+        envs = AtariVectorEnv("beamfall", 1)
+        for carry in (pickle.dumps, copy.copy, copy.deepcopy):
+            with self.assertRaisesRegex(TypeError, "AtariVectorEnv has threads, and can be neither pickled nor copied"):
+                carry(envs)
 
 
 class Halves(unittest.TestCase):

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "clients/python/core/lock.hpp"
 #include "clients/python/core/signals.hpp"
@@ -15,12 +16,15 @@ class SharedBatch {
  public:
   // Throws what a handler of signals raises meanwhile.
   SharedBatch(std::span<const Cartridge> cartridges, const BatchSettings& settings)
-      : batch_(std::make_unique<Batch>(cartridges, settings, look_for_signals)) {}
+      : cartridges_(cartridges.begin(), cartridges.end()),
+        batch_(std::make_unique<Batch>(cartridges, settings, look_for_signals)) {}
   ~SharedBatch();
   SharedBatch(const SharedBatch&) = delete;
   SharedBatch& operator=(const SharedBatch&) = delete;
 
   Lock& lock() { return lock_; }
+
+  const Cartridge& cartridge(std::size_t machine) const { return cartridges_[machine]; }
 
   // The caller holds lock(). Throws std::runtime_error in a child of the process that made the machines.
   // `watch`: for the requests that follow (Batch::set_watch()).
@@ -31,6 +35,7 @@ class SharedBatch {
 
   const unsigned made_in_ = process_generation();
   Lock lock_;
+  const std::vector<Cartridge> cartridges_;  // one a machine
   std::unique_ptr<Batch> batch_;
 };
 
@@ -42,6 +47,7 @@ class VectorMachines {
   // As those of SharedBatch.
   Lock& lock() { return shared_->lock(); }
   Batch& batch() { return shared_->batch(look_for_signals); }
+  const Cartridge& cartridge(std::size_t machine) const { return shared_->cartridge(machine); }
 
   std::weak_ptr<SharedBatch> shared() const { return shared_; }
 

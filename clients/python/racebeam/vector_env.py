@@ -352,14 +352,23 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     # States and the end
 
     def save(self, env: int, *, include_rng: bool = True) -> _core.SavedMachine:
-        """The state of one environment, with its stack of screens; with include_rng, also of sticky actions' generator."""
+        """The state of one environment, with its stack of screens. It can be pickled.
+
+        include_rng: with the generators of sticky actions and of no-ops, so that later episodes are the same, too.
+        """
         self._check_open()
         return self.machines().save(operator.index(env), include_rng)
 
     def restore(self, env: int, state: _core.SavedMachine) -> None:
-        """Takes an environment to a state of its game. show() shows it. Raises InvalidInput for another game's."""
+        """Takes an environment to a state of its game. show() shows it. Raises InvalidInput for a state of another game, or whose
+        observations have another shape.
+        """
         self._check_open()
         self._machines.restore(operator.index(env), state)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError(f"{type(self).__name__} has threads, and can be neither pickled nor copied; make another one with the same "
+                        "arguments, and take it to the states that save(env) gives, which can be pickled, by restore(env, state)")
 
     def close_extras(self, **kwargs: Any) -> None:
         """Ends the threads, or the session, and gives the memory back."""
