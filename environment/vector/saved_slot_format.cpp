@@ -54,7 +54,8 @@ void check_values(const SlotValues& values) {
   check_range("the number of frames played", values.elapsed, 0, kMostFrames);
   check_range("the number of screens in the stack", values.depth, 0, kMostDepth);
   check_range("the width of a screen in the stack", values.width, 0, kScreenWidth);
-  check_range("the height of a screen in the stack", values.height, 0, std::numeric_limits<std::int16_t>::max());
+  check_range("the height of a screen in the stack", values.height, 0,
+              std::numeric_limits<std::int16_t>::max());
   check_flag("the flag of colours", values.rgb);
   check_flag("the flag of the episode's end", values.finished);
   check_flag("the flag of a game that goes on", values.goes_on);
@@ -71,10 +72,21 @@ std::vector<std::uint8_t> to_bytes(const Slot::Saved& saved, const Environment& 
   const std::vector<std::uint8_t> machine = to_bytes(*saved.machine, environment);
   const auto& progress = saved.progress;
   const StackSettings& stack = saved.stack_settings;
-  const SlotValues values{progress.score, progress.elapsed, progress.lives, stack.depth, stack.width,
-                          stack.height, static_cast<std::uint32_t>(machine.size()), stack.rgb,
-                          progress.finished, progress.goes_on, progress.terminated, progress.truncated,
-                          progress.blends, saved.noops != nullptr, 0};
+  const SlotValues values{progress.score,
+                          progress.elapsed,
+                          progress.lives,
+                          stack.depth,
+                          stack.width,
+                          stack.height,
+                          static_cast<std::uint32_t>(machine.size()),
+                          stack.rgb,
+                          progress.finished,
+                          progress.goes_on,
+                          progress.terminated,
+                          progress.truncated,
+                          progress.blends,
+                          saved.noops != nullptr,
+                          0};
   std::vector<std::uint8_t> bytes(sizeof(SlotHeader));
   bytes.reserve(sizeof(SlotHeader) + sizeof values + values.size_of_rest());
   append(bytes, values);
@@ -105,8 +117,7 @@ void check_saved_slot(std::span<const std::uint8_t> bytes) {
   if (header.total_size != size)
     throw InvalidInput("the state has " + std::to_string(size) + " bytes instead of " +
                        std::to_string(header.total_size) + "; it was truncated, or bytes were added");
-  if (header.checksum != checksum(bytes))
-    throw InvalidInput("the state was altered: its checksum is wrong");
+  if (header.checksum != checksum(bytes)) throw InvalidInput("the state was altered: its checksum is wrong");
 }
 
 Slot::Saved saved_slot(std::span<const std::uint8_t> bytes, const Environment& environment) {

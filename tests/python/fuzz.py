@@ -174,6 +174,8 @@ def round_of_calls(calls, failures):
                 documented(chance.choice(FUNCTIONS), *[value() for _ in range(chance.randrange(4))])
             if thing is not None and chance.random() < 0.01:
                 thing = documented(lambda: pickle.loads(pickle.dumps(thing))) or thing
+            if kept and chance.random() < 0.01:
+                kept.append(pickle.loads(pickle.dumps(chance.choice(kept))))
             if thing is None:
                 continue
             if chance.random() < 0.05:

@@ -23,7 +23,9 @@ SavedMachine::SavedMachine(const Slot& slot, Cartridge cartridge, bool with_rand
       settings_(slot.environment().settings()),
       saved_(slot.save(with_random, with_random)) {}
 
-SavedMachine::SavedMachine(std::string bytes) : bytes_(std::move(bytes)) { check_saved_slot(as_span(bytes_)); }
+SavedMachine::SavedMachine(std::string bytes) : bytes_(std::move(bytes)) {
+  check_saved_slot(as_span(bytes_));
+}
 
 void SavedMachine::restore_in(Slot& slot) const {
   if (cartridge_.image) return restore_checked(slot, saved_);

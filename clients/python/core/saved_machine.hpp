@@ -17,8 +17,8 @@ class SavedMachine {
   // version; the rest is checked when the state is restored.
   explicit SavedMachine(std::string bytes);
 
-  // Throws InvalidInput when the state is of another image, game or stack than the slot's, or has a value that
-  // no machine has; the slot is then as it was.
+  // Throws InvalidInput when the state is of another image, game or stack than the slot's, or has a value
+  // that no machine has; the slot is then as it was.
   void restore_in(Slot& slot) const;
 
   // Uses nothing that another thread changes.

@@ -51,8 +51,8 @@ Bytes play(Slot& slot, int steps) {
 }
 
 void seal(Bytes& bytes) {
-  const auto crc = static_cast<std::uint32_t>(
-      crc32(0, bytes.data() + kHeader, static_cast<uInt>(bytes.size() - kHeader)));
+  const auto crc =
+      static_cast<std::uint32_t>(crc32(0, bytes.data() + kHeader, static_cast<uInt>(bytes.size() - kHeader)));
   std::memcpy(bytes.data() + 16, &crc, sizeof crc);
 }
 
@@ -139,9 +139,10 @@ TEST_CASE("A stack of other screens is refused where it is asked for") {
     return slot.save(true);
   };
   CHECK_NOTHROW(played.slot.check_stack(of(StackSettings{.depth = 3})));
-  CHECK_THROWS_WITH(played.slot.check_stack(of(StackSettings{.depth = 2})),
-                    "the state has a stack of 2 grey screens of 84 x 84; here, one has a stack of 3 grey screens "
-                    "of 84 x 84");
+  CHECK_THROWS_WITH(
+      played.slot.check_stack(of(StackSettings{.depth = 2})),
+      "the state has a stack of 2 grey screens of 84 x 84; here, one has a stack of 3 grey screens "
+      "of 84 x 84");
   CHECK_THROWS_WITH(played.slot.check_stack(of(StackSettings{.depth = 3, .width = 42, .height = 168})),
                     Catch::Contains("of 42 x 168"));
   CHECK_THROWS_WITH(played.slot.check_stack(of({})), Catch::Contains("the state has no stack of screens"));
