@@ -1,6 +1,7 @@
 #include "system/resources.hpp"
 
 #include <sched.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 constexpr auto kMachine = "the machine";
 constexpr auto kAffinity = "the affinity";
 constexpr auto kControlGroup = "the control group";
+constexpr auto kAddressSpace = "the address space (ulimit -v)";
 
 // A directory of the cgroup hierarchy, and its version.
 struct Group {
@@ -158,6 +160,8 @@ Allowance usable_memory(const std::string& root) {
   Allowance allowance{system_value(_SC_PHYS_PAGES) * system_value(_SC_PAGESIZE), kMachine};
   for (const Group& group : all_groups(root, "memory"))
     if (const auto most = memory_of(group)) limit(allowance, *most, kControlGroup);
+  rlimit space{};
+  if (::getrlimit(RLIMIT_AS, &space) == 0) limit(allowance, space.rlim_cur, kAddressSpace);
   return allowance;
 }
 

@@ -1,4 +1,5 @@
-// How much of the computer this process may use. Affinity and control groups (containers) can limit it.
+// How much of the computer this process may use. Affinity, control groups (containers) and limits of
+// resources (ulimit) can limit it.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,8 @@
 
 namespace racebeam {
 
-// An amount, and its limit: "the affinity", "the control group" or "the machine".
+// An amount, and its limit: "the affinity", "the control group", "the address space (ulimit -v)" or "the
+// machine".
 struct Allowance {
   std::uint64_t amount;
   std::string limited_by;
@@ -20,7 +22,7 @@ struct Allowance {
 // up. At least 1.
 Allowance usable_processors(const std::string& root = "");
 
-// Bytes: the least of the physical memory and the control groups' limits.
+// Bytes: the least of the physical memory, the control groups' limits and that of the address space.
 Allowance usable_memory(const std::string& root = "");
 
 // Bytes of memory that the process uses now.

@@ -24,6 +24,9 @@ class Noops {
     return static_cast<int>(product >> 32);
   }
 
+  const MersenneTwister& generator() const { return random_; }
+  void set_generator(const MersenneTwister& generator) { random_ = generator; }
+
  private:
   MersenneTwister random_;
   std::uint32_t choices_;

@@ -20,9 +20,11 @@ int checked(int size, int least, int most, const std::string& what) {
 }  // namespace
 
 ScreenStack::ScreenStack(const StackSettings& settings, const Environment& environment)
-    : depth_(settings.depth), resize_(nullptr), plane_size_(environment.screen().size()) {
+    : settings_(settings), resize_(nullptr), plane_size_(environment.screen().size()) {
   const int width = checked(settings.width, 1, kScreenWidth, "width");
   const int height = checked(settings.height, kLeastHeight, environment.height(), "height");
+  settings_.width = width;
+  settings_.height = height;
   if (width != kScreenWidth || height != environment.height())
     resize_ = &screen_resize(environment.height(), width, height);
   if (settings.rgb) {
@@ -34,7 +36,7 @@ ScreenStack::ScreenStack(const StackSettings& settings, const Environment& envir
   screen_size_ = reduced * tables_.size();
   seen_.resize(plane_size_ * tables_.size());
   if (tables_.size() > 1) reduced_.resize(reduced);
-  screens_.resize(screen_size_ * static_cast<std::size_t>(depth_));
+  screens_.resize(screen_size_ * static_cast<std::size_t>(depth()));
 }
 
 void ScreenStack::clear() { std::ranges::fill(screens_, std::uint8_t{0}); }
@@ -64,7 +66,7 @@ void ScreenStack::reduce(std::size_t channel, std::span<std::uint8_t> to) {
 }
 
 void ScreenStack::push() {
-  if (++newest_ == static_cast<std::size_t>(depth_)) newest_ = 0;
+  if (++newest_ == static_cast<std::size_t>(depth())) newest_ = 0;
   if (tables_.size() == 1) return reduce(0, newest());
   for (std::size_t channel = 0; channel < tables_.size(); ++channel) {
     reduce(channel, reduced_);
@@ -85,7 +87,7 @@ void ScreenStack::repeat() {
 void ScreenStack::copy_to(std::span<std::uint8_t> to, std::size_t stride) const {
   std::size_t from = newest_;
   for (std::size_t at = 0; at < to.size(); at += stride) {
-    if (++from == static_cast<std::size_t>(depth_)) from = 0;
+    if (++from == static_cast<std::size_t>(depth())) from = 0;
     std::ranges::copy(std::span(screens_).subspan(from * screen_size_, screen_size_), &to[at]);
   }
 }
@@ -98,7 +100,7 @@ std::vector<std::uint8_t> ScreenStack::bytes() const {
 
 void ScreenStack::set_bytes(std::span<const std::uint8_t> bytes) {
   std::ranges::copy(bytes, screens_.begin());
-  newest_ = static_cast<std::size_t>(depth_) - 1;
+  newest_ = static_cast<std::size_t>(depth()) - 1;
 }
 
 }  // namespace racebeam

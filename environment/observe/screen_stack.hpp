@@ -20,6 +20,7 @@ struct StackSettings {
   bool rgb = false;  // red, green and blue of each pixel, in this order, instead of one grey
 
   int channels() const { return rgb ? 3 : 1; }
+  bool operator==(const StackSettings&) const = default;
 };
 
 // The last `depth` screens of an environment; those that are not there yet are zero.
@@ -28,7 +29,8 @@ class ScreenStack {
   // For the screens of `environment`. Throws InvalidInput for a size that can't be made of them.
   ScreenStack(const StackSettings& settings, const Environment& environment);
 
-  int depth() const { return depth_; }
+  const StackSettings& settings() const { return settings_; }  // without 0 for the screen's own size
+  int depth() const { return settings_.depth; }
   std::size_t screen_size() const { return screen_size_; }  // bytes: height x width x channels
   std::size_t size() const { return screens_.size(); }      // of all screens
 
@@ -58,7 +60,7 @@ class ScreenStack {
   }
   void reduce(std::size_t channel, std::span<std::uint8_t> to);
 
-  int depth_;
+  StackSettings settings_;
   const AreaResize* resize_;                 // null: screens stay as they are
   std::span<const BrightnessTable> tables_;  // one a channel
   std::size_t plane_size_, screen_size_;

@@ -1,23 +1,20 @@
 #include "environment/saved/saved_state_format.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
-#include <bit>
 #include <cstring>
-#include <sstream>
 #include <string>
 
-#include "environment/saved/saved_state_check.hpp"
+#include "environment/saved/state_bytes.hpp"
+#include "environment/saved_state.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
+
+using namespace state_bytes;
+
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "a state's bytes are the memory of its values");
-
 using Values = Environment::Saved::Values;
-using GeneratorWords = std::array<std::uint32_t, MersenneTwister::state_size + 1>;  // and the position
 
 struct Header {
   char magic[8];
@@ -42,44 +39,6 @@ struct Prefix {
 };
 
 constexpr char kMagic[8] = {'R', 'B', 'S', 'T', 'A', 'T', 'E', '\n'};
-
-std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
-  return static_cast<std::uint32_t>(crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
-}
-
-template <class T>
-void append(std::vector<std::uint8_t>& bytes, const T& value) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  const auto* first = reinterpret_cast<const std::uint8_t*>(&value);
-  bytes.insert(bytes.end(), first, first + sizeof value);
-}
-
-template <class T>
-T take(std::span<const std::uint8_t>& bytes) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  T value;
-  std::memcpy(&value, bytes.data(), sizeof value);
-  bytes = bytes.subspan(sizeof value);
-  return value;
-}
-
-// The standard's only access to a generator's state is text.
-GeneratorWords words_of(const MersenneTwister& generator) {
-  std::stringstream text;
-  text << generator;
-  GeneratorWords words{};
-  for (std::uint32_t& word : words) text >> word;
-  return words;
-}
-
-MersenneTwister generator_of(const GeneratorWords& words) {
-  check_generator(std::span(words).first<MersenneTwister::state_size>(), words.back());
-  std::stringstream text;
-  for (const std::uint32_t word : words) text << word << ' ';
-  MersenneTwister generator;
-  text >> generator;
-  return generator;
-}
 
 [[noreturn]] void refuse(const std::string& sentence) { throw InvalidInput(sentence); }
 

@@ -44,6 +44,12 @@ void check_act(const Act& act) {
 // Bytes of a machine that has played, without its stack and results; measured (docs/performance.md).
 constexpr std::size_t kMachine = std::size_t{240} << 10;
 
+// More threads than machines would have nothing to do.
+unsigned useful_threads(unsigned asked, std::size_t machines) {
+  const std::uint64_t wanted = asked != 0 ? asked : usable_processors().amount;
+  return static_cast<unsigned>(std::min({wanted, std::uint64_t{machines}, std::uint64_t{kMostWorkers}}));
+}
+
 // Returns the batch size.
 std::size_t checked_size(std::size_t machines, const BatchSettings& settings) {
   refuse_unless(machines > 0, [&] { return "there are 0 machines; there must be 1 or more"; });
@@ -71,10 +77,11 @@ void check_memory(std::size_t machines) {
 }
 
 struct Batch::Impl final : VectorHost {
-  Impl(std::span<const Cartridge> cartridges, const BatchSettings& given)
+  Impl(std::span<const Cartridge> cartridges, const BatchSettings& given, Watch given_watch)
       : settings(given),
+        watch(given_watch),
         batch_size(checked_size(cartridges.size(), given)),
-        pool(given.threads, given.busy_poll, given.first_processor),
+        pool(useful_threads(given.threads, cartridges.size()), given.busy_poll, given.first_processor),
         layout(given.stack, given.screens, given.autoreset == Autoreset::kSameStep),
         finals(cartridges.size()),
         vector(cartridges, given.slot, given.autoreset, *this),
@@ -90,7 +97,11 @@ struct Batch::Impl final : VectorHost {
 
   // VectorHost
   void run_all(std::size_t count, const std::function<void(std::size_t)>& task) override {
-    pool.run(count, task);
+    Lookout lookout(watch);
+    pool.run(count, [&](std::size_t number) {
+      if (lookout.goes_on()) task(number);
+    });
+    lookout.check();
   }
   void opened(std::size_t, Slot& slot) override {
     slot.set_drawing(settings.screens ? Drawing::kLast : Drawing::kNone);
@@ -111,12 +122,13 @@ struct Batch::Impl final : VectorHost {
   void begin(std::span<const std::size_t> numbers);
   void play(std::size_t number);
   std::span<const std::size_t> await_batch();
+  [[noreturn]] void rethrow_failure();
 
   struct Job {
     Act act;
     bool resets = false;
     std::int64_t seed = -1;
-    std::exception_ptr failure;
+    bool failed = false;
   };
 
   // Directs results into `arrays` for as long as it lives.
@@ -127,6 +139,7 @@ struct Batch::Impl final : VectorHost {
   };
 
   const BatchSettings settings;
+  Watch watch;
   const std::size_t batch_size;
   ThreadPool pool;
   const BatchArrays* out = nullptr;  // of the request that runs; null between send() and receive()
@@ -140,8 +153,9 @@ struct Batch::Impl final : VectorHost {
   std::vector<std::size_t> received;
   std::mutex mutex;
   std::condition_variable one_is_done;
-  std::vector<std::size_t> done;  // under the mutex
-  ThreadPool::Queue queue;        // the last member, so that it is destroyed first
+  std::vector<std::size_t> done;    // under the mutex
+  std::exception_ptr last_failure;  // of a job, under the mutex; one is kept, as in FirstFailure
+  ThreadPool::Queue queue;          // the last member, so that it is destroyed first
 };
 
 std::span<const Act> Batch::Impl::acts_of(std::span<const int> actions, auto machine_of) {
@@ -194,7 +208,9 @@ void Batch::Impl::play(std::size_t number) {
   try {
     job.resets ? vector.reset_one(number, job.seed) : vector.step_one(number, job.act);
   } catch (const std::exception&) {
-    job.failure = std::current_exception();
+    job.failed = true;
+    const std::lock_guard lock(mutex);
+    last_failure = std::current_exception();
   }
   {
     const std::lock_guard lock(mutex);
@@ -211,16 +227,15 @@ std::span<const std::size_t> Batch::Impl::await_batch() {
            "; send some first";
   });
   const auto enough = [this] { return done.size() >= batch_size; };
-  for (;;) {
-    std::unique_lock lock(mutex);
-    if (enough()) break;
+  Lookout lookout(watch);
+  std::unique_lock lock(mutex);
+  while (!enough()) {
     lock.unlock();
-    if (queue.work_once()) continue;
+    lookout.look();
+    const bool worked = queue.work_once();
     lock.lock();
-    one_is_done.wait(lock, enough);
-    break;
+    if (!worked) one_is_done.wait_for(lock, Lookout::kInterval, enough);
   }
-  const std::lock_guard lock(mutex);
   const auto end = done.begin() + static_cast<std::ptrdiff_t>(batch_size);
   received.assign(done.begin(), end);
   done.erase(done.begin(), end);
@@ -229,8 +244,16 @@ std::span<const std::size_t> Batch::Impl::await_batch() {
   return received;
 }
 
-Batch::Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings)
-    : impl_(std::make_unique<Impl>(cartridges, settings)) {}
+void Batch::Impl::rethrow_failure() {
+  const std::exception_ptr failure = [this] {
+    const std::lock_guard lock(mutex);
+    return last_failure;
+  }();
+  std::rethrow_exception(failure);
+}
+
+Batch::Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings, Watch watch)
+    : impl_(std::make_unique<Impl>(cartridges, settings, watch)) {}
 
 Batch::~Batch() = default;
 Batch::Batch(Batch&&) noexcept = default;
@@ -248,6 +271,8 @@ Slot& Batch::slot(std::size_t machine) {
 const std::vector<int>& Batch::actions(std::size_t machine) const {
   return impl_->vector.slot(machine).actions();
 }
+
+void Batch::set_watch(Watch watch) { impl_->watch = watch; }
 
 BatchResults Batch::make_results() const { return impl_->layout.make_results(batch_size()); }
 
@@ -284,8 +309,7 @@ void Batch::send(std::span<const Act> acts, std::span<const std::int32_t> machin
   for (const Act& act : acts) check_act(act);
   impl_->check_machines(machines);
   std::vector<std::size_t> numbers(machines.begin(), machines.end());
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    impl_->jobs[numbers[i]] = {.act = acts[i], .failure = nullptr};
+  for (std::size_t i = 0; i < numbers.size(); ++i) impl_->jobs[numbers[i]] = {.act = acts[i]};
   impl_->begin(numbers);
 }
 
@@ -302,8 +326,7 @@ void Batch::send_resets(std::span<const std::int64_t> seeds) {
   std::vector<std::size_t> numbers(size());
   std::iota(numbers.begin(), numbers.end(), std::size_t{0});
   for (const std::size_t number : numbers)
-    impl_->jobs[number] = {
-        .act = {}, .resets = true, .seed = seeds.empty() ? -1 : seeds[number], .failure = nullptr};
+    impl_->jobs[number] = {.act = {}, .resets = true, .seed = seeds.empty() ? -1 : seeds[number]};
   impl_->begin(numbers);
 }
 
@@ -311,8 +334,7 @@ void Batch::receive(const BatchArrays& out) {
   const auto numbers = impl_->await_batch();
   for (std::size_t position = 0; position < numbers.size(); ++position) {
     const std::size_t number = numbers[position];
-    if (impl_->jobs[number].failure)
-      std::rethrow_exception(std::exchange(impl_->jobs[number].failure, nullptr));
+    if (impl_->jobs[number].failed) impl_->rethrow_failure();
     const Slot& slot = impl_->vector.slot(number);
     impl_->layout.write(slot, number, position, out);
     const bool ended = slot.outcome().finished && impl_->settings.autoreset == Autoreset::kSameStep;

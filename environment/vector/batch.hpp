@@ -10,9 +10,12 @@
 #include <vector>
 
 #include "environment/vector/batch_results.hpp"
+#include "environment/vector/lookout.hpp"
 #include "environment/vector/vector_environment.hpp"
 
 namespace racebeam {
+
+constexpr unsigned kMostWorkers = 1024;  // threads of a batch
 
 struct BatchSettings {
   SlotSettings slot;
@@ -21,7 +24,8 @@ struct BatchSettings {
   bool screens = false;        // make_results() has room for whole screens, too
   std::size_t batch_size = 0;  // how many machines one receive() returns; 0: all
 
-  unsigned threads = 0;      // 0: one for each processor that the process may use
+  // 0: one for each processor that the process may use. At most one for each machine, and kMostWorkers.
+  unsigned threads = 0;
   int first_processor = -1;  // see ThreadPool
   std::chrono::microseconds busy_poll{50};
 };
@@ -32,8 +36,8 @@ void check_memory(std::size_t machines);
 class Batch {
  public:
   // Makes a machine for each cartridge, powers it on and resets it. Throws InvalidInput if the settings or an
-  // image cannot be used.
-  Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings);
+  // image cannot be used, or a thread cannot be started. `watch` may be null: see set_watch().
+  Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings, Watch watch = nullptr);
   ~Batch();
   Batch(Batch&&) noexcept;
   Batch& operator=(Batch&&) noexcept;
@@ -50,6 +54,12 @@ class Batch {
   // Gives access to a machine, for example to its states. Throws InvalidInput while it plays, from send() to
   // receive().
   Slot& slot(std::size_t machine);
+
+  // What is called every 50 ms in step(), reset() and receive(), and may end them by throwing; null: nothing.
+  // A step or reset then begins no more machines, and throws when those that have begun are done. Each
+  // machine has made its step or reset, or is as it was; `out` is undefined. A receive() has received
+  // nothing.
+  void set_watch(Watch watch);
 
   // Steps every machine once; `out` has room for all. Throws InvalidInput, and does nothing, unless there is
   // one act for each machine and every index is one of the machine's. A step allocates nothing, with three
@@ -69,8 +79,8 @@ class Batch {
   // A step in two halves, so that the caller can use the results of some machines while others play. send()
   // begins a step of each machine in `machines`; none of them may be playing. send_resets() begins a reset of
   // every machine. receive() waits for the batch_size() machines that finish first, and writes their results.
-  // All throw InvalidInput, and do nothing, if that is impossible. receive() also throws the failure of a
-  // machine.
+  // All throw InvalidInput, and do nothing, if that is impossible. receive() also throws if one of its
+  // machines has failed: what the last failure was.
   void send(std::span<const Act> acts, std::span<const std::int32_t> machines);
   void send(std::span<const int> actions, std::span<const std::int32_t> machines);
   void send_resets(std::span<const std::int64_t> seeds = {});

@@ -9,18 +9,18 @@
 namespace racebeam {
 namespace {
 
-void refuse_unless(bool good, const std::string& sentence) {
+void require(bool good, const std::string& sentence) {
   if (!good) throw InvalidInput(sentence);
 }
 
 const SlotSettings& checked(const SlotSettings& settings) {
   if (settings.steps == Steps::kActs) return settings;
   const Settings& machine = settings.machine;
-  refuse_unless(machine.frame_skip >= 1,
-                "a step has " + std::to_string(machine.frame_skip) + " frames; it must have 1 or more");
-  refuse_unless(machine.frame_skip_max <= machine.frame_skip, "a step of frames has a fixed number of them");
-  refuse_unless(!machine.truncate_on_life_loss, "a step of frames knows lost lives by life_loss alone");
-  refuse_unless(!machine.color_averaging, "a step of frames has no colour averaging; it takes max_pool");
+  require(machine.frame_skip >= 1,
+          "a step has " + std::to_string(machine.frame_skip) + " frames; it must have 1 or more");
+  require(machine.frame_skip_max <= machine.frame_skip, "a step of frames has a fixed number of them");
+  require(!machine.truncate_on_life_loss, "a step of frames knows lost lives by life_loss alone");
+  require(!machine.color_averaging, "a step of frames has no colour averaging; it takes max_pool");
   return settings;
 }
 
@@ -55,6 +55,12 @@ bool stops_at_lost_life(const SlotSettings& settings) {
 
 std::int64_t clamped(std::int64_t reward, const Settings& settings) {
   return std::clamp<std::int64_t>(reward, settings.reward_min, settings.reward_max);
+}
+
+std::string described(const StackSettings& stack) {
+  if (stack.depth == 0) return "no stack of screens";
+  return "a stack of " + std::to_string(stack.depth) + (stack.rgb ? " colour" : " grey") + " screens of " +
+         std::to_string(stack.width) + " x " + std::to_string(stack.height);
 }
 
 }  // namespace
@@ -173,27 +179,39 @@ void Slot::set_stack(const std::optional<StackSettings>& settings) {
   if (stack_) show(progress_.blends);
 }
 
-Slot::Saved Slot::save(bool with_random) const {
-  return {environment_.save(with_random), stack_ ? stack_->bytes() : std::vector<std::uint8_t>(), with_random,
-          progress_};
+Slot::Saved Slot::save(bool with_random, bool with_noops) const {
+  Saved saved{environment_.save(with_random), {}, with_random, progress_};
+  if (stack_) {
+    saved.stack = stack_->bytes();
+    saved.stack_settings = stack_->settings();
+  }
+  if (with_noops) saved.noops = std::make_shared<const MersenneTwister>(noops_.generator());
+  return saved;
 }
 
 void Slot::restore(const Saved& saved) {
   environment_.restore(*saved.machine);
   progress_ = saved.progress;
+  if (saved.noops) noops_.set_generator(*saved.noops);
   look_at_ends();
   if (!stack_) return;
   stack_->look(environment_, progress_.blends);
-  // A stack of another size cannot be restored: it begins anew.
-  if (stack_->size() == saved.stack.size()) return stack_->set_bytes(saved.stack);
+  if (stack_->settings() == saved.stack_settings) return stack_->set_bytes(saved.stack);
   stack_->clear();
   stack_->push();
+}
+
+void Slot::check_stack(const Saved& saved) const {
+  if (!stack_ || stack_->settings() == saved.stack_settings) return;
+  throw InvalidInput("the state has " + described(saved.stack_settings) + "; here, one has " +
+                     described(stack_->settings()));
 }
 
 std::size_t Slot::Saved::footprint() const {
   constexpr std::size_t kName = 256;
   const std::size_t picture = static_cast<std::size_t>(machine->height) * kScreenWidth;
-  return kName + sizeof *machine + machine->cartridge_ram.size() + 2 * picture + stack.size();
+  const std::size_t generator = noops ? sizeof *noops : 0;
+  return kName + sizeof *machine + machine->cartridge_ram.size() + 2 * picture + stack.size() + generator;
 }
 
 }  // namespace racebeam

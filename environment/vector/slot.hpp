@@ -123,17 +123,22 @@ class Slot {
   };
 
  public:
-  // A saved state. It does not contain the generator of no-ops.
   struct Saved {
     std::shared_ptr<const Environment::Saved> machine;
     std::vector<std::uint8_t> stack;  // ScreenStack::bytes(); empty if there was no stack
     bool with_random = false;         // contains the generator of the machine, as for sticky actions
     Progress progress;
+    StackSettings stack_settings{.depth = 0};                // ScreenStack::settings(); depth 0: no stack
+    std::shared_ptr<const MersenneTwister> noops = nullptr;  // the generator of no-ops, if it is contained
 
     std::size_t footprint() const;  // estimated bytes of memory; shared pictures count in full
   };
-  Saved save(bool with_random) const;
-  void restore(const Saved& saved);  // throws InvalidInput
+  // with_noops: with the generator of no-ops, so that later episodes are the same, too.
+  Saved save(bool with_random, bool with_noops = false) const;
+  // A stack of other screens than this slot keeps begins anew. Throws InvalidInput.
+  void restore(const Saved& saved);
+  // Throws InvalidInput if restore() would have to begin the stack anew.
+  void check_stack(const Saved& saved) const;
 
  private:
   void run_act(const Act& act);

@@ -22,17 +22,14 @@ void Slot::set_up() {
 
 void Slot::reset(std::optional<std::uint32_t> seed) {
   const bool may_fail = pace_ != nullptr || settings_.mode.has_value();
-  std::optional<std::pair<Saved, Noops>> before;
-  if (may_fail) before.emplace(save(true), noops_);
+  std::optional<Saved> before;
+  if (may_fail) before = save(true, true);
   const Outcome outcome = outcome_;
   try {
     if (seed) reload(*seed);
     progress_.goes_on && !seed ? begin_life() : begin_episode();
   } catch (...) {
-    if (before) {
-      restore(before->first);
-      noops_ = before->second;
-    }
+    if (before) restore(*before);
     outcome_ = outcome;
     throw;
   }

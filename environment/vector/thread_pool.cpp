@@ -4,7 +4,10 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <string>
+#include <system_error>
 
+#include "system/invalid_input.hpp"
 #include "system/resources.hpp"
 
 namespace racebeam {
@@ -62,13 +65,29 @@ class ThreadPool::Round final : public Job {
 
 ThreadPool::ThreadPool(unsigned threads, std::chrono::microseconds busy_poll, int first_processor)
     : count_(number_of_threads(threads)), busy_poll_(busy_poll) {
-  for (unsigned thread = 1; thread < count_; ++thread) {
+  try {
+    start(count_, first_processor);
+  } catch (const std::system_error& error) {
+    stop();
+    throw InvalidInput("thread " + std::to_string(threads_.size() + 2) + " of " + std::to_string(count_) +
+                       " could not be started: " + error.code().message() + "; ask for fewer");
+  } catch (...) {
+    stop();
+    throw;
+  }
+}
+
+ThreadPool::~ThreadPool() { stop(); }
+
+// The caller of run() is the first thread.
+void ThreadPool::start(unsigned threads, int first_processor) {
+  for (unsigned thread = 1; thread < threads; ++thread) {
     threads_.emplace_back([this, thread] { help(thread); });
     if (first_processor >= 0) bind_to(threads_.back(), static_cast<unsigned>(first_processor) + thread - 1);
   }
 }
 
-ThreadPool::~ThreadPool() {
+void ThreadPool::stop() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;

@@ -32,8 +32,9 @@ class ThreadPool {
   using Task = std::function<void(std::size_t number)>;
 
   // threads: how many, counting the caller of run(); 0: one for each processor that the process may use.
-  // busy_poll: how long a thread polls for the next job before it sleeps. first_processor: the pool's own
-  // threads are bound to this processor and those after it; -1: to none.
+  // Throws InvalidInput if one of them cannot be started; the others have ended then. busy_poll: how long a
+  // thread polls for the next job before it sleeps. first_processor: the pool's own threads are bound to this
+  // processor and those after it; -1: to none.
   explicit ThreadPool(unsigned threads, std::chrono::microseconds busy_poll = {}, int first_processor = -1);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -77,6 +78,8 @@ class ThreadPool {
   };
   class Round;
 
+  void stop();  // the threads end after the tasks they have begun
+  void start(unsigned threads, int first_processor);
   void add(Job& job);
   void remove(Job& job);  // waits for its helpers
   void announce();        // wakes threads, since there is more to do

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "environment/vector/first_failure.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -19,7 +21,7 @@ std::optional<std::uint32_t> seed_of(std::int64_t seed) {
 
 VectorEnvironment::VectorEnvironment(std::span<const Cartridge> cartridges, const SlotSettings& settings,
                                      Autoreset autoreset, VectorHost& host)
-    : autoreset_(autoreset), host_(host), slots_(cartridges.size()), failures_(cartridges.size()) {
+    : autoreset_(autoreset), host_(host), slots_(cartridges.size()) {
   run([&](std::size_t number) {
     slots_[number] =
         std::make_unique<Slot>(cartridges[number], settings_of(settings, number), host_.pace(number));
@@ -28,22 +30,21 @@ VectorEnvironment::VectorEnvironment(std::span<const Cartridge> cartridges, cons
   });
 }
 
-// Failures are collected and thrown at the end, since tasks run on any thread. A cancelled fiber unwinds with
-// something that is no std::exception, and that must pass.
+// A failure is thrown at the end, since tasks run on any thread. A cancelled fiber unwinds with something
+// that is no std::exception, and that must pass.
 template <typename Task>
 void VectorEnvironment::run(Task task) {
+  FirstFailure failure;
   const auto guarded = [&](std::size_t number) {
+    if (failure.is_before(number)) return;
     try {
       task(number);
     } catch (const std::exception&) {
-      failures_[number] = std::current_exception();
+      failure.keep(number);
     }
   };
-  for (auto& failure : failures_) failure = nullptr;
   host_.run_all(slots_.size(), std::ref(guarded));
-  for (const auto& failure : failures_) {
-    if (failure) std::rethrow_exception(failure);
-  }
+  failure.check();
 }
 
 void VectorEnvironment::step(std::span<const Act> acts) {

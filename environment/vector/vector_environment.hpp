@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <memory>
 #include <span>
@@ -26,7 +25,7 @@ class VectorHost {
   virtual ~VectorHost() = default;
 
   // Runs task(0) ... task(count - 1), on one thread or several, and returns when all are done. A task does
-  // not throw.
+  // not throw. May end the request by throwing, when no task is in progress.
   virtual void run_all(std::size_t count, const std::function<void(std::size_t)>& task) = 0;
 
   virtual Pace* pace(std::size_t /*number*/) { return nullptr; }  // of this machine; null: none
@@ -41,7 +40,7 @@ class VectorEnvironment {
  public:
   // Makes a machine for each cartridge, powers it on and resets it. settings.machine.random_seed is the seed
   // of machine 0; machine n has n more. `host` must outlive the environment. Throws what Slot throws, for the
-  // first machine that fails.
+  // first machine that fails, and what host.run_all() throws.
   VectorEnvironment(std::span<const Cartridge> cartridges, const SlotSettings& settings, Autoreset autoreset,
                     VectorHost& host);
 
@@ -51,12 +50,13 @@ class VectorEnvironment {
   const Slot& slot(std::size_t number) const { return *slots_[number]; }
 
   // Steps every machine: acts[n] is of machine n. A machine whose episode is over does what Autoreset says.
-  // Throws the failure of the first machine that has one.
+  // Throws the failure of the first machine that has one; those after it may have done nothing. Throws what
+  // host.run_all() throws. Each machine has then made its step, or is as it was.
   void step(std::span<const Act> acts);
 
   // Begins new episodes of the machines whose byte in `chosen` is not 0; of all if `chosen` is empty. The
   // other machines are shown as they are. A seed of 0 or more goes to Slot::reset(); a negative one means
-  // none.
+  // none. Throws as step() does.
   void reset(std::span<const std::uint8_t> chosen = {}, std::span<const std::int64_t> seeds = {});
 
   // The same for one machine, on the caller's thread. Callers may use different machines at the same time.
@@ -71,7 +71,6 @@ class VectorEnvironment {
   const Autoreset autoreset_;
   VectorHost& host_;
   std::vector<std::unique_ptr<Slot>> slots_;
-  std::vector<std::exception_ptr> failures_;
 };
 
 }  // namespace racebeam

@@ -184,6 +184,8 @@ def round_of_calls(calls, failures):
                 chance.choice(SERVERS.checks())()
             if thing is not None and not isinstance(thing, racebeam.Session) and chance.random() < 0.01:
                 thing = documented(lambda: pickle.loads(pickle.dumps(thing))) or thing
+            if kept and chance.random() < 0.01:
+                kept.append(pickle.loads(pickle.dumps(chance.choice(kept))))
             if thing is None:
                 continue
             if chance.random() < 0.05 and not isinstance(thing, racebeam.Session):

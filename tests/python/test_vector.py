@@ -1,11 +1,15 @@
 """AtariVectorEnv: what ale_py's lacks, bad input, threads and forks, and Gymnasium's own wrappers."""
 
+import copy
 import os
 import pathlib
+import pickle
 import resource
+import signal
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 import package
@@ -239,6 +243,83 @@ class States(unittest.TestCase):
             envs.restore(0, None)
 
 
+    def test_later_episodes_are_the_same(self):
+        for mode in ("NextStep", "SameStep", "Disabled"):
+            for sticky in (0.0, 0.25):
+                envs = AtariVectorEnv("beamfall", 2, autoreset_mode=mode, repeat_action_probability=sticky, max_num_frames_per_episode=100,
+                                      seed=1)
+                play(envs, 33)
+                states = [envs.save(env) for env in range(2)]
+
+                def on():
+                    shown = []
+                    for step in range(100):
+                        shown.append(envs.step([step % 4, 1]))
+                        ended = shown[-1][2] | shown[-1][3]
+                        if mode == "Disabled" and ended.any():
+                            observations, info = envs.reset(options={"reset_mask": ended})
+                            shown.append((observations, info))
+                    return shown
+                first = on()
+                for env in range(2):
+                    envs.restore(env, states[env])
+                second = on()
+                with self.subTest(mode=mode, sticky=sticky):
+                    lengths = {int(one[-1]["frame_number"][0]) for one in first}
+                    self.assertGreater(len(lengths), 50)
+                    self.assertTrue(all(np.array_equal(a[0], b[0]) and np.array_equal(a[-1]["frame_number"], b[-1]["frame_number"])
+                                        for a, b in zip(first, second)))
+
+    def test_a_state_of_other_screens_is_refused(self):
+        envs = AtariVectorEnv("beamfall", 1, seed=1)
+        before = play(envs, 5)[-1][0]
+        for settings, sentence in (({"stack_num": 2}, "a stack of 2 grey screens of 84 x 84; here, one has a stack of 4 grey screens"),
+                                   ({"img_height": 50}, "84 x 50"), ({"img_width": 42, "img_height": 168}, "42 x 168"),
+                                   ({"grayscale": False}, "4 colour screens"), ({"obs_type": "ram"}, "no stack of screens")):
+            with self.subTest(**settings), self.assertRaisesRegex(InvalidInput, sentence):
+                envs.restore(0, AtariVectorEnv("beamfall", 1, seed=9, **settings).save(0))
+        self.assertTrue(np.array_equal(envs.show()[0], before))
+
+    def test_a_state_is_pickled_and_copied(self):
+        for settings in ({}, {"obs_type": "ram"}, {"lives": "end", "grayscale": False}, {"noop_max": 7, "rules": "fixed"}):
+            envs = AtariVectorEnv("beamfall", 1, seed=1, max_num_frames_per_episode=90, **settings)
+            play(envs, 10)
+            state = envs.save(0)
+            expected = play(envs, 60)
+            others = AtariVectorEnv("beamfall", 1, seed=2, max_num_frames_per_episode=90, **settings)
+            for copied in (pickle.loads(pickle.dumps(state)), copy.deepcopy(state), pickle.loads(pickle.dumps(copy.copy(state)))):
+                others.restore(0, copied)
+                with self.subTest(**settings):
+                    self.assertTrue(same(play(others, 60), expected))
+            envs.close()
+            del envs
+            self.assertEqual(pickle.dumps(state), pickle.dumps(copied))
+
+    def test_pickled_bytes_that_were_altered_are_refused(self):
+        envs, others = AtariVectorEnv("beamfall", 1, seed=1), AtariVectorEnv("updraft", 1)
+        state = envs.save(0).__getstate__()
+        kind = type(envs.save(0))
+
+        def restored(data):
+            copied = kind.__new__(kind)
+            copied.__setstate__(data)
+            envs.restore(0, copied)
+        restored(state)
+        for wrong in (b"", b"x" * 100, state[:-1], state + b"x", state[:500] + b"\0\1\2" + state[503:], state[:8] + b"\7" + state[9:]):
+            with self.assertRaises(InvalidInput):
+                restored(wrong)
+        with self.assertRaises(TypeError):
+            restored(3)
+        with self.assertRaisesRegex(InvalidInput, "the state is of the image"):
+            others.restore(0, pickle.loads(pickle.dumps(envs.save(0))))
+
+    def test_environments_say_how_they_are_carried(self):
+        envs = AtariVectorEnv("beamfall", 1)
+        for carry in (pickle.dumps, copy.copy, copy.deepcopy):
+            with self.assertRaisesRegex(TypeError, "AtariVectorEnv has threads, and can be neither pickled nor copied"):
+                carry(envs)
+
+
 class Halves(unittest.TestCase):
     def test_each_environment_shows_the_same_as_in_whole_steps(self):
         together, envs = AtariVectorEnv("beamfall", 4), AtariVectorEnv("beamfall", 4, batch_size=2, num_threads=2)
@@ -327,6 +408,26 @@ class BadInput(unittest.TestCase):
         for count in (10**6, 10**7):
             with self.assertRaisesRegex(InvalidInput, "this process may use"):
                 AtariVectorEnv("beamfall", count)
+
+    def test_memory_that_runs_out(self):
+        """Where more than the machines take it: thousands of them fail."""
+        script = ("import pathlib, racebeam, resource\n"
+                  "few = racebeam.AtariVectorEnv('beamfall', 2, num_threads=2)\n"
+                  "used = int(pathlib.Path('/proc/self/statm').read_text().split()[0]) * resource.getpagesize()\n"
+                  "resource.setrlimit(resource.RLIMIT_AS, (used + (1000 << 20), -1))\n"
+                  "try: racebeam.AtariVectorEnv('beamfall', 4000, img_height=210, img_width=160, stack_num=16, grayscale=False)\n"
+                  "except MemoryError: print('refused')\n"
+                  "try: racebeam.AtariVectorEnv('beamfall', 50_000)\n"
+                  "except racebeam.InvalidInput as error: print('this process may use' in str(error))\n"
+                  "few.step([0, 0]); print('on')")
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=Threads.PATIENCE)
+        self.assertEqual(done.stdout.split(), ["refused", "True", "on"], done.stderr)
+
+    def test_more_threads_than_environments(self):
+        settings = racebeam._core.VectorSettings()
+        settings.threads = settings.first_processor = 2**31 - 1
+        machines = racebeam._core.VectorMachines([("builtin:beamfall", "beamfall")], np.zeros(2, np.int32), settings)
+        self.assertEqual(len(machines.numbers_of_actions()), 2)
 
     def test_actions(self):
         envs, sticks = AtariVectorEnv("beamfall", 2, seed=1), AtariVectorEnv("beamfall", 2, continuous=True)
@@ -429,6 +530,50 @@ class Threads(unittest.TestCase):
         for _ in range(50):
             play(envs, 10)  # 110 MB of observations in all
         self.assertLess(resident() - before, 20 << 20)
+
+
+class Interrupts(unittest.TestCase):
+    """Ctrl-C ends what takes long, and leaves the environments so that they can go on."""
+
+    LONG = {"num_envs": 500, "frameskip": 1000, "noop_max": 1000}
+
+    def interrupt(self, call, raised=KeyboardInterrupt, handler=signal.default_int_handler):
+        """`call` raises that, soon after a signal. Returns the seconds of processors it took."""
+        before = signal.signal(signal.SIGALRM, handler)
+        begin = time.process_time()
+        try:
+            with self.assertRaises(raised):
+                signal.setitimer(signal.ITIMER_REAL, 0.1)
+                call()
+                time.sleep(1)  # a signal that comes late
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        return time.process_time() - begin
+
+    def test_a_step_and_a_reset(self):
+        envs = AtariVectorEnv("beamfall", **self.LONG, seed=1)
+        for call in (lambda: envs.step([1] * 500), lambda: envs.reset(seed=1)):
+            before = envs.show()[1]["frame_number"]
+            self.interrupt(call)
+            self.assertTrue((envs.show()[1]["frame_number"] == before).any())
+        self.assertEqual(envs.reset(seed=1)[0].shape[0], 500)
+
+    def test_making_them(self):
+        begin = time.process_time()
+        AtariVectorEnv("beamfall", **self.LONG)
+        whole = time.process_time() - begin
+        self.assertLess(self.interrupt(lambda: AtariVectorEnv("beamfall", **self.LONG)), whole)
+
+    def test_what_is_received_later_is_not_lost(self):
+        envs, others = (AtariVectorEnv("beamfall", **self.LONG, seed=1) for _ in range(2))
+        envs.send([1] * 500)
+        self.interrupt(envs.recv)
+        self.assertTrue(same([envs.recv()], [others.step([1] * 500)]))
+
+    def test_a_handler_that_uses_them(self):
+        envs = AtariVectorEnv("beamfall", **self.LONG)
+        self.interrupt(lambda: envs.step([1] * 500), RuntimeError, lambda *_: envs.save(0))
 
 
 class Found(unittest.TestCase):

@@ -1,6 +1,7 @@
 #include "system/resources.hpp"
 
 #include <sched.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -52,6 +53,20 @@ TEST_CASE("without control groups it is the machine's memory") {
   CHECK(all.limited_by == "the machine");
   CHECK(all.amount == static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES) * ::sysconf(_SC_PAGESIZE)));
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // they need much address space themselves
+TEST_CASE("a limit of the address space counts") {
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_AS, &before) == 0);
+  const rlimit most{std::uint64_t{3} << 30, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_AS, &most) == 0);
+  const Allowance all = usable_memory("/nowhere");
+  REQUIRE(::setrlimit(RLIMIT_AS, &before) == 0);
+  CHECK(all.amount == most.rlim_cur);
+  CHECK(all.limited_by == "the address space (ulimit -v)");
+}
+#endif
 
 TEST_CASE("the smallest limit of the path counts, in version 2") {
   const Root root;

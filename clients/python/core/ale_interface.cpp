@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "clients/python/core/signals.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam::python {
 namespace {
 
 constexpr int kFramesWithoutSignals = 2000;  // some tens of milliseconds
-
-void look_for_signals() {
-  const nanobind::gil_scoped_acquire python;
-  if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
-}
 
 Drawing drawing_for(View view, bool averages) {
   if (view == View::kRam || view == View::kNone) return Drawing::kNone;

@@ -13,6 +13,7 @@
 #include "clients/python/core/arrays.hpp"
 #include "clients/python/core/bindings.hpp"
 #include "clients/python/core/image_argument.hpp"
+#include "clients/python/core/saved_machine.hpp"
 #include "clients/python/core/vector_acts.hpp"
 #include "clients/python/core/vector_machines.hpp"
 #include "system/invalid_input.hpp"
@@ -161,14 +162,24 @@ Slot& slot_of(Batch& batch, std::int64_t machine) {
   return batch.slot(static_cast<std::size_t>(machine));
 }
 
-Slot::Saved save(VectorMachines& self, std::int64_t machine, bool include_rng) {
+SavedMachine save(VectorMachines& self, std::int64_t machine, bool include_rng) {
   const Turn turn(self.lock());
-  return slot_of(self.batch(), machine).save(include_rng);
+  const Slot& slot = slot_of(self.batch(), machine);
+  return {slot, self.cartridge(static_cast<std::size_t>(machine)), include_rng};
 }
 
-void restore(VectorMachines& self, std::int64_t machine, const Slot::Saved& state) {
+void restore(VectorMachines& self, std::int64_t machine, const SavedMachine& state) {
   const Turn turn(self.lock());
-  slot_of(self.batch(), machine).restore(state);
+  state.restore_in(slot_of(self.batch(), machine));
+}
+
+nb::bytes bytes_of_state(const SavedMachine& state) {
+  std::string bytes;
+  {
+    const nb::gil_scoped_release other_threads_run;
+    bytes = state.serialize();
+  }
+  return nb::bytes(bytes.data(), bytes.size());
 }
 
 Bytes screen(VectorMachines& self, std::int64_t machine) {
@@ -229,7 +240,12 @@ int height(VectorMachines& self) {
 }  // namespace
 
 void bind_vector(nb::module_& module) {
-  nb::class_<Slot::Saved>(module, "SavedMachine", "The state of one environment of many.");
+  nb::class_<SavedMachine>(module, "SavedMachine",
+                           "The state of one environment of many. It can be pickled and copied.")
+      .def("__getstate__", bytes_of_state)
+      .def("__setstate__", [](SavedMachine& self, const nb::bytes& bytes) {
+        new (&self) SavedMachine(std::string(bytes.c_str(), bytes.size()));
+      });
   const auto results = "results"_a.noconvert();
   nb::class_<VectorMachines>(module, "VectorMachines", "Machines that are stepped together, on threads.")
       .def("__init__", make, "images"_a, "of_machines"_a.noconvert(), "settings"_a,

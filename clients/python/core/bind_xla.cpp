@@ -131,7 +131,8 @@ void answer(const xla::CallFrame& frame, const Ask& ask) {
   std::ranges::copy(given, results.next<std::uint8_t>(sizeof handle).begin());
   const auto shared = named_by(handle);
   const std::scoped_lock hold(shared->lock());
-  ask(shared->batch(), arguments, results_of(shared->batch(), results));
+  Batch& batch = shared->batch(nullptr);  // signals are for calls of Python
+  ask(batch, arguments, results_of(batch, results));
 }
 
 xla::Error* error_of(const xla::CallFrame& frame, xla::ErrorCode code, const char* sentence) {

@@ -1,12 +1,13 @@
 // A lock for each object that Python can reach, so that two threads that use one object at once take turns. A
 // lock that another thread held when the process forked is refused in the child: nothing would ever release
-// it.
+// it. So is one that this thread holds: a handler of signals uses the object in the midst of a call.
 #pragma once
 
 #include <nanobind/nanobind.h>
 
 #include <atomic>
 #include <mutex>
+#include <thread>
 
 namespace racebeam::python {
 
@@ -15,13 +16,15 @@ unsigned process_generation();
 
 class Lock {
  public:
-  // Throws std::runtime_error in a child process whose parent forked while another thread held the lock.
+  // Throws std::runtime_error in a child process whose parent forked while another thread held the lock, and
+  // when the calling thread holds it.
   void lock();
-  void unlock() { mutex_.unlock(); }
+  void unlock();
 
  private:
   std::mutex mutex_;
-  std::atomic<unsigned> owned_in_{0};  // the generation of the process that locked it last
+  std::atomic<unsigned> owned_in_{0};     // the generation of the process that locked it last
+  std::atomic<std::thread::id> owner_{};  // the thread that holds it, if one does
 };
 
 // For the time of one call: other threads of Python run, and the object is this thread's.

@@ -9,9 +9,10 @@ SharedBatch::~SharedBatch() {
   if (is_forked()) static_cast<void>(batch_.release());
 }
 
-Batch& SharedBatch::batch() {
+Batch& SharedBatch::batch(Watch watch) {
   if (is_forked())
     throw std::runtime_error("these environments were made before the process forked; make new ones");
+  batch_->set_watch(watch);
   return *batch_;
 }
 

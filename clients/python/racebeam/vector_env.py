@@ -177,6 +177,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
         options["reset_mask"]: an array of bools that chooses environments; the others are shown as they are.
         out: the array that becomes the observations; None: a new one.
+        KeyboardInterrupt ends a long call, as it ends step().
         """
         self._check_open()
         if not isinstance(options, (dict, type(None))):
@@ -193,7 +194,11 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         return self._begun(results)
 
     def step(self, actions: npt.ArrayLike, *, out: Pixels | None = None) -> Step:
-        """An action for each environment; with batch_size, for each of those that the last call returned."""
+        """An action for each environment; with batch_size, for each of those that the last call returned.
+
+        What a signal's handler raises, such as KeyboardInterrupt, ends a long call. Each environment has then made the step, or is
+        as it was, and reset() or restore() makes them agree. With batch_size, the step goes on, and recv() returns it.
+        """
         self._check_open()
         meant: Any = self._joysticks(actions) if self.continuous else self._indices(actions)
         if self.batch_size < self.num_envs:
@@ -212,7 +217,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self._send(self._joysticks(actions) if self.continuous else self._indices(actions))
 
     def recv(self, *, out: Pixels | None = None) -> Step:
-        """What those batch_size environments show that have finished first."""
+        """What those batch_size environments show that have finished first. After KeyboardInterrupt, the next recv() returns it."""
         self._check_open()
         results = self._room(out)
         self._machines.receive(results)
@@ -366,14 +371,23 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     # States and the end
 
     def save(self, env: int, *, include_rng: bool = True) -> _core.SavedMachine:
-        """The state of one environment, with its stack of screens; with include_rng, also of sticky actions' generator."""
+        """The state of one environment, with its stack of screens. It can be pickled.
+
+        include_rng: with the generators of sticky actions and of no-ops, so that later episodes are the same, too.
+        """
         self._check_open()
         return self.machines().save(operator.index(env), include_rng)
 
     def restore(self, env: int, state: _core.SavedMachine) -> None:
-        """Takes an environment to a state of its game. show() shows it. Raises InvalidInput for another game's."""
+        """Takes an environment to a state of its game. show() shows it. Raises InvalidInput for a state of another game, or whose
+        observations have another shape.
+        """
         self._check_open()
         self._machines.restore(operator.index(env), state)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError(f"{type(self).__name__} has threads, and can be neither pickled nor copied; make another one with the same "
+                        "arguments, and take it to the states that save(env) gives, which can be pickled, by restore(env, state)")
 
     def close_extras(self, **kwargs: Any) -> None:
         """Ends the threads, or the session, and gives the memory back."""

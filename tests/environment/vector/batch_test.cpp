@@ -239,6 +239,62 @@ TEST_CASE("More machines than the memory has room for are refused") {
                                                             Catch::Contains("this process may use"));
 }
 
+TEST_CASE("A batch has no more threads than machines, however many are asked for") {
+  auto settings = short_episodes();
+  for (const auto& [asked, first_processor] : {std::pair(4'000'000'000U, 2'000'000'000), {3U, -7}}) {
+    settings.threads = asked;
+    settings.first_processor = first_processor;
+    CHECK(Batch(copies(2), settings).threads() == 2);
+  }
+  settings.threads = 0;
+  CHECK(Batch(copies(1), settings).threads() == 1);
+}
+
+// Steps of some hundreds of milliseconds.
+BatchSettings long_steps() {
+  auto settings = short_episodes();
+  settings.slot.machine.frame_skip = 200'000;
+  settings.slot.machine.max_episode_frames = 0;
+  settings.slot.noop_max = 0;
+  return settings;
+}
+
+void interrupt() { throw std::runtime_error("interrupted"); }
+
+TEST_CASE("A long step ends when its caller wants it, and each machine has made it or is as it was") {
+  auto settings = long_steps();
+  settings.threads = GENERATE(1U, 2U);
+  Batch batch(copies(8), settings);
+  BatchResults results = batch.make_results();
+  batch.show(results.arrays());
+  const int begin = results.frames[0];
+  batch.set_watch(interrupt);
+  CHECK_THROWS_WITH(batch.step(std::vector<int>(8), results.arrays()), "interrupted");
+  batch.set_watch(nullptr);
+  batch.show(results.arrays());
+  const auto are_at = [&](int frame) { return std::ranges::count(results.frames, frame); };
+  CHECK(are_at(begin) > 0);
+  CHECK(are_at(begin + 200'000) > 0);
+  CHECK(are_at(begin) + are_at(begin + 200'000) == 8);
+  batch.reset(results.arrays());
+  CHECK(are_at(begin) == 0);
+}
+
+TEST_CASE("A receive that its caller ends has received nothing, and the machines play on") {
+  auto settings = long_steps();
+  settings.threads = 1;
+  Batch batch(copies(2), settings);
+  BatchResults results = batch.make_results();
+  batch.send(std::vector{0, 0}, std::vector{0, 1});
+  batch.set_watch(interrupt);
+  CHECK_THROWS_WITH(batch.receive(results.arrays()), "interrupted");
+  batch.set_watch(nullptr);
+  CHECK_THROWS_WITH(batch.show(results.arrays()), "2 machines play; receive them first");
+  batch.receive(results.arrays());
+  CHECK(results.episode_frames[0] >= 200'000);
+  CHECK(results.episode_frames[1] >= 200'000);
+}
+
 TEST_CASE("A machine of a batch goes back to a state, and plays on as it did") {
   for (const int frames : {30, 29}) {  // an episode ends with a step, or within one
     auto settings = short_episodes();

@@ -1,9 +1,15 @@
 #include "environment/vector/thread_pool.hpp"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <numeric>
 #include <thread>
+
+#include "system/invalid_input.hpp"
 
 using namespace racebeam;
 using namespace std::chrono_literals;
@@ -70,3 +76,25 @@ TEST_CASE("A queue that goes drops what was not begun, and awaits what was") {
   CHECK(begun == ended);
   CHECK(begun < kTasks);
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // they need much address space themselves
+TEST_CASE("A pool whose threads cannot all be started says so, and leaves none") {
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_AS, &before) == 0);
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlimit little{pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) + (100U << 20),
+                      before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_AS, &little) == 0);
+  std::string sentence;
+  try {
+    const ThreadPool pool(100'000);
+  } catch (const racebeam::InvalidInput& error) {
+    sentence = error.what();
+  }
+  REQUIRE(::setrlimit(RLIMIT_AS, &before) == 0);
+  CHECK_THAT(sentence, Catch::Matches("thread [0-9]+ of 100000 could not be started: "
+                                      "Resource temporarily unavailable; ask for fewer"));
+}
+#endif

@@ -1,0 +1,34 @@
+// A state of one machine of many, in memory or as bytes.
+#pragma once
+
+#include <string>
+
+#include "environment/vector/slot.hpp"
+#include "games/catalogue.hpp"
+
+namespace racebeam::python {
+
+class SavedMachine {
+ public:
+  // Of the slot's present moment. `cartridge` is what the slot plays. with_random: with its generators.
+  SavedMachine(const Slot& slot, Cartridge cartridge, bool with_random);
+
+  // What serialize() returned. Throws InvalidInput for bytes that were cut or altered, or are of another
+  // version; the rest is checked when the state is restored.
+  explicit SavedMachine(std::string bytes);
+
+  // Throws InvalidInput when the state is of another image, game or stack than the slot's, or has a value
+  // that no machine has; the slot is then as it was.
+  void restore_in(Slot& slot) const;
+
+  // Uses nothing that another thread changes.
+  std::string serialize() const;
+
+ private:
+  Cartridge cartridge_;  // none: the state came as bytes
+  Settings settings_;
+  Slot::Saved saved_;
+  std::string bytes_;
+};
+
+}  // namespace racebeam::python

@@ -1,0 +1,15 @@
+// Signals, such as Ctrl-C, during a call that takes long.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace racebeam::python {
+
+// Without the GIL. Runs Python's handlers, and throws what they raise, such as KeyboardInterrupt. Does
+// nothing on another thread than the main one.
+inline void look_for_signals() {
+  const nanobind::gil_scoped_acquire python;
+  if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
+}
+
+}  // namespace racebeam::python
