@@ -77,6 +77,7 @@ def vector_settings():
     for _ in range(chance.randrange(3)):
         name = chance.choice([name for name in dir(settings) if not name.startswith("_")])
         setattr(settings, name, value())
+    settings.threads = min(settings.threads, 8)  # vector_settings.py has a limit; the core takes what the system has
     return settings
 
 

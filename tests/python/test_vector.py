@@ -458,6 +458,8 @@ class BadInput(unittest.TestCase):
             for lives in others:
                 with self.subTest(flag=flag, lives=lives), self.assertRaisesRegex(Error, f"{flag} is True.* but lives is '{lives}'"):
                     AtariVectorEnv("beamfall", 2, lives=lives, **{flag: True})
+        for lives in (3, np.zeros(2)):
+            self.assertRaisesRegex(Error, "lives is", AtariVectorEnv, "beamfall", 2, lives=lives, episodic_life=True)
         AtariVectorEnv("beamfall", 2, lives="restart", episodic_life=True)
         AtariVectorEnv("beamfall", 2, preset="dqn2015", episodic_life=True)
 

@@ -110,6 +110,8 @@ class Environment(unittest.TestCase):
             env = racebeam.AtariEnv("beamfall", server=addresses[0])
             with self.assertRaises(IndexError):
                 env.step(18)
+            for state in (None, b"", {}, np.zeros(3)):
+                self.assertRaisesRegex(TypeError, "it takes an ALEState", env.restore_state, state)
 
     def test_a_server_that_dies_is_a_ConnectionError(self):
         with server() as (addresses, process):

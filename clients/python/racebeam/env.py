@@ -80,8 +80,8 @@ class AtariEnv(gymnasium.Env[Any, Any]):
 
     Raises gymnasium.error.Error for a wrong argument or seed; UnknownGame, MissingImage, or InvalidInput for what the
     game does not accept; TypeError or IndexError for a wrong action, and AssertionError for a continuous one that is no
-    float32 array of 3; ClosedEnvironmentError after close(). With a server: also Refused, ConnectionError and TimeoutError, and RuntimeError in a
-    child process after a fork.
+    float32 array of 3; ClosedEnvironmentError after close(). With a server: also Refused, ConnectionError and
+    TimeoutError, and RuntimeError in a child process after a fork.
     """
 
     metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 30}

@@ -142,7 +142,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self.metadata = {**type(self).metadata, "autoreset_mode": self.autoreset_mode}
         self.render_mode = render_mode
         self.grayscale: bool = not settings["rgb"]
-        self.continuous, self.continuous_action_threshold = flag("continuous", continuous), real("continuous_action_threshold", continuous_action_threshold)
+        self.continuous = flag("continuous", continuous)
+        self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
         self._shows_ram = obs_type == "ram"
         self._machines: Any = _machines(names, game_of_env, rom, settings, server, token, seconds("timeout", timeout))
         self._make_spaces(settings)

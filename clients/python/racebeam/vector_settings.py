@@ -74,8 +74,11 @@ def _of_steps(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _check_lives(given: Mapping[str, Any]) -> None:
+    if given["lives"] is None:
+        return
+    member("lives", given["lives"], _core.LifeLoss)
     for name, word in (("episodic_life", "restart"), ("life_loss_info", "told")):
-        if given["lives"] not in (None, word) and _flag(given, name):
+        if given["lives"] != word and _flag(given, name):
             raise error.Error(f"{name} is True, which means lives={word!r}, but lives is {given['lives']!r}")
 
 

@@ -296,6 +296,8 @@ class RemoteInterface:
         return ALEState(head + data)
 
     def restoreState(self, state: ALEState) -> None:
+        if not isinstance(state, ALEState):
+            raise TypeError(f"state is {state!r}; it takes an ALEState")
         self.ask(self.session.import_state, STATE, state.serialize()[STATE_HEAD.size:])
         self.ask(self.session.restore, STATE)
         self.ask(self.session.drop, STATE)
