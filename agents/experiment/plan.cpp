@@ -17,12 +17,12 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kMostPlanBytes = std::size_t{1} << 20;
 constexpr int kMostPlanNumber = std::numeric_limits<int>::max();
 constexpr int kMostEpisodes = 1000000;
 constexpr int kMostEpisodeFrames = 1000000;  // a log holds this many decisions
 constexpr int kMostScreens = 10000000;
 constexpr int kMostFrameSkip = 1000;
+constexpr std::int64_t kMostUnits = 100000, kMostRows = 20000000;  // of results.csv: 4 GiB
 
 // Settings of the literature, which a plan then changes.
 struct PlanPreset {
@@ -115,6 +115,7 @@ class PlanReader {
     read_games();
     read_images();
     read_agents();
+    check_size();
     return std::move(plan_);
   }
 
@@ -235,6 +236,26 @@ class PlanReader {
       plan_.agents.push_back(
           agent(*find_agent_kind(name), Section(source_, own ? *own : none, "agent." + name)));
     }
+  }
+
+  // Units and rows are kept in memory, by experiments and by their verification.
+  void check_size() const {
+    std::int64_t units = 0, rows = 0;
+    for (const PlanAgent& agent : plan_.agents) {
+      const std::int64_t own = static_cast<std::int64_t>(plan_.games.size()) * agent.length.trials *
+                               (agent.kind->each_action ? kActions : 1);
+      units += own;
+      rows += own * agent.length.evaluation_episodes;
+    }
+    const auto check = [&](std::string_view key, std::int64_t count, const char* what, std::int64_t most) {
+      if (count <= most) return;
+      const std::string sentence =
+          "the plan has " + std::to_string(count) + what + "; accepted are at most " + std::to_string(most);
+      if (top_.node(key)) top_.refuse(*top_.node(key), key, sentence);
+      top_.refuse_missing(key, sentence);
+    };
+    check("trials", units, " units", kMostUnits);
+    check("evaluation_episodes", rows, " evaluation episodes", kMostRows);
   }
 
   // Baselines learn nothing, and a search has an episode a trial, so that episodes run side by side.

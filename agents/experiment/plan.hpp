@@ -1,6 +1,7 @@
 // The plan of an experiment: games, agents, trials, and every setting (docs/experiments.md).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -54,6 +55,8 @@ struct Unit {
   int action = 0;  // of an agent that has one for each action
   int trial = 1;
 };
+
+constexpr std::size_t kMostPlanBytes = std::size_t{1} << 20;  // of a plan's file
 
 // `file` is for errors. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 Plan parse_plan(std::string_view text, const std::string& file);

@@ -103,6 +103,7 @@ Replay replay(const EpisodeLog& log, const Cartridge& cartridge, CpuKind cpu) {
   Replay result;
   result.end = account.finish();
   result.hashes = std::move(account.hashes());
+  result.over = account.over();
   return result;
 }
 

@@ -44,6 +44,7 @@ Episode play(Agent& agent, Stage& stage, std::int64_t most_frames = std::numeric
 struct Replay {
   EpisodeEnd end;
   std::vector<std::uint64_t> hashes;
+  bool over = false;  // the last action ended the episode; no actions are played after its end
 };
 Replay replay(const EpisodeLog& log, const Cartridge& cartridge, CpuKind cpu);
 

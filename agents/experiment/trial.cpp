@@ -91,8 +91,14 @@ void Trial::train() {
   account_.training_frames += episode.end.frames;
   account_.frames += episode.end.frames;
   curves_ += curve_line(unit_, number, episode.end);
-  diverged_ = episode.diverged;
-  if (diverged_) rows_ = line_of(row_of_divergence(plan_, unit_, plan_.version));
+  if (episode.diverged) diverge();
+}
+
+// The trial has one row, and no logs.
+void Trial::diverge() {
+  diverged_ = true;
+  rows_ = line_of(row_of_divergence(plan_, unit_));
+  std::filesystem::remove_all(folder_.logs(unit_.name));
 }
 
 void Trial::evaluate() {
@@ -101,6 +107,7 @@ void Trial::evaluate() {
   stage_.begin(environment_seed(plan_, unit_, false, number));
   const Episode episode = play(*agent_, stage_);
   account_.frames += episode.end.frames;
+  if (episode.diverged) return diverge();  // sums of finite weights can exceed the range, too
   account_.score += episode.end.score;
   keep_log(episode, number);
 }

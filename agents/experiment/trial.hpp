@@ -45,6 +45,7 @@ class Trial {
   void run_episode();
   void train();
   void evaluate();
+  void diverge();
   void keep_log(const Episode& episode, int number);
   void resume();
   void write_checkpoint() const;
