@@ -130,12 +130,17 @@ void Trial::resume() {
   const std::string path = folder_.checkpoint(unit_.name);
   if (!std::filesystem::exists(path)) return;
   const std::string bytes = read_sealed(kCheckpoint, path);
-  StateReader in(bytes);
-  in.get(account_);
-  in.get(rows_);
-  in.get(curves_);
-  agent_->read(in);
-  if (!in.at_end()) throw InvalidInput("checkpoint " + path + ": it holds more than the agent reads");
+  try {
+    StateReader in(bytes);
+    in.get(account_);
+    in.get(rows_);
+    in.get(curves_);
+    agent_->read(in);
+    if (!in.at_end()) throw InvalidInput("it holds more than the agent reads");
+  } catch (const InvalidInput& error) {
+    throw InvalidInput("checkpoint " + path + ": " + error.what() +
+                       "; another version of the program wrote it. Remove it, and its unit begins anew");
+  }
 }
 
 void Trial::write_checkpoint() const {

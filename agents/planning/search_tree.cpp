@@ -1,5 +1,6 @@
 #include "agents/planning/search_tree.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -36,6 +37,21 @@ int TreeSearch::choose(const Model::State& root) {
   back_up();
   for (Node& node : nodes_) node.state = nullptr;
   return nodes_[0].chosen == 0 ? order_[0] : nodes_[nodes_[0].chosen].action;
+}
+
+void TreeSearch::write(StateWriter& out) const {
+  out.put(random_);
+  out.put(scaled_);
+  out.put(order_);
+}
+
+void TreeSearch::read(StateReader& in) {
+  in.get(random_);
+  in.get(scaled_);
+  std::vector<int> order;
+  in.get(order);
+  if (!std::ranges::is_permutation(order, order_)) throw InvalidInput("its order of actions is none");
+  order_ = order;
 }
 
 double TreeSearch::value(int action) const {

@@ -28,6 +28,23 @@ std::map<std::string, std::string> files_of(const ResultsFolder& folder) {
   return files;
 }
 
+// Their searches draw numbers, from one episode to the next.
+constexpr auto kPlanners = R"(games = ["beamfall"]
+agents = ["uct", "full_tree", "iw1"]
+[agent.uct]
+trials = 1
+evaluation_episodes = 4
+simulations = 40
+[agent.full_tree]
+trials = 1
+evaluation_episodes = 4
+frames = 600
+[agent.iw1]
+trials = 1
+evaluation_episodes = 4
+frames = 600
+)";
+
 }  // namespace
 
 TEST_CASE("An experiment's results are confirmed, and every alteration is named") {
@@ -138,7 +155,9 @@ TEST_CASE(
 
 TEST_CASE("A trial goes on from its checkpoint as if nothing had happened") {
   const Scratch place;
-  const Plan plan = bound_plan(kPlan);
+  const Plan plan = bound_plan(GENERATE(
+      std::string(kPlan), "environment = \"max_episode_frames=200 sticky=0.25\"\n" + std::string(kPlanners),
+      "environment = \"max_episode_frames=200\"\n" + std::string(kPlanners)));
   const ResultsFolder whole(place.path("whole")), parts(place.path("parts"));
   run(plan, whole);
   const std::vector<Unit> units = units_of(plan);

@@ -102,3 +102,16 @@ TEST_CASE("IW(1) expands places with a new byte only, and finds what is far away
   wide.choose(ToyModel::place(0));
   CHECK(wide.value(1) == 0);  // the same frames do not reach it
 }
+
+TEST_CASE("A checkpoint without the order of actions is refused") {
+  ToyModel model(2, trap);
+  TreeSearch search(model, settings(1, 2), 1);
+  StateWriter old;
+  old.put(Random(1));
+  old.put(RewardScaler(RewardScale::kNone));
+  StateReader in(old.bytes());
+  CHECK_THROWS_WITH(search.read(in), "it ends too early");
+  old.put(std::vector<int>{0, 5});
+  StateReader wrong(old.bytes());
+  CHECK_THROWS_WITH(search.read(wrong), "its order of actions is none");
+}
