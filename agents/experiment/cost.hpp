@@ -23,6 +23,15 @@ struct Cost {
   double disk_megabytes = 0;  // of logs
 };
 
+// Frames of one trial, if each episode is as long as it may be.
+struct TrialFrames {
+  double training = 0, evaluation = 0;
+};
+TrialFrames frames_of_trial(const TrialLength& length, int episode_frames);
+
+// Processor time of one trial, in seconds, as cost_of() counts it.
+double seconds_of_trial(const Plan& plan, const PlanAgent& agent);
+
 // Episodes are taken to be as long as they may be, so that this is the most.
 Cost cost_of(const Plan& plan);
 

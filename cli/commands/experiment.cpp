@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -40,6 +41,8 @@ std::string footer() {
   return text + kExperimentFooter;
 }
 
+constexpr std::chrono::seconds kReports{1};  // between two changes of the line on a terminal
+
 struct ExperimentOptions {
   std::string plan, into, shard;
   bool dry_run = false;
@@ -71,13 +74,36 @@ std::string hours(double seconds) {
 }
 
 // On a terminal one line that changes, elsewhere a line a unit.
-void report(const Progress& at) {
-  const bool terminal = ::isatty(STDOUT_FILENO) == 1;
-  std::printf("%s%zu/%zu %s: %d episodes, mean score %.1f%s", terminal ? "\r\033[K" : "", at.finished, at.all,
-              at.unit.c_str(), at.episodes, at.mean_score, terminal ? "" : "\n");
-  if (terminal) std::printf(", %s left%s", hours(at.left.count()).c_str(), at.finished == at.all ? "\n" : "");
-  std::fflush(stdout);
-}
+class ProgressLine {
+ public:
+  ProgressLine() = default;
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ~ProgressLine() {
+    if (is_open_) std::printf("\n");
+  }
+
+  bool changes() const { return terminal_; }
+
+  void report(const Progress& at) {
+    std::printf("%s%zu/%zu %s: %d episodes", terminal_ ? "\r\033[K" : "", at.finished, at.all,
+                at.unit.c_str(), at.episodes);
+    if (at.unit_finished)
+      std::printf(", mean score %.1f", at.mean_score);
+    else
+      std::printf(" and %lld decisions", static_cast<long long>(at.decisions));
+    if (terminal_)
+      std::printf(", %s left", hours(at.left.count()).c_str());
+    else
+      std::printf("\n");
+    is_open_ = terminal_;
+    std::fflush(stdout);
+  }
+
+ private:
+  const bool terminal_ = ::isatty(STDOUT_FILENO) == 1;
+  bool is_open_ = false;  // the line has not ended
+};
 
 void print_cost(const Plan& plan, const Images& images) {
   const Cost cost = cost_of(plan);
@@ -106,7 +132,11 @@ void run(const ExperimentOptions& options) {
     settings.shards = shard->count;
   }
   bind(plan, images, RACEBEAM_VERSION);
-  run_experiment(plan, images, ResultsFolder(options.into), settings, report);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer
+  ProgressLine line;
+  if (line.changes()) settings.reports = kReports;
+  run_experiment(plan, images, ResultsFolder(options.into), settings,
+                 [&](const Progress& at) { line.report(at); });
 }
 
 }  // namespace

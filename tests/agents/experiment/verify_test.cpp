@@ -1,51 +1,15 @@
 #include "agents/experiment/verify.hpp"
 
 #include <catch2/catch.hpp>
-#include <map>
 
-#include "agents/base/file_lock.hpp"
 #include "agents/base/sealed_file.hpp"
-#include "agents/experiment/trial.hpp"
-#include "agents/features/game_facts.hpp"
 #include "system/invalid_input.hpp"
 #include "tests/agents/experiment/verified.hpp"
 
 using namespace racebeam;
 using namespace racebeam::test;
 
-namespace {
-
 namespace fs = std::filesystem;
-
-// The contents of all files but the times, by their paths.
-std::map<std::string, std::string> files_of(const ResultsFolder& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder.root())) {
-    const std::string path = fs::relative(entry.path(), folder.root()).string();
-    if (!entry.is_directory() && path.find("times") == std::string::npos)
-      files[path] = contents(entry.path().string());
-  }
-  return files;
-}
-
-// Their searches draw numbers, from one episode to the next.
-constexpr auto kPlanners = R"(games = ["beamfall"]
-agents = ["uct", "full_tree", "iw1"]
-[agent.uct]
-trials = 1
-evaluation_episodes = 4
-simulations = 40
-[agent.full_tree]
-trials = 1
-evaluation_episodes = 4
-frames = 600
-[agent.iw1]
-trials = 1
-evaluation_episodes = 4
-frames = 600
-)";
-
-}  // namespace
 
 TEST_CASE("An experiment's results are confirmed, and every alteration is named") {
   const Scratch place;
@@ -137,73 +101,6 @@ TEST_CASE("An experiment's results are confirmed, and every alteration is named"
     fs::remove(folder.plan());
     CHECK_THROWS_AS(verified(folder), InvalidInput);
   }
-}
-
-TEST_CASE(
-    "Results are the same on one thread and two, by either processor, in shards and after interruptions") {
-  const Scratch place;
-  const Plan plan = bound_plan(kPlan);
-  const ResultsFolder whole(place.path("whole")), parts(place.path("parts"));
-  run(plan, whole);
-  run(plan, parts, {.threads = 2, .shard = 2, .shards = 3, .cpu = CpuKind::kInterpreter});
-  run(plan, parts, {.threads = 1, .shard = 1, .shards = 3});
-  CHECK(contents(parts.results()).size() < contents(whole.results()).size());
-  run(plan, parts, {.threads = 2});
-  CHECK(files_of(whole) == files_of(parts));
-  CHECK(!fs::exists(parts.work()));
-}
-
-TEST_CASE("A trial goes on from its checkpoint as if nothing had happened") {
-  const Scratch place;
-  const Plan plan = bound_plan(GENERATE(
-      std::string(kPlan), "environment = \"max_episode_frames=200 sticky=0.25\"\n" + std::string(kPlanners),
-      "environment = \"max_episode_frames=200\"\n" + std::string(kPlanners)));
-  const ResultsFolder whole(place.path("whole")), parts(place.path("parts"));
-  run(plan, whole);
-  const std::vector<Unit> units = units_of(plan);
-  const Images images;
-  for (const std::string& path : {parts.units(), parts.logs(), parts.facts(), parts.work()})
-    fs::create_directories(path);
-  for (const Unit& unit : units) {
-    const Cartridge& cartridge = *images.find("beamfall");
-    for (bool finished = false; !finished;) {
-      GameFacts facts(cartridge, {plan.seed, plan.background_screens, plan.class_screens, plan.play},
-                      parts.facts());
-      Trial trial(plan, unit, parts, cartridge, &facts, CpuKind::kAuto);
-      finished =
-          trial.run(std::chrono::milliseconds(0), [episodes = 0]() mutable { return episodes++ == 1; });
-    }
-  }
-  run(plan, parts);
-  CHECK(files_of(whole) == files_of(parts));
-}
-
-TEST_CASE("A unit that another process runs is named, and the rest is done") {
-  const Scratch place;
-  const ResultsFolder folder(place.path("results"));
-  const Plan plan = bound_plan(kPlan);
-  fs::create_directories(folder.work());
-  {
-    const FileLock other(folder.lock("beamfall-random-1"));
-    CHECK_THROWS_WITH(run(plan, folder),
-                      Catch::StartsWith("beamfall-random-1 is being run by another process"));
-  }
-  CHECK(parse_results("", contents(folder.results())).size() == 38);
-  run(plan, folder);
-  CHECK(verified(folder).verdict.confirmed == 40);
-}
-
-TEST_CASE("A damaged checkpoint, and a background of another game, are refused") {
-  const Scratch place;
-  const ResultsFolder folder(place.path("results"));
-  const Plan plan = bound_plan(kPlan);
-  fs::create_directories(folder.work());
-  write(folder.checkpoint("beamfall-random-1"), "RBCHECKP");
-  CHECK_THROWS_WITH(run(plan, folder), Catch::StartsWith("checkpoint beamfall-random-1.checkpoint: "));
-  fs::remove(folder.checkpoint("beamfall-random-1"));
-  const Cartridge other{load_image("builtin:updraft"), find_game("updraft")};
-  write(folder.facts() + "/beamfall.background", bytes_of(Background{}, other, {1, 300, 300, plan.play}));
-  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("is of 'game=updraft"));
 }
 
 TEST_CASE("Rows whose image is not here are listed, and never confirmed") {
