@@ -47,10 +47,12 @@ class TreeSearch {
     double reward = 0;
     double best = 0;           // over the children: reward + discount * value
     std::uint32_t chosen = 0;  // the child that gives it; 0: no child
+    std::uint32_t twin = 0;    // the sibling in the same state, which is expanded for both; 0: none
   };
 
   void expand(std::uint32_t parent);
   void add_child(std::uint32_t parent, int action, std::size_t first_sibling);
+  std::uint32_t twin_of(const Node& child, std::size_t first_sibling) const;
   bool is_new();  // whether the model's place has a byte that was not seen in this search
   void back_up();
 
