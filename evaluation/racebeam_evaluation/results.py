@@ -7,12 +7,13 @@ import pandas as pd
 
 from .csv_file import Kind, Source, read
 from .errors import BadInput
+from .plan import differences
 
 DIVERGED = "diverged"  # the end of a trial whose weights are not finite; its row has no score
 
-_RESULTS = {"game": Kind.TEXT, "image_md5": Kind.TEXT, "agent": Kind.TEXT, "trial": Kind.WHOLE, "episode": Kind.WHOLE,
+_RESULTS = {"game": Kind.NAME, "image_md5": Kind.TEXT, "agent": Kind.NAME, "trial": Kind.WHOLE, "episode": Kind.WHOLE,
             "score": Kind.OPTIONAL, "end": Kind.TEXT}
-_CURVES = {"game": Kind.TEXT, "agent": Kind.TEXT, "trial": Kind.WHOLE, "episode": Kind.WHOLE, "score": Kind.DECIMAL,
+_CURVES = {"game": Kind.NAME, "agent": Kind.NAME, "trial": Kind.WHOLE, "episode": Kind.WHOLE, "score": Kind.DECIMAL,
            "frames": Kind.WHOLE}
 _KEY = ["game", "agent", "trial", "episode"]
 
@@ -25,6 +26,7 @@ class Results:
     curves: pd.DataFrame | None  # a row for each training episode; the columns of _CURVES
     sources: tuple[Source, ...]  # of episodes
     curve_sources: tuple[Source, ...]
+    notes: tuple[str, ...] = ()  # sentences on what the folders' plans say differently
 
 
 def read_results(folders: list[pathlib.Path]) -> Results:
@@ -37,7 +39,7 @@ def read_results(folders: list[pathlib.Path]) -> Results:
     curves = _joined([frame for frame, _ in found]) if found else None
     if curves is not None:
         _check_once(curves, "training")
-    return Results(together, curves, sources, tuple(source for _, source in found))
+    return Results(together, curves, sources, tuple(source for _, source in found), differences(folders))
 
 
 def _episodes(path: pathlib.Path) -> tuple[pd.DataFrame, Source]:

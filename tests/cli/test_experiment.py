@@ -146,6 +146,16 @@ class Experiment(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertRegex(errors, "^racebeam: plan .*/none/plan.toml: there is no such file\n$")
 
+    def test_the_evaluation_knows_all_agents(self):
+        self.plan.write_text('games = ["beamfall"]\nagents = ["none"]\n')
+        status, _, errors = self.experiment("results")
+        self.assertEqual(status, 1)
+        agents = re.search(r"there is no agent 'none'; accepted are (.*)\n", errors)[1].split(", ")
+        scores = (ROOT / "evaluation/racebeam_evaluation/scores.py").read_text()
+        known = [name for group in ("BASELINE_VIEWS", "_LEARNERS", "_PLANNERS")
+                 for name in re.findall(r'"(\w+)"', re.search(rf"(?m)^{group} = \((.*?)\)", scores)[1])]
+        self.assertEqual(sorted(agents), sorted(known))
+
     def test_the_results_in_the_tree_are_confirmed(self):
         kept = [plan.parent for plan in sorted((ROOT / "docs/results").glob("*/plan.toml"))]
         self.assertIn(ROOT / "docs/results/own-games", kept)
