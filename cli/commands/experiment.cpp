@@ -105,6 +105,13 @@ class ProgressLine {
   bool is_open_ = false;  // the line has not ended
 };
 
+void print_units(const Plan& plan, Shard shard) {
+  const std::vector<Unit> units = units_of(plan);
+  for (std::size_t i = shard.number - 1; i < units.size(); i += shard.count)
+    std::printf("unit %s  %.2f core-hours\n", units[i].name.c_str(),
+                seconds_of_trial(plan, *units[i].agent) / 3600);
+}
+
 void print_cost(const Plan& plan, const Images& images) {
   const Cost cost = cost_of(plan);
   for (const AgentCost& agent : cost.agents)
@@ -112,8 +119,11 @@ void print_cost(const Plan& plan, const Images& images) {
                 agent.decisions, agent.core_hours);
   std::printf("%-12s %6zu units  %14.0f decisions  %10.1f core-hours\n", "all", cost.units, cost.decisions,
               cost.core_hours);
-  std::printf("memory: at most %.0f MB a thread; disk: about %.0f MB; verification: %.1f core-hours\n",
-              cost.megabytes, cost.disk_megabytes, cost.verification_core_hours);
+  std::printf("core-hours are the most: each episode is taken to last %d frames, as long as it may\n",
+              plan.play.machine.max_episode_frames);
+  std::printf(
+      "memory: about %.0f MB, and %.0f MB a thread; disk: about %.0f MB; verification: %.1f core-hours\n",
+      kProgramMegabytes, cost.megabytes, cost.disk_megabytes, cost.verification_core_hours);
   for (const std::string& game : games_without_image(plan, images))
     std::printf("missing image: %s\n", game.c_str());
 }
@@ -121,16 +131,18 @@ void print_cost(const Plan& plan, const Images& images) {
 void run(const ExperimentOptions& options) {
   Plan plan = load_plan(options.plan);
   const Images images = images_of(options.images);
-  if (options.dry_run) return print_cost(plan, images);
+  const Shard shard = shard_of(options.shard).value_or(Shard{1, 1});
+  if (options.dry_run) {
+    print_units(plan, shard);
+    return print_cost(plan, images);
+  }
   if (options.into.empty()) throw UsageError("--into is required");
   ExperimentSettings settings;
   settings.threads = threads_of(options.images);
   settings.checkpoints = std::chrono::seconds(options.checkpoint_seconds);
   settings.cpu = options.images.cpu;
-  if (const auto shard = shard_of(options.shard)) {
-    settings.shard = shard->number;
-    settings.shards = shard->count;
-  }
+  settings.shard = shard.number;
+  settings.shards = shard.count;
   bind(plan, images, RACEBEAM_VERSION);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer
   ProgressLine line;

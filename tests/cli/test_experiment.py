@@ -170,6 +170,12 @@ class Experiment(unittest.TestCase):
         self.assertEqual(status, 0)
         self.assertIn("missing image: zaxxon\n", printed)
         self.assertRegex(printed, r"(?m)^basic +1650 units +\d+ decisions +[0-9.]+ core-hours$")
+        self.assertIn("core-hours are the most: each episode is taken to last 18000 frames, as long as it may\n", printed)
+        self.assertRegex(printed, r"(?m)^memory: about \d+ MB, and \d+ MB a thread; disk: about \d+ MB; ")
+        units = re.findall(r"(?m)^unit (\S+)  [0-9.]+ core-hours$", printed)
+        self.assertEqual((len(units), units[0], units[-1]), (11385, "asterix-random-1", "zaxxon-uct-10"))
+        _, part, _ = run("experiment", "paper", "--dry-run", "--shard", "3/1000")
+        self.assertEqual(re.findall(r"(?m)^unit (\S+) ", part), units[2::1000])
 
     def test_a_background_is_discovered_drawn_and_read_again(self):
         into = self.place / "pictures"
