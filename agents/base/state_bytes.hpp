@@ -63,7 +63,7 @@ class StateReader {
 
  private:
   std::string_view take(std::uint64_t size) {
-    if (size > left_.size()) throw InvalidInput("the checkpoint ends too early");
+    if (size > left_.size()) refuse();
     const std::string_view taken = left_.substr(0, size);
     left_.remove_prefix(size);
     return taken;
@@ -72,9 +72,11 @@ class StateReader {
   std::string_view take_counted(std::size_t each) {
     std::uint64_t count = 0;
     get(count);
-    if (count > left_.size() / each) throw InvalidInput("the checkpoint ends too early");
+    if (count > left_.size() / each) refuse();
     return take(count * each);
   }
+
+  [[noreturn]] static void refuse() { throw InvalidInput("it ends too early"); }
 
   std::string_view left_;
 };

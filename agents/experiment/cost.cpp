@@ -10,20 +10,29 @@ constexpr double kLogBytesPerDecision = 0.55;      // a random action has log2(1
 
 }  // namespace
 
+TrialFrames frames_of_trial(const TrialLength& length, int episode_frames) {
+  const double frames = episode_frames;
+  return {.training = length.training_frames > 0 ? length.training_frames : length.training_episodes * frames,
+          .evaluation = length.evaluation_episodes * frames};
+}
+
+double seconds_of_trial(const Plan& plan, const PlanAgent& agent) {
+  const TrialFrames frames = frames_of_trial(agent.length, plan.play.machine.max_episode_frames);
+  return (frames.training + frames.evaluation) / agent.frame_skip / agent.kind->decisions_per_second;
+}
+
 Cost cost_of(const Plan& plan) {
   Cost cost;
-  const double episode_frames = plan.play.machine.max_episode_frames;
   for (const PlanAgent& agent : plan.agents) {
     const TrialLength& length = agent.length;
     AgentCost own{.agent = std::string(agent.kind->name)};
     own.units = plan.games.size() * static_cast<std::size_t>(length.trials) *
                 (agent.kind->each_action ? kActions : 1);
     const auto units = static_cast<double>(own.units);
-    const double evaluation = units * length.evaluation_episodes * episode_frames;
-    const double training = units * (length.training_frames > 0 ? length.training_frames
-                                                                : length.training_episodes * episode_frames);
-    own.decisions = (evaluation + training) / agent.frame_skip;
-    own.core_hours = own.decisions / agent.kind->decisions_per_second / 3600;
+    const TrialFrames frames = frames_of_trial(length, plan.play.machine.max_episode_frames);
+    const double evaluation = units * frames.evaluation;
+    own.decisions = (evaluation + units * frames.training) / agent.frame_skip;
+    own.core_hours = units * seconds_of_trial(plan, agent) / 3600;
     cost.units += own.units;
     cost.decisions += own.decisions;
     cost.core_hours += own.core_hours;

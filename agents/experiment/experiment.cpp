@@ -1,5 +1,6 @@
 #include "agents/experiment/experiment.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <thread>
 
 #include "agents/base/file_lock.hpp"
+#include "agents/experiment/cost.hpp"
 #include "agents/experiment/trial.hpp"
 #include "agents/features/game_facts.hpp"
 #include "recording/atomic_file.hpp"
@@ -31,18 +33,46 @@ std::string first_difference(std::string_view ours, std::string_view theirs) {
   return "no line";
 }
 
-// Claims the folder for this plan, or checks that it has been.
-void claim(const ResultsFolder& folder, const Plan& plan) {
-  for (const std::string& path :
-       {folder.root(), folder.units(), folder.logs(), folder.facts(), folder.work()})
-    fs::create_directories(path);
-  const FileLock lock(folder.lock("plan"));
-  const std::string text = text_of(plan);
-  if (!fs::exists(folder.plan())) return replace_file(folder.plan(), text, Durable::kNow);
-  const std::string there = read_input_file("plan", folder.plan(), kMostTableBytes);
+void check_plan(const ResultsFolder& folder, const std::string& text) {
+  const std::string there = read_input_file("plan", folder.plan(), kMostPlanBytes);
   if (there != text)
     throw InvalidInput(folder.root() + " holds results of another plan; the first difference is: " +
                        first_difference(text, there) + "; choose another folder");
+}
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw std::runtime_error("cannot make the folder " + path + ": " + error.message());
+}
+
+// A lock in the folder `work`, which the process that finishes the last unit removes.
+auto with_lock(const ResultsFolder& folder, const std::string& name, const auto& lock) {
+  for (int attempt = 1;; ++attempt) {
+    make_folder(folder.work());
+    try {
+      return lock(folder.lock(name));
+    } catch (const std::system_error& error) {
+      if (error.code() != std::errc::no_such_file_or_directory || attempt == 10) throw;
+    }
+  }
+}
+
+FileLock lock_plan(const ResultsFolder& folder) {
+  return with_lock(folder, "plan", [](const std::string& path) { return FileLock(path); });
+}
+
+// Claims the folder for this plan, or checks that it has been. Writes nothing if it cannot be used.
+void claim(const ResultsFolder& folder, const Plan& plan, const Images& images) {
+  const std::string text = text_of(plan);
+  std::error_code none;
+  if (fs::exists(folder.plan(), none)) check_plan(folder, text);
+  for (const PlanGame& game : plan.games)
+    GameFacts(*images.find(game.name), sample_settings(plan, game), folder.facts()).check();
+  for (const std::string& path : {folder.root(), folder.units(), folder.logs(), folder.facts()})
+    make_folder(path);
+  const FileLock lock = lock_plan(folder);
+  fs::exists(folder.plan()) ? check_plan(folder, text) : replace_file(folder.plan(), text, Durable::kNow);
 }
 
 bool is_finished(const ResultsFolder& folder, const Unit& unit) {
@@ -52,7 +82,7 @@ bool is_finished(const ResultsFolder& folder, const Unit& unit) {
 // Puts the finished units together, in the plan's order. Under the lock, so that the process which finishes
 // last writes last.
 void put_together(const ResultsFolder& folder, const std::vector<Unit>& units) {
-  const FileLock lock(folder.lock("plan"));
+  const FileLock lock = lock_plan(folder);
   std::string results = line_of(kResultColumns), curves = line_of(kCurveColumns),
               times = line_of(kTimeColumns);
   std::size_t finished = 0;
@@ -76,28 +106,53 @@ class Run {
       : plan_(plan), images_(images), folder_(folder), settings_(settings), report_(report) {}
 
   void all() {
-    claim(folder_, plan_);
+    claim(folder_, plan_, images_);
     const std::vector<Unit> units = units_of(plan_);
     for (std::size_t i = settings_.shard - 1; i < units.size(); i += settings_.shards)
-      if (!is_finished(folder_, units[i])) mine_.push_back(&units[i]);
-    std::vector<std::jthread> threads;
-    for (unsigned i = 1; i < settings_.threads; ++i) threads.emplace_back([this] { work(); });
-    work();
-    threads.clear();
-    if (failure_) std::rethrow_exception(failure_);
-    put_together(folder_, units);
-    if (!busy_.empty())
-      throw std::runtime_error(busy_ +
-                               " is being run by another process; repeat the command when it has ended");
+      if (!is_finished(folder_, units[i]))
+        mine_.push_back({.unit = &units[i], .seconds = seconds_of_trial(plan_, *units[i].agent)});
+    run_on_all_threads();
+    if (!failure_) run_on_all_threads();  // what another process ran may be finished, or free, by now
+    finish(units);
   }
 
  private:
+  // A unit of this process.
+  struct Own {
+    const Unit* unit;
+    double seconds;               // that it is expected to take
+    double before = 0, done = 0;  // shares of it: what this process did not do, and what is done by now
+    bool is_over = false;
+  };
+
+  void run_on_all_threads() {
+    next_ = 0;
+    std::vector<std::jthread> threads;
+    for (unsigned i = 1; i < settings_.threads; ++i) threads.emplace_back([this] { work(); });
+    work();
+  }
+
+  // Puts together what is finished, even if a unit failed.
+  void finish(const std::vector<Unit>& units) {
+    try {
+      put_together(folder_, units);
+    } catch (...) {
+      if (!failure_) throw;  // else the first failure says more
+    }
+    if (failure_) std::rethrow_exception(failure_);
+    const auto busy =
+        std::ranges::find_if(mine_, [this](const Own& own) { return !is_finished(folder_, *own.unit); });
+    if (busy != mine_.end())
+      throw std::runtime_error(busy->unit->name +
+                               " is being run by another process; repeat the command when it has ended");
+  }
+
   void work() {
     try {
       while (!stop_) {
         const std::size_t next = next_++;
         if (next >= mine_.size()) return;
-        run(*mine_[next]);
+        if (!mine_[next].is_over) run(mine_[next]);
       }
     } catch (...) {
       const std::lock_guard lock(mutex_);
@@ -106,28 +161,71 @@ class Run {
     }
   }
 
-  void run(const Unit& unit) {
-    const auto lock = FileLock::attempt(folder_.lock(unit.name));
-    if (!lock) {
-      const std::lock_guard guard(mutex_);
-      if (busy_.empty()) busy_ = unit.name;
-      return;
-    }
-    if (is_finished(folder_, unit)) return;  // by another process, meanwhile
+  void run(Own& own) {
+    const Unit& unit = *own.unit;
+    if (is_finished(folder_, unit)) return leave(own);
+    const auto lock = with_lock(folder_, unit.name, FileLock::attempt);
+    if (!lock) return;
+    if (is_finished(folder_, unit)) return leave(own);
     const Cartridge& cartridge = *images_.find(unit.game->name);
-    GameFacts facts(cartridge, {plan_.seed, plan_.background_screens, plan_.class_screens, plan_.play},
-                    folder_.facts());
+    GameFacts facts(cartridge, sample_settings(plan_, *unit.game), folder_.facts());
     Trial trial(plan_, unit, folder_, cartridge, &facts, settings_.cpu);
-    if (trial.run(settings_.checkpoints, [this] { return stop_.load(); })) tell(unit, trial);
+    begin(own, trial);
+    if (trial.run(
+            settings_.checkpoints, [this] { return stop_.load(); }, watch_of(own, trial)))
+      tell(own, trial);
   }
 
-  void tell(const Unit& unit, const Trial& trial) {
+  // Another process has finished it.
+  void leave(Own& own) {
     const std::lock_guard lock(mutex_);
-    const std::chrono::duration<double> elapsed = Clock::now() - start_;
     ++finished_;
-    const double left = static_cast<double>(mine_.size() - finished_) / static_cast<double>(finished_);
-    report_({finished_, mine_.size(), unit.name, unit.agent->length.evaluation_episodes, trial.mean_score(),
-             elapsed, left * elapsed});
+    own.is_over = true;
+    own.before = own.done = 1;
+  }
+
+  void begin(Own& own, const Trial& trial) {
+    const std::lock_guard lock(mutex_);
+    own.before = own.done = trial.place().done;
+  }
+
+  std::function<void()> watch_of(Own& own, const Trial& trial) {
+    if (settings_.reports.count() == 0) return {};
+    return [this, &own, &trial, last = Clock::now()]() mutable {
+      if (Clock::now() - last < settings_.reports) return;
+      last = Clock::now();
+      const Trial::Place place = trial.place();
+      const std::lock_guard lock(mutex_);
+      own.done = place.done;
+      Progress at = progress(own);
+      at.episodes = place.episodes;
+      at.decisions = place.decisions;
+      report_(at);
+    };
+  }
+
+  void tell(Own& own, const Trial& trial) {
+    const std::lock_guard lock(mutex_);
+    ++finished_;
+    own.is_over = true;
+    own.done = 1;
+    Progress at = progress(own);
+    at.unit_finished = true;
+    at.episodes = own.unit->agent->length.evaluation_episodes;
+    at.mean_score = trial.mean_score();
+    report_(at);
+  }
+
+  Progress progress(const Own& own) const {
+    double done = 0, left = 0;
+    for (const Own& each : mine_) {
+      done += each.seconds * (each.done - each.before);
+      left += each.seconds * (1 - each.done);
+    }
+    Progress at{.finished = finished_, .all = mine_.size(), .unit = own.unit->name};
+    at.elapsed = Clock::now() - start_;
+    if (done > 0) at.left = at.elapsed * (left / done);
+    return at;
   }
 
   const Plan& plan_;
@@ -136,12 +234,11 @@ class Run {
   const ExperimentSettings& settings_;
   const Report& report_;
   const Clock::time_point start_ = Clock::now();
-  std::vector<const Unit*> mine_;
+  std::vector<Own> mine_;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;
   std::size_t finished_ = 0;
-  std::string busy_;
   std::exception_ptr failure_;
 };
 

@@ -16,21 +16,26 @@ struct ExperimentSettings {
   std::size_t shard = 1, shards = 1;  // this process runs each shards-th unit, from the shard-th on
   std::chrono::milliseconds checkpoints{60000};  // at least so much time between two
   CpuKind cpu = CpuKind::kAuto;
+  std::chrono::milliseconds reports{0};  // between two within a unit; 0: only finished units are reported
 };
 
 // Where an experiment is.
 struct Progress {
   std::size_t finished = 0, all = 0;  // units of this process
-  std::string unit;                   // that was finished last
-  int episodes = 0;
-  double mean_score = 0;
-  std::chrono::duration<double> elapsed{}, left{};  // by the time that the finished units took
+  std::string unit;
+  bool unit_finished = false;
+  int episodes = 0;            // of the unit: of evaluation if it is finished, else all that are over
+  std::int64_t decisions = 0;  // of the episode that is played
+  double mean_score = 0;       // of a unit that is finished
+  // By the time that the work so far took, where measured speeds say how much work a unit is.
+  std::chrono::duration<double> elapsed{}, left{};
 };
 using Report = std::function<void(const Progress& progress)>;  // from one thread at a time
 
 // `plan` is bound. Finished units are not run again, and unfinished ones go on. Throws InvalidInput for a
-// folder of another plan, and std::runtime_error when units are run by another process, or when a file cannot
-// be written; what is finished stays.
+// folder of another plan, or with backgrounds or classes of another, before anything is written; and
+// std::runtime_error when units are still being run by another process, or when a file cannot be written.
+// What is finished stays, and is in the tables.
 void run_experiment(const Plan& plan, const Images& images, const ResultsFolder& folder,
                     const ExperimentSettings& settings, const Report& report);
 

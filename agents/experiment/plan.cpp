@@ -17,12 +17,12 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kMostPlanBytes = std::size_t{1} << 20;
 constexpr int kMostPlanNumber = std::numeric_limits<int>::max();
 constexpr int kMostEpisodes = 1000000;
 constexpr int kMostEpisodeFrames = 1000000;  // a log holds this many decisions
 constexpr int kMostScreens = 10000000;
 constexpr int kMostFrameSkip = 1000;
+constexpr std::int64_t kMostUnits = 100000, kMostRows = 20000000;  // of results.csv: 4 GiB
 
 // Settings of the literature, which a plan then changes.
 struct PlanPreset {
@@ -84,15 +84,6 @@ void as_invalid_input(const std::function<void()>& work) {
   }
 }
 
-int whole_within(const Section& section, std::string_view key, int least, int most) {
-  const int value = *section.number(key);
-  if (value < least || value > most)
-    section.refuse(*section.node(key), key,
-                   std::to_string(value) + " is out of range; accepted are " + std::to_string(least) +
-                       " to " + std::to_string(most));
-  return value;
-}
-
 class PlanReader {
  public:
   PlanReader(std::string_view text, const std::string& file)
@@ -104,22 +95,23 @@ class PlanReader {
     if (top_.node("name"))
       top_.guard(*top_.node("name"), "name",
                  [&] { as_invalid_input([&] { checked_name(plan_.name, "name"); }); });
-    if (top_.node("seed"))
-      plan_.seed = static_cast<std::uint32_t>(whole_within(top_, "seed", 0, kMostPlanNumber));
+    if (top_.node("seed")) plan_.seed = static_cast<std::uint32_t>(*top_.number("seed", 0, kMostPlanNumber));
     for (const ScreensKey& key : kScreensKeys)
-      if (top_.node(key.name)) plan_.*key.member = whole_within(top_, key.name, 1, kMostScreens);
+      if (top_.node(key.name)) plan_.*key.member = *top_.number(key.name, 1, kMostScreens);
     plan_.version = top_.text("version").value_or("");
     read_preset();
     read_lengths(top_, learners_);
     read_environment();
     read_games();
     read_images();
+    read_backgrounds();
     read_agents();
+    check_size();
     return std::move(plan_);
   }
 
  private:
-  static constexpr std::array<std::string_view, 15> kTopKeys = {"name",
+  static constexpr std::array<std::string_view, 16> kTopKeys = {"name",
                                                                 "preset",
                                                                 "seed",
                                                                 "background_screens",
@@ -131,6 +123,7 @@ class PlanReader {
                                                                 "environment",
                                                                 "games",
                                                                 "images",
+                                                                "backgrounds",
                                                                 "agents",
                                                                 "agent",
                                                                 "version"};
@@ -152,20 +145,36 @@ class PlanReader {
   }
 
   void read_environment() {
-    if (const auto text = top_.text("environment"))
-      top_.guard(*top_.node("environment"), "environment", [&] { read_words(*text); });
+    const auto text = top_.text("environment");
+    if (!text) return;  // presets are accepted
+    const toml::node& node = *top_.node("environment");
+    plan_.environment_place =
+        source_.file + ":" + std::to_string(node.source().begin.line) + ": environment: ";
+    top_.guard(node, "environment", [&] {
+      read_words(*text);
+      check_episode_settings(plan_.play);
+    });
+    if (has_seed(*text))
+      top_.refuse(node, "environment",
+                  "seed is not accepted here; all seeds follow from the plan's key 'seed'");
     const int limit = plan_.play.machine.max_episode_frames;
-    if (limit >= 1 && limit <= kMostEpisodeFrames) return;
-    top_.refuse_missing("environment", "max_episode_frames is " + std::to_string(limit) +
-                                           "; an experiment accepts 1 to " +
-                                           std::to_string(kMostEpisodeFrames));
+    if (limit < 1 || limit > kMostEpisodeFrames)
+      top_.refuse(node, "environment",
+                  "max_episode_frames is " + std::to_string(limit) + "; an experiment accepts 1 to " +
+                      std::to_string(kMostEpisodeFrames));
+  }
+
+  static bool has_seed(const std::string& text) {
+    std::vector<std::string_view> words;
+    split(text, words);
+    return std::ranges::any_of(words, [](std::string_view word) { return word.starts_with("seed="); });
   }
 
   // What `section` says of the length of a trial. Training has one length, in episodes or in frames.
   void read_lengths(const Section& section, TrialLength& length) const {
     for (const LengthKey& key : kLengthKeys) {
       if (!section.node(key.name)) continue;
-      length.*key.member = whole_within(section, key.name, key.least, key.most);
+      length.*key.member = *section.number(key.name, key.least, key.most);
     }
     const bool episodes = section.node("training_episodes"), frames = section.node("training_frames");
     if (frames && !episodes && length.training_frames > 0) length.training_episodes = 0;
@@ -198,7 +207,7 @@ class PlanReader {
         top_.refuse(*top_.node("games"), "games",
                     "there is no set " + quote(name) + "; accepted are " + list_of(game_sets()) +
                         ", and a list of games");
-      for (const SetGame& game : set->games) plan_.games.push_back({std::string(game.name), ""});
+      for (const SetGame& game : set->games) plan_.games.push_back({.name = std::string(game.name)});
       return;
     }
     check_ = [this](const toml::node& at, std::string_view key, const std::string& name) {
@@ -207,7 +216,7 @@ class PlanReader {
                     "there is no game " + quote(name) + ";" + did_you_mean(name, game_names()) +
                         " racebeam games lists them");
     };
-    for (std::string& name : words("games")) plan_.games.push_back({std::move(name), ""});
+    for (std::string& name : words("games")) plan_.games.push_back({.name = std::move(name)});
   }
 
   void read_images() {
@@ -218,6 +227,24 @@ class PlanReader {
     for (const PlanGame& game : plan_.games) names.push_back(game.name);
     section.allow(names);
     for (PlanGame& game : plan_.games) game.image_md5 = section.text(game.name).value_or("");
+  }
+
+  // The SHA-256 of the CSV files that games have their backgrounds from.
+  void read_backgrounds() {
+    const toml::table* const backgrounds = top_.table("backgrounds");
+    if (!backgrounds) return;
+    const Section section(source_, *backgrounds, "backgrounds");
+    std::vector<std::string_view> names;
+    for (const PlanGame& game : plan_.games) names.push_back(game.name);
+    section.allow(names);
+    for (PlanGame& game : plan_.games) {
+      const auto digest = section.text(game.name);
+      if (!digest) continue;
+      if (digest->size() != 64 || digest->find_first_not_of("0123456789abcdef") != std::string::npos)
+        section.refuse(*section.node(game.name), game.name,
+                       quote(*digest) + " is no SHA-256; it takes 64 digits of 0 to 9 and a to f");
+      game.background_csv = *digest;
+    }
   }
 
   void read_agents() {
@@ -237,6 +264,26 @@ class PlanReader {
     }
   }
 
+  // Units and rows are kept in memory, by experiments and by their verification.
+  void check_size() const {
+    std::int64_t units = 0, rows = 0;
+    for (const PlanAgent& agent : plan_.agents) {
+      const std::int64_t own = static_cast<std::int64_t>(plan_.games.size()) * agent.length.trials *
+                               (agent.kind->each_action ? kActions : 1);
+      units += own;
+      rows += own * agent.length.evaluation_episodes;
+    }
+    const auto check = [&](std::string_view key, std::int64_t count, const char* what, std::int64_t most) {
+      if (count <= most) return;
+      const std::string sentence =
+          "the plan has " + std::to_string(count) + what + "; accepted are at most " + std::to_string(most);
+      if (top_.node(key)) top_.refuse(*top_.node(key), key, sentence);
+      top_.refuse_missing(key, sentence);
+    };
+    check("trials", units, " units", kMostUnits);
+    check("evaluation_episodes", rows, " evaluation episodes", kMostRows);
+  }
+
   // Baselines learn nothing, and a search has an episode a trial, so that episodes run side by side.
   TrialLength length_for(const AgentKind& kind) const {
     if (kind.role == Role::kLearner) return learners_;
@@ -252,10 +299,17 @@ class PlanReader {
     PlanAgent agent{&kind, AgentValues(kind.settings), length_for(kind),
                     kind.frame_skip.value_or(plan_.play.machine.frame_skip)};
     read_lengths(section, agent.length);
-    if (section.node("frame_skip")) agent.frame_skip = whole_within(section, "frame_skip", 1, kMostFrameSkip);
+    if (section.node("frame_skip")) agent.frame_skip = *section.number("frame_skip", 1, kMostFrameSkip);
     for (std::size_t i = 0; i < kind.settings.size(); ++i)
       if (section.node(kind.settings[i].name)) agent.values.set(i, value(section, kind.settings[i]));
     return agent;
+  }
+
+  // A value as it stands in the plan.
+  static std::string source_text(const toml::node& node) {
+    if (const auto text = node.value_exact<std::string>()) return quote(*text);
+    const auto flag = node.value_exact<bool>();
+    return flag ? (*flag ? "true" : "false") : "this value";
   }
 
   static double value(const Section& section, const AgentSetting& setting) {
@@ -267,7 +321,7 @@ class PlanReader {
         number >= setting.least && number <= setting.most && (!setting.whole || number == std::floor(number));
     if (!accepted)
       section.refuse(node, setting.name,
-                     (node.is_number() ? text_of_number(number) : std::string("this")) +
+                     (node.is_number() ? text_of_number(number) : source_text(node)) +
                          " is not accepted; it takes a " + (setting.whole ? "whole number" : "number") +
                          " from " + text_of_number(setting.least) + " to " + text_of_number(setting.most));
     if (setting.divides != 0 && setting.divides % static_cast<int>(number) != 0)
@@ -350,6 +404,19 @@ std::vector<std::string> games_without_image(const Plan& plan, const Images& ima
   return missing;
 }
 
+namespace {
+
+// Whether the game has the mode and the difficulty of the plan.
+void check_game(const Plan& plan, const Cartridge& cartridge) {
+  try {
+    Stage(cartridge, plan.play, Drawing::kNone).begin(1);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(plan.environment_place + cartridge.game->name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
 void bind(Plan& plan, const Images& images, const std::string& version) {
   if (!plan.version.empty() && plan.version != version)
     throw InvalidInput("the plan is of version " + quote(plan.version) + "; this program is " + version);
@@ -365,6 +432,7 @@ void bind(Plan& plan, const Images& images, const std::string& version) {
       throw InvalidInput("the plan's image of " + game.name + " has MD5 " + game.image_md5 +
                          "; the one that is here has " + found);
     game.image_md5 = found;
+    check_game(plan, *images.find(game.name));
   }
 }
 
@@ -382,6 +450,10 @@ std::string text_of(const Plan& plan) {
   append_line(out, "agents", quoted_list(agents));
   out += "\n[images]\n";
   for (const PlanGame& game : plan.games) append_line(out, game.name, '"' + game.image_md5 + '"');
+  if (std::ranges::any_of(plan.games, [](const PlanGame& game) { return !game.background_csv.empty(); }))
+    out += "\n[backgrounds]\n";
+  for (const PlanGame& game : plan.games)
+    if (!game.background_csv.empty()) append_line(out, game.name, '"' + game.background_csv + '"');
   for (const PlanAgent& agent : plan.agents) append_agent(out, agent);
   return out;
 }
@@ -399,6 +471,10 @@ std::vector<Unit> units_of(const Plan& plan) {
     }
   }
   return units;
+}
+
+SampleSettings sample_settings(const Plan& plan, const PlanGame& game) {
+  return {plan.seed, plan.background_screens, plan.class_screens, plan.play, game.background_csv};
 }
 
 PlaySettings play_settings(const Plan& plan, const PlanAgent& agent) {

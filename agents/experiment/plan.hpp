@@ -1,6 +1,7 @@
 // The plan of an experiment: games, agents, trials, and every setting (docs/experiments.md).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -8,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "agents/features/background.hpp"
 #include "agents/kinds/agent_table.hpp"
 #include "protocol/line/images.hpp"
 
@@ -32,7 +34,8 @@ struct PlanAgent {
 
 struct PlanGame {
   std::string name;
-  std::string image_md5;  // empty: not known yet
+  std::string image_md5 = {};       // empty: not known yet
+  std::string background_csv = {};  // the SHA-256 of the CSV file of its background; empty: it is discovered
 };
 
 struct Plan {
@@ -42,7 +45,8 @@ struct Plan {
   PlaySettings play;
   std::vector<PlanGame> games;
   std::vector<PlanAgent> agents;
-  std::string version;  // of the program; empty: not known yet
+  std::string version;            // of the program; empty: not known yet
+  std::string environment_place;  // "FILE:LINE: environment: ", for errors; empty: the preset's
 };
 
 // A trial of one agent in one game: what is run, resumed and locked as a whole.
@@ -55,6 +59,8 @@ struct Unit {
   int trial = 1;
 };
 
+constexpr std::size_t kMostPlanBytes = std::size_t{1} << 20;  // of a plan's file
+
 // `file` is for errors. Throws InvalidInput: "FILE:LINE: FIELD: sentence".
 Plan parse_plan(std::string_view text, const std::string& file);
 
@@ -62,7 +68,7 @@ Plan parse_plan(std::string_view text, const std::string& file);
 Plan load_plan(const std::string& name_or_file);
 
 // Sets the MD5s of the images and the version. Throws InvalidInput, which names all games without an image,
-// and a plan of other images or of another version.
+// a plan of other images or of another version, and a mode or difficulty that a game lacks.
 void bind(Plan& plan, const Images& images, const std::string& version);
 std::vector<std::string> games_without_image(const Plan& plan, const Images& images);
 
@@ -72,6 +78,7 @@ std::string text_of(const Plan& plan);
 std::vector<Unit> units_of(const Plan& plan);  // in the plan's order: games, agents, trials
 
 PlaySettings play_settings(const Plan& plan, const PlanAgent& agent);
+SampleSettings sample_settings(const Plan& plan, const PlanGame& game);
 
 // Seeds follow from the plan's seed and the unit's name, so that no unit depends on another.
 std::uint32_t agent_seed(const Plan& plan, const Unit& unit);

@@ -20,6 +20,7 @@ class Account {
     return reward;
   }
 
+  std::int64_t decisions() const { return end_.decisions; }
   std::int64_t frames() const { return end_.frames; }
   bool over() const { return machine_.game_over(); }
 
@@ -41,12 +42,16 @@ class Account {
 
 }  // namespace
 
-Stage::Stage(const Cartridge& cartridge, const PlaySettings& settings, Drawing drawing)
-    : settings_(settings), machine_(cartridge.image, cartridge.game, settings.machine) {
+void check_episode_settings(const PlaySettings& settings) {
   if (settings.noop_max != 0 || settings.autoreset || settings.action_set != ActionSet::kFull)
     throw InvalidInput(
         "an episode is played with noop_max=0, autoreset=0 and action_set=full; sticky actions and seeds "
         "vary it");
+}
+
+Stage::Stage(const Cartridge& cartridge, const PlaySettings& settings, Drawing drawing)
+    : settings_(settings), machine_(cartridge.image, cartridge.game, settings.machine) {
+  check_episode_settings(settings);
   machine_.set_drawing(drawing);
 }
 
@@ -58,13 +63,14 @@ void Stage::begin(std::uint32_t seed) {
   if (settings_.mode || settings_.difficulty) machine_.reset_game();
 }
 
-Episode play(Agent& agent, Stage& stage, std::int64_t most_frames) {
+Episode play(Agent& agent, Stage& stage, std::int64_t most_frames, const Watch& watch) {
   Environment& machine = stage.machine();
   Account account(machine);
   Episode episode;
   for (int action = agent.begin(machine);;) {
     episode.actions.push_back(static_cast<std::uint8_t>(action));
     const double reward = account.act(action);
+    if (watch) watch(account.decisions(), account.frames());
     if (account.over() || account.frames() >= most_frames) {
       agent.end(reward);
       break;
@@ -103,6 +109,7 @@ Replay replay(const EpisodeLog& log, const Cartridge& cartridge, CpuKind cpu) {
   Replay result;
   result.end = account.finish();
   result.hashes = std::move(account.hashes());
+  result.over = account.over();
   return result;
 }
 

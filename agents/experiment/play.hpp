@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -13,6 +14,9 @@
 #include "protocol/line/play_settings.hpp"
 
 namespace racebeam {
+
+// Throws InvalidInput for settings that a log could not repeat.
+void check_episode_settings(const PlaySettings& settings);
 
 // A machine on which one episode after the other is played, each as `load` begins it.
 class Stage {
@@ -37,13 +41,18 @@ struct Episode {
   bool diverged = false;  // the agent, which ended the episode early
 };
 
-// From where stage.begin() left it until the end, or for most_frames.
-Episode play(Agent& agent, Stage& stage, std::int64_t most_frames = std::numeric_limits<std::int64_t>::max());
+// After each decision, with the decisions and frames of the episode so far.
+using Watch = std::function<void(std::int64_t decisions, std::int64_t frames)>;
+
+// From where stage.begin() left it until the end, or for most_frames. `watch` may be empty.
+Episode play(Agent& agent, Stage& stage, std::int64_t most_frames = std::numeric_limits<std::int64_t>::max(),
+             const Watch& watch = {});
 
 // What a log's actions lead to.
 struct Replay {
   EpisodeEnd end;
   std::vector<std::uint64_t> hashes;
+  bool over = false;  // the last action ended the episode; no actions are played after its end
 };
 Replay replay(const EpisodeLog& log, const Cartridge& cartridge, CpuKind cpu);
 

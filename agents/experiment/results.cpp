@@ -60,23 +60,25 @@ ResultRow row_of(const EpisodeLog& log, const std::string& digest) {
           log.origin.version};
 }
 
-ResultRow row_of_divergence(const Plan& plan, const Unit& unit, const std::string& version) {
-  return {unit.name,
-          unit.game->name,
-          unit.game->image_md5,
-          unit.agent_name,
-          std::to_string(unit.trial),
-          "0",
-          "",
-          std::to_string(agent_seed(plan, unit)),
-          "",
-          "",
-          "",
-          "diverged",
-          "",
-          "",
-          "",
-          version};
+ResultRow row_of_plan(const Plan& plan, const Unit& unit, int episode) {
+  ResultRow row;
+  field(row, "unit") = unit.name;
+  field(row, "game") = unit.game->name;
+  field(row, "image_md5") = unit.game->image_md5;
+  field(row, "agent") = unit.agent_name;
+  field(row, "trial") = std::to_string(unit.trial);
+  field(row, "episode") = std::to_string(episode);
+  field(row, "environment_seed") = std::to_string(environment_seed(plan, unit, false, episode));
+  field(row, "agent_seed") = std::to_string(agent_seed(plan, unit));
+  field(row, "version") = plan.version;
+  return row;
+}
+
+ResultRow row_of_divergence(const Plan& plan, const Unit& unit) {
+  ResultRow row = row_of_plan(plan, unit, 0);
+  field(row, "environment_seed") = "";
+  field(row, "end") = "diverged";
+  return row;
 }
 
 std::string curve_line(const Unit& unit, int episode, const EpisodeEnd& end) {
@@ -87,10 +89,16 @@ std::string curve_line(const Unit& unit, int episode, const EpisodeEnd& end) {
   return line + "\n";
 }
 
-const std::string& field(const ResultRow& row, std::string_view column) {
-  const auto found = std::ranges::find(kResultColumns, column);
-  return row.at(static_cast<std::size_t>(found - kResultColumns.begin()));
+namespace {
+
+std::size_t place_of(std::string_view column) {
+  return static_cast<std::size_t>(std::ranges::find(kResultColumns, column) - kResultColumns.begin());
 }
+
+}  // namespace
+
+const std::string& field(const ResultRow& row, std::string_view column) { return row.at(place_of(column)); }
+std::string& field(ResultRow& row, std::string_view column) { return row.at(place_of(column)); }
 
 std::vector<ResultRow> parse_results(const std::string& name, std::string_view text) {
   const std::string columns = line_of(kResultColumns);

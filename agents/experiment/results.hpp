@@ -39,12 +39,16 @@ std::string line_of(const ResultRow& row);
 
 // What the row of this log is. `digest` is of the log's bytes.
 ResultRow row_of(const EpisodeLog& log, const std::string& digest);
-ResultRow row_of_divergence(const Plan& plan, const Unit& unit, const std::string& version);
+
+// What follows of an episode's row from the plan alone; the other columns are empty.
+ResultRow row_of_plan(const Plan& plan, const Unit& unit, int episode);
+ResultRow row_of_divergence(const Plan& plan, const Unit& unit);
 
 std::string curve_line(const Unit& unit, int episode, const EpisodeEnd& end);
 
 // The value of a column, by its name.
 const std::string& field(const ResultRow& row, std::string_view column);
+std::string& field(ResultRow& row, std::string_view column);
 
 // The rows of results.csv. Throws InvalidInput for columns that lack or differ, and rows that do not fit.
 std::vector<ResultRow> parse_results(const std::string& name, std::string_view text);

@@ -1,9 +1,12 @@
 #include "agents/experiment/trial.hpp"
 
+#include <algorithm>
 #include <ctime>
 #include <filesystem>
+#include <limits>
 
 #include "agents/base/sealed_file.hpp"
+#include "agents/experiment/cost.hpp"
 #include "recording/atomic_file.hpp"
 #include "system/invalid_input.hpp"
 
@@ -49,7 +52,9 @@ Trial::Trial(const Plan& plan, const Unit& unit, const ResultsFolder& folder, co
   resume();
 }
 
-bool Trial::run(std::chrono::milliseconds every, const std::function<bool()>& stop) {
+bool Trial::run(std::chrono::milliseconds every, const std::function<bool()>& stop,
+                const std::function<void()>& watch) {
+  watch_ = watch;
   for (auto last = Clock::now(); !is_over();) {
     if (stop()) return false;
     run_episode();
@@ -59,6 +64,16 @@ bool Trial::run(std::chrono::milliseconds every, const std::function<bool()>& st
   }
   finish();
   return true;
+}
+
+Trial::Place Trial::place() const {
+  const double most = plan_.play.machine.max_episode_frames;
+  const TrialFrames all = frames_of_trial(length_, plan_.play.machine.max_episode_frames);
+  const double training =
+      length_.training_frames > 0 ? static_cast<double>(account_.training_frames) : most * account_.trained;
+  const double done = training + most * account_.evaluated + static_cast<double>(episode_frames_);
+  return {account_.trained + account_.evaluated, decisions_,
+          std::min(done / (all.training + all.evaluation), 1.0)};
 }
 
 double Trial::mean_score() const {
@@ -81,26 +96,48 @@ void Trial::run_episode() {
   account_.searched_frames += agent_->searched_frames() - searched;
 }
 
+Episode Trial::play_episode(std::int64_t most_frames) {
+  Watch watch;
+  if (watch_)
+    watch = [this](std::int64_t decisions, std::int64_t frames) {
+      decisions_ = decisions;
+      episode_frames_ = frames;
+      watch_();
+    };
+  Episode episode = play(*agent_, stage_, most_frames, watch);
+  decisions_ = episode_frames_ = 0;
+  return episode;
+}
+
 void Trial::train() {
-  const int number = ++account_.trained;
+  const int number = account_.trained + 1;
   const std::int64_t left = length_.training_frames > 0 ? length_.training_frames - account_.training_frames
                                                         : std::numeric_limits<std::int64_t>::max();
   agent_->set_learning(true);
   stage_.begin(environment_seed(plan_, unit_, true, number));
-  const Episode episode = play(*agent_, stage_, left);
+  const Episode episode = play_episode(left);
+  account_.trained = number;
   account_.training_frames += episode.end.frames;
   account_.frames += episode.end.frames;
   curves_ += curve_line(unit_, number, episode.end);
-  diverged_ = episode.diverged;
-  if (diverged_) rows_ = line_of(row_of_divergence(plan_, unit_, plan_.version));
+  if (episode.diverged) diverge();
+}
+
+// The trial has one row, and no logs.
+void Trial::diverge() {
+  diverged_ = true;
+  rows_ = line_of(row_of_divergence(plan_, unit_));
+  std::filesystem::remove_all(folder_.logs(unit_.name));
 }
 
 void Trial::evaluate() {
-  const int number = ++account_.evaluated;
+  const int number = account_.evaluated + 1;
   agent_->set_learning(false);
   stage_.begin(environment_seed(plan_, unit_, false, number));
-  const Episode episode = play(*agent_, stage_);
+  const Episode episode = play_episode(std::numeric_limits<std::int64_t>::max());
+  account_.evaluated = number;
   account_.frames += episode.end.frames;
+  if (episode.diverged) return diverge();  // sums of finite weights can exceed the range, too
   account_.score += episode.end.score;
   keep_log(episode, number);
 }
@@ -123,12 +160,17 @@ void Trial::resume() {
   const std::string path = folder_.checkpoint(unit_.name);
   if (!std::filesystem::exists(path)) return;
   const std::string bytes = read_sealed(kCheckpoint, path);
-  StateReader in(bytes);
-  in.get(account_);
-  in.get(rows_);
-  in.get(curves_);
-  agent_->read(in);
-  if (!in.at_end()) throw InvalidInput("checkpoint " + path + ": it holds more than the agent reads");
+  try {
+    StateReader in(bytes);
+    in.get(account_);
+    in.get(rows_);
+    in.get(curves_);
+    agent_->read(in);
+    if (!in.at_end()) throw InvalidInput("it holds more than the agent reads");
+  } catch (const InvalidInput& error) {
+    throw InvalidInput("checkpoint " + path + ": " + error.what() +
+                       "; another version of the program wrote it. Remove it, and its unit begins anew");
+  }
 }
 
 void Trial::write_checkpoint() const {

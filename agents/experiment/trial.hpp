@@ -22,10 +22,17 @@ class Trial {
 
   // Runs until the unit is finished and its files are written, or until stop(), which is asked before each
   // episode, returns true. Returns whether the unit is finished. A checkpoint is written at the end of an
-  // episode when `every` has passed since the last one.
-  bool run(std::chrono::milliseconds every, const std::function<bool()>& stop);
+  // episode when `every` has passed since the last one. watch(), unless empty, is called after each decision.
+  bool run(std::chrono::milliseconds every, const std::function<bool()>& stop,
+           const std::function<void()>& watch = {});
 
-  // Of the evaluation so far, for people.
+  // For people: how far the trial is, and the mean of the evaluation so far.
+  struct Place {
+    int episodes = 0;            // that are over, of training and of evaluation
+    std::int64_t decisions = 0;  // of the episode that is played
+    double done = 0;  // of the trial's frames, from 0 to 1; an episode that is over counts as a full one
+  };
+  Place place() const;
   double mean_score() const;
   std::int64_t frames() const { return account_.frames; }
 
@@ -43,8 +50,10 @@ class Trial {
   bool training_is_over() const;
   bool is_over() const;
   void run_episode();
+  Episode play_episode(std::int64_t most_frames);
   void train();
   void evaluate();
+  void diverge();
   void keep_log(const Episode& episode, int number);
   void resume();
   void write_checkpoint() const;
@@ -58,6 +67,8 @@ class Trial {
   std::unique_ptr<Agent> agent_;
   Stage stage_;
   Account account_;
+  std::function<void()> watch_;
+  std::int64_t decisions_ = 0, episode_frames_ = 0;  // of the episode that is played
   bool diverged_ = false;
   std::string rows_, curves_;  // lines of the tables
 };

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <set>
 
 #include "agents/base/sealed_file.hpp"
+#include "agents/experiment/plan_rows.hpp"
 #include "agents/experiment/play.hpp"
 #include "environment/vector/thread_pool.hpp"
+#include "protocol/line/words.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 
@@ -47,39 +48,79 @@ std::string first_stretch(const EpisodeLog& log, const Replay& played) {
          std::to_string(std::min(from + kDecisionsPerStretch, log.end.decisions));
 }
 
+// The first setting of a log that is not the plan's.
+std::string first_difference_of_words(const std::string& ours, const std::string& theirs) {
+  std::vector<std::string_view> own, wanted;
+  split(ours, own);
+  split(theirs, wanted);
+  const auto tell = [](std::string_view here, std::string_view there) {
+    const auto text = [](std::string_view word) { return word.empty() ? "nothing" : quote(word); };
+    return "its log's settings have " + text(here) + "; the plan gives " + text(there);
+  };
+  const auto same_key = [](const std::vector<std::string_view>& words, std::string_view word) {
+    const auto found = std::ranges::find(words, key_value(word).key,
+                                         [](std::string_view other) { return key_value(other).key; });
+    return found == words.end() ? std::string_view() : *found;
+  };
+  for (const std::string_view word : own)
+    if (const std::string_view there = same_key(wanted, word); there != word) return tell(word, there);
+  for (const std::string_view word : wanted)
+    if (same_key(own, word).empty()) return tell("", word);
+  return "";
+}
+
 class Verifier {
  public:
-  Verifier(const ResultsFolder& folder, const Images& images, CpuKind cpu)
-      : folder_(folder), images_(images), cpu_(cpu) {}
+  Verifier(const Plan& plan, const ResultsFolder& folder, const Images& images, CpuKind cpu)
+      : plan_(plan), folder_(folder), images_(images), cpu_(cpu) {}
 
-  RowVerdict judge(const ResultRow& row) const {
+  RowVerdict judge(const ResultRow& row, const PlanRows::Place& place) const {
     try {
-      return field(row, "end") == "diverged" ? judge_divergence(row) : judge_episode(row);
+      if (place.episode == 0) return judge_divergence(row, *place.unit);
+      if (const std::string reason = against_plan(row, place); !reason.empty())
+        return {Judgement::kWrong, reason};
+      return judge_episode(row, place);
     } catch (const std::exception& error) {
       return {Judgement::kWrong, error.what()};
     }
   }
 
  private:
-  static RowVerdict judge_divergence(const ResultRow& row) {
-    for (const std::string_view column :
-         {"environment_seed", "score", "frames", "decisions", "lives", "state_hash", "log_digest"})
-      if (!field(row, column).empty())
-        return {Judgement::kWrong,
-                std::string(column) + " is '" + field(row, column) + "'; a trial that diverged has none"};
+  RowVerdict judge_divergence(const ResultRow& row, const Unit& unit) const {
+    const std::string reason =
+        first_difference(row, row_of_divergence(plan_, unit), "a trial of the plan that diverged has");
+    if (!reason.empty()) return {Judgement::kWrong, reason};
     return {Judgement::kUnchecked, "the trial diverged; there is no episode to play"};
   }
 
-  RowVerdict judge_episode(const ResultRow& row) const {
+  std::string against_plan(const ResultRow& row, const PlanRows::Place& place) const {
+    ResultRow wanted = row_of_plan(plan_, *place.unit, place.episode);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (wanted[i].empty()) wanted[i] = row[i];
+    return first_difference(row, wanted, "the plan gives");
+  }
+
+  RowVerdict judge_episode(const ResultRow& row, const PlanRows::Place& place) const {
     const std::string path = folder_.log(row[0], field(row, "episode"));
     const std::string bytes = read_input_file("episode log", path, kMostLogBytes);
     const EpisodeLog log = log_of(fs::path(path).filename().string(), bytes);
     if (const std::string reason = first_difference(row, row_of(log, sha256_of(bytes)), "its log has");
         !reason.empty())
       return {Judgement::kWrong, reason};
+    if (const std::string reason = wrong_settings(log, place); !reason.empty())
+      return {Judgement::kWrong, reason};
     const Cartridge* const cartridge = images_.find(log.image_md5);
     if (!cartridge) return {Judgement::kUnchecked, "no image with MD5 " + log.image_md5 + " is here"};
     return play_again(row, log, {cartridge->image, game_of(log, *cartridge)});
+  }
+
+  // Settings that the log leaves out have their defaults, as in a replay.
+  std::string wrong_settings(const EpisodeLog& log, const PlanRows::Place& place) const {
+    PlaySettings wanted = play_settings(plan_, *place.unit->agent);
+    wanted.machine.random_seed = environment_seed(plan_, *place.unit, false, place.episode);
+    const std::string ours = words_of(settings_of(log), any_machine_);
+    const std::string theirs = words_of(wanted, any_machine_);
+    return first_difference_of_words(ours, theirs);
   }
 
   static std::shared_ptr<const Game> game_of(const EpisodeLog& log, const Cartridge& cartridge) {
@@ -95,70 +136,54 @@ class Verifier {
     truth.end = played.end;
     truth.hashes = played.hashes;
     std::string reason = first_difference(row, row_of(truth, field(row, "log_digest")), "the replay gives");
-    if (reason.empty() && log.hashes == played.hashes) return {Judgement::kConfirmed, "", played.end.frames};
-    if (reason.empty()) reason = "the end is the same, the way is not";
-    return {Judgement::kWrong, reason + first_stretch(log, played), played.end.frames};
+    if (reason.empty() && log.hashes != played.hashes) reason = "the end is the same, the way is not";
+    if (!reason.empty()) return {Judgement::kWrong, reason + first_stretch(log, played), played.end.frames};
+    if (!played.over)
+      return {Judgement::kWrong, "the episode is not over after its last action; the log was cut short",
+              played.end.frames};
+    return {Judgement::kConfirmed, "", played.end.frames};
   }
 
+  const Plan& plan_;
   const ResultsFolder& folder_;
   const Images& images_;
   const CpuKind cpu_;
+  const Environment any_machine_{load_image("builtin:beamfall"), find_game("beamfall"), Settings{}};
 };
 
-// The rows that the plan demands: unit and episode.
-std::set<std::pair<std::string, std::string>> rows_of(const Plan& plan,
-                                                      const std::set<std::string>& diverged) {
-  std::set<std::pair<std::string, std::string>> rows;
-  for (const Unit& unit : units_of(plan)) {
-    if (diverged.contains(unit.name)) {
-      rows.emplace(unit.name, "0");
-      continue;
-    }
-    for (int episode = 1; episode <= unit.agent->length.evaluation_episodes; ++episode)
-      rows.emplace(unit.name, std::to_string(episode));
-  }
-  return rows;
-}
-
-// What is missing, doubled or too many. Whether each row may be judged is returned: it is in the plan, and
-// the first of its unit and episode.
-std::vector<bool> compare_with_plan(const Plan& plan, const std::vector<ResultRow>& rows, Verdict& verdict,
-                                    const Finding& finding) {
-  std::set<std::string> diverged;
-  for (const ResultRow& row : rows)
-    if (field(row, "end") == "diverged") diverged.insert(row[0]);
-  auto wanted = rows_of(plan, diverged);
-  std::vector<bool> fit(rows.size());
-  std::set<std::pair<std::string, std::string>> seen;
+// What is missing, doubled or too many. The place in the plan of each row that may be judged is returned.
+std::vector<std::optional<PlanRows::Place>> compare_with_plan(PlanRows& wanted,
+                                                              const std::vector<ResultRow>& rows,
+                                                              Verdict& verdict, const Finding& finding) {
   const auto tell = [&](const std::string& line) {
     ++verdict.wrong;
     finding(line);
   };
+  std::vector<std::optional<PlanRows::Place>> places(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::pair<std::string, std::string> key(rows[i][0], field(rows[i], "episode"));
-    fit[i] = wanted.contains(key) && seen.insert(key).second;
-    if (!fit[i])
-      tell(name_of_row(rows[i], i + 2) + (wanted.contains(key) ? ": stands twice" : ": is not in the plan"));
+    const auto place = wanted.find(rows[i]);
+    if (!place)
+      tell(name_of_row(rows[i], i + 2) + ": is not in the plan");
+    else if (!wanted.mark(*place))
+      tell(name_of_row(rows[i], i + 2) + ": stands twice");
+    else
+      places[i] = place;
   }
-  for (const auto& key : wanted)
-    if (!seen.contains(key))
-      tell("results.csv: the row of " + key.first + ", episode " + key.second + " is missing");
-  return fit;
+  wanted.each_unmarked([&](const Unit& unit, int episode) {
+    tell("results.csv: the row of " + unit.name + ", episode " + std::to_string(episode) + " is missing");
+  });
+  return places;
 }
 
-// The seeds of a row must be those that follow from the plan.
-std::string wrong_seed(const ResultRow& row, const Plan& plan,
-                       const std::map<std::string, const Unit*>& units) {
-  const Unit& unit = *units.at(row[0]);
-  const std::string agent = std::to_string(agent_seed(plan, unit));
-  if (field(row, "agent_seed") != agent)
-    return "agent_seed is '" + field(row, "agent_seed") + "'; the plan gives '" + agent + "'";
-  if (field(row, "end") == "diverged") return "";
-  const std::string seed =
-      std::to_string(environment_seed(plan, unit, false, std::stoi(field(row, "episode"))));
-  if (field(row, "environment_seed") != seed)
-    return "environment_seed is '" + field(row, "environment_seed") + "'; the plan gives '" + seed + "'";
-  return "";
+// The plan of results, which has the images and the version.
+Plan plan_of(const ResultsFolder& folder) {
+  const std::string text = read_input_file("plan", folder.plan(), kMostPlanBytes);
+  Plan plan = parse_plan(text, folder.plan());
+  if (plan.version.empty()) throw InvalidInput(folder.plan() + ": it lacks the key 'version'");
+  for (const PlanGame& game : plan.games)
+    if (game.image_md5.empty())
+      throw InvalidInput(folder.plan() + ": images: the MD5 of the image of " + game.name + " is missing");
+  return plan;
 }
 
 void find_surplus_logs(const ResultsFolder& folder, const std::vector<ResultRow>& rows, Verdict& verdict,
@@ -180,27 +205,23 @@ void find_surplus_logs(const ResultsFolder& folder, const std::vector<ResultRow>
 
 Verdict verify(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
                const Finding& finding) {
-  const Plan plan = parse_plan(read_input_file("plan", folder.plan(), kMostTableBytes), folder.plan());
+  const Plan plan = plan_of(folder);
   const auto rows =
       parse_results("results.csv", read_input_file("results", folder.results(), kMostTableBytes));
-  std::map<std::string, const Unit*> units;
-  const std::vector<Unit> all = units_of(plan);
-  for (const Unit& unit : all) units.emplace(unit.name, &unit);
+  const std::vector<Unit> units = units_of(plan);
+  PlanRows wanted(units, rows);
 
   Verdict verdict;
-  const std::vector<bool> fit = compare_with_plan(plan, rows, verdict, finding);
+  const auto places = compare_with_plan(wanted, rows, verdict, finding);
   std::vector<RowVerdict> verdicts(rows.size());
-  const Verifier verifier(folder, images, cpu);
+  const Verifier verifier(plan, folder, images, cpu);
   ThreadPool(threads).run(rows.size(), [&](std::size_t i) {
-    if (fit[i]) verdicts[i] = verifier.judge(rows[i]);
+    if (places[i]) verdicts[i] = verifier.judge(rows[i], *places[i]);
   });
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!fit[i]) continue;
-    RowVerdict& found = verdicts[i];
+    if (!places[i]) continue;
+    const RowVerdict& found = verdicts[i];
     verdict.frames += found.frames;
-    if (const std::string reason = wrong_seed(rows[i], plan, units);
-        !reason.empty() && found.judgement != Judgement::kWrong)
-      found = {Judgement::kWrong, reason};
     if (found.judgement == Judgement::kConfirmed) {
       ++verdict.confirmed;
       continue;

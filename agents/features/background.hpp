@@ -20,6 +20,8 @@ struct SampleSettings {
   std::uint32_t seed = 1;
   int background_screens = 18000, class_screens = 36000;
   PlaySettings play;
+  // The SHA-256 of the CSV file that the background is from; empty: it is discovered.
+  std::string background_csv = {};
 };
 
 // Calls `look` with so many screens of sample trajectories; `first` says that a new one begins. Each begins

@@ -24,6 +24,12 @@ std::string source_of(const Cartridge& cartridge, const SampleSettings& settings
          " color_averaging=" + std::to_string(settings.play.machine.color_averaging);
 }
 
+std::string source_of_background(const Cartridge& cartridge, const SampleSettings& settings) {
+  if (settings.background_csv.empty()) return source_of(cartridge, settings, settings.background_screens);
+  return "game=" + cartridge.game->name + " image=" + cartridge.image->md5 +
+         " csv=" + settings.background_csv;
+}
+
 // Classes depend on the background, too.
 std::string source_of(const Cartridge& cartridge, const SampleSettings& settings,
                       const Background& background) {
@@ -36,7 +42,7 @@ std::string source_of(const Cartridge& cartridge, const SampleSettings& settings
 // The contents behind the first line, which must be `source`.
 std::string_view behind(std::string_view contents, const std::string& source, const std::string& path) {
   const std::string_view found = contents.substr(0, contents.find('\n'));
-  if (found != source)
+  if (found != source || found.size() == contents.size())
     throw InvalidInput(path + " is of '" + std::string(found) + "'; wanted is '" + source + "'");
   return contents.substr(found.size() + 1);
 }
@@ -45,15 +51,15 @@ std::string_view behind(std::string_view contents, const std::string& source, co
 
 std::string bytes_of(const Background& background, const Cartridge& cartridge,
                      const SampleSettings& settings) {
-  return seal(kBackground, (source_of(cartridge, settings, settings.background_screens) += '\n')
-                               .append(background.begin(), background.end()));
+  return seal(
+      kBackground,
+      (source_of_background(cartridge, settings) += '\n').append(background.begin(), background.end()));
 }
 
 Background background_of(const std::string& path, const Cartridge& cartridge,
                          const SampleSettings& settings) {
   const std::string contents = read_sealed(kBackground, path);
-  const std::string_view pixels =
-      behind(contents, source_of(cartridge, settings, settings.background_screens), path);
+  const std::string_view pixels = behind(contents, source_of_background(cartridge, settings), path);
   Background background;
   if (pixels.size() != background.size() || std::ranges::any_of(pixels, [](char byte) { return byte < 0; }))
     throw InvalidInput(path + " does not hold 160 x 210 colours from 0 to 127");
@@ -78,17 +84,38 @@ const Fact& GameFacts::kept(std::optional<Fact>& fact, const std::string& ending
                             const auto& read, const auto& bytes) const {
   if (fact) return *fact;
   if (folder_.empty()) return fact.emplace(discover());
-  const std::string base = folder_ + '/' + cartridge_.game->name, file = base + ending;
-  const FileLock lock(base + ".lock");
+  const std::string file = path(ending);
+  const FileLock lock(path(".lock"));
   if (std::filesystem::exists(file)) return fact.emplace(read(file));
   fact = discover();
   replace_file(file, bytes(*fact), Durable::kNow);
   return *fact;
 }
 
+std::string GameFacts::path(const std::string& ending) const {
+  return folder_ + '/' + cartridge_.game->name + ending;
+}
+
+Background GameFacts::discovered_background() const {
+  if (settings_.background_csv.empty()) return discover_background(cartridge_, settings_);
+  const std::string& game = cartridge_.game->name;
+  throw InvalidInput(path(".background") + ": there is no such file; racebeam background " + game +
+                     " --csv FILE --into " + folder_ + " makes it from the file with SHA-256 " +
+                     settings_.background_csv);
+}
+
+void GameFacts::check() {
+  if (std::filesystem::exists(path(".background"))) {
+    background();
+    if (std::filesystem::exists(path(".classes"))) classes();
+  } else if (!settings_.background_csv.empty()) {
+    discovered_background();
+  }
+}
+
 const Background& GameFacts::background() {
   return kept(
-      background_, ".background", [&] { return discover_background(cartridge_, settings_); },
+      background_, ".background", [&] { return discovered_background(); },
       [&](const std::string& file) { return background_of(file, cartridge_, settings_); },
       [&](const Background& background) { return bytes_of(background, cartridge_, settings_); });
 }

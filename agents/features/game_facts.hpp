@@ -15,14 +15,20 @@ class GameFacts {
   GameFacts(const Cartridge& cartridge, const SampleSettings& settings, std::string folder)
       : cartridge_(cartridge), settings_(settings), folder_(std::move(folder)) {}
 
-  // Throws InvalidInput for a file of another game, image, seed, size or version.
+  // Throws InvalidInput for a file of another game, image, seed, source, size or version, and if the file of
+  // a background from a CSV file is missing.
   const Background& background();
   const ObjectClasses& classes();
+
+  // Reads the files that are there, and throws as the above. The background of a CSV file must be there.
+  void check();
 
  private:
   template <typename Fact>
   const Fact& kept(std::optional<Fact>& fact, const std::string& ending, const auto& discover,
                    const auto& read, const auto& bytes) const;
+  std::string path(const std::string& ending) const;  // of a file of this game
+  Background discovered_background() const;
 
   const Cartridge cartridge_;
   const SampleSettings settings_;

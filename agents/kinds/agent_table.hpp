@@ -67,7 +67,7 @@ struct AgentKind {
   std::optional<int> frame_skip;  // frames of a decision; none: the plan's
   std::span<const AgentSetting> settings;
   double decisions_per_second;  // of processor time, measured: the mean of the five training games
-  double megabytes;             // of memory, measured
+  double megabytes;  // the most memory that a trial takes, a checkpoint being written included; measured
   std::unique_ptr<Agent> (*make)(const AgentContext& context);
 };
 

@@ -23,12 +23,12 @@ class TreePlanner final : public Agent {
   void end(double) override {}
   std::int64_t searched_frames() const override { return model_.frames(); }
   void write(StateWriter& out) const override {
-    out.put(search_.random());
-    out.put(search_.scaler());
+    search_.write(out);
+    model_.write(out);
   }
   void read(StateReader& in) override {
-    in.get(search_.random());
-    in.get(search_.scaler());
+    search_.read(in);
+    model_.read(in);
   }
 
  private:
@@ -54,12 +54,12 @@ class UctPlanner final : public Agent {
   void end(double) override { uct_.forget(); }
   std::int64_t searched_frames() const override { return model_.frames(); }
   void write(StateWriter& out) const override {
-    out.put(uct_.random());
-    out.put(uct_.scaler());
+    uct_.write(out);
+    model_.write(out);
   }
   void read(StateReader& in) override {
-    in.get(uct_.random());
-    in.get(uct_.scaler());
+    uct_.read(in);
+    model_.read(in);
   }
 
  private:

@@ -54,4 +54,15 @@ bool MachineModel::equal(const State& a, const State& b) const {
   return same_state(Parts(a, sticky_).parts(), Parts(b, sticky_).parts());
 }
 
+void MachineModel::write(StateWriter& out) const {
+  if (sticky_) out.put(machine_.save(true)->random.value());
+}
+
+void MachineModel::read(StateReader& in) {
+  if (!sticky_) return;
+  Environment::Saved state(*machine_.save());
+  in.get(state.random.emplace());
+  machine_.restore(state);
+}
+
 }  // namespace racebeam

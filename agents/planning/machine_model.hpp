@@ -2,6 +2,7 @@
 // played is never seen, and with sticky actions the model draws its own chances.
 #pragma once
 
+#include "agents/base/state_bytes.hpp"
 #include "agents/planning/model.hpp"
 #include "environment/environment.hpp"
 #include "games/catalogue.hpp"
@@ -26,6 +27,10 @@ class MachineModel final : public Model {
   bool equal(const State& a, const State& b) const override;
   std::span<const std::uint8_t> features() const override { return machine_.ram(); }
   std::int64_t frames() const override { return frames_; }
+
+  // What goes on from search to search, for checkpoints: with sticky actions, the generator.
+  void write(StateWriter& out) const;
+  void read(StateReader& in);
 
  private:
   const bool sticky_;

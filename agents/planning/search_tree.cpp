@@ -1,5 +1,6 @@
 #include "agents/planning/search_tree.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -38,6 +39,21 @@ int TreeSearch::choose(const Model::State& root) {
   return nodes_[0].chosen == 0 ? order_[0] : nodes_[nodes_[0].chosen].action;
 }
 
+void TreeSearch::write(StateWriter& out) const {
+  out.put(random_);
+  out.put(scaled_);
+  out.put(order_);
+}
+
+void TreeSearch::read(StateReader& in) {
+  in.get(random_);
+  in.get(scaled_);
+  std::vector<int> order;
+  in.get(order);
+  if (!std::ranges::is_permutation(order, order_)) throw InvalidInput("its order of actions is none");
+  order_ = order;
+}
+
 double TreeSearch::value(int action) const {
   for (const Node& node : nodes_)
     if (&node != &nodes_[0] && node.parent == 0 && node.action == action)
@@ -59,17 +75,25 @@ void TreeSearch::expand(std::uint32_t parent) {
 void TreeSearch::add_child(std::uint32_t parent, int action, std::size_t first_sibling) {
   Node child{.parent = parent, .action = action};
   child.reward = scaled_(model_.act(action));
-  bool expands = !model_.over() && (!settings_.needs_novelty || is_new());
-  if (expands) {
+  if (!model_.over() && (!settings_.needs_novelty || is_new())) {
     child.state = model_.save();
-    if (settings_.merge_duplicates) child.hash = model_.hash(child.state);
-    for (std::size_t i = first_sibling; settings_.merge_duplicates && expands && i < nodes_.size(); ++i)
-      expands =
-          !(nodes_[i].state && nodes_[i].hash == child.hash && model_.equal(nodes_[i].state, child.state));
-    if (!expands) child.state = nullptr;
+    if (settings_.merge_duplicates) {
+      child.hash = model_.hash(child.state);
+      child.twin = twin_of(child, first_sibling);
+      if (child.twin != 0) child.state = nullptr;
+    }
   }
+  if (child.state) open_.push_back(static_cast<std::uint32_t>(nodes_.size()));
   nodes_.push_back(std::move(child));
-  if (expands) open_.push_back(static_cast<std::uint32_t>(nodes_.size() - 1));
+}
+
+std::uint32_t TreeSearch::twin_of(const Node& child, std::size_t first_sibling) const {
+  for (std::size_t i = first_sibling; i < nodes_.size(); ++i) {
+    const Node& other = nodes_[i];
+    if (other.state && other.hash == child.hash && model_.equal(other.state, child.state))
+      return static_cast<std::uint32_t>(i);
+  }
+  return 0;
 }
 
 bool TreeSearch::is_new() {
@@ -84,10 +108,11 @@ bool TreeSearch::is_new() {
   return found;
 }
 
-// Children come behind their parents, so that one way back is enough. Of equal children the first one drawn
-// stays.
+// Children come behind their parents and their parents' siblings, so that one way back is enough. Of equal
+// children the first one drawn stays.
 void TreeSearch::back_up() {
   for (std::size_t i = nodes_.size() - 1; i > 0; --i) {
+    if (nodes_[i].twin != 0) nodes_[i].best = nodes_[nodes_[i].twin].best;
     Node& parent = nodes_[nodes_[i].parent];
     const double value = nodes_[i].reward + settings_.discount * nodes_[i].best;
     if (parent.chosen == 0 || value >= parent.best) {

@@ -8,6 +8,7 @@
 
 #include "agents/base/random.hpp"
 #include "agents/base/reward_scale.hpp"
+#include "agents/base/state_bytes.hpp"
 #include "agents/planning/model.hpp"
 
 namespace racebeam {
@@ -31,11 +32,11 @@ class TreeSearch {
   std::size_t nodes() const { return nodes_.size(); }  // of the last search
   double value(int action) const;                      // of the root's child; 0: it has none
   std::int64_t frames() const { return frames_; }      // of the last search
-  // What goes on from search to search, for checkpoints.
-  Random& random() { return random_; }
-  const Random& random() const { return random_; }
-  RewardScaler& scaler() { return scaled_; }
-  const RewardScaler& scaler() const { return scaled_; }
+
+  // What goes on from search to search, for checkpoints. read() throws InvalidInput for what write() cannot
+  // have written.
+  void write(StateWriter& out) const;
+  void read(StateReader& in);
 
  private:
   struct Node {
@@ -46,10 +47,12 @@ class TreeSearch {
     double reward = 0;
     double best = 0;           // over the children: reward + discount * value
     std::uint32_t chosen = 0;  // the child that gives it; 0: no child
+    std::uint32_t twin = 0;    // the sibling in the same state, which is expanded for both; 0: none
   };
 
   void expand(std::uint32_t parent);
   void add_child(std::uint32_t parent, int action, std::size_t first_sibling);
+  std::uint32_t twin_of(const Node& child, std::size_t first_sibling) const;
   bool is_new();  // whether the model's place has a byte that was not seen in this search
   void back_up();
 
@@ -60,7 +63,7 @@ class TreeSearch {
   std::vector<Node> nodes_;         // a parent before its children
   std::deque<std::uint32_t> open_;  // to be expanded
   std::vector<bool> seen_;          // of each byte of the features, each value
-  std::vector<int> order_;          // of the actions at a node
+  std::vector<int> order_;          // of the actions at a node; each draw begins with the one before
   std::int64_t frames_ = 0;
 };
 

@@ -125,6 +125,16 @@ const Uct::Node& Uct::most_visited() {
   });
 }
 
+void Uct::write(StateWriter& out) const {
+  out.put(random_);
+  out.put(scaled_);
+}
+
+void Uct::read(StateReader& in) {
+  in.get(random_);
+  in.get(scaled_);
+}
+
 std::size_t Uct::nodes() const {
   std::size_t count = 0;
   std::vector<const Node*> open;

@@ -9,6 +9,7 @@
 
 #include "agents/base/random.hpp"
 #include "agents/base/reward_scale.hpp"
+#include "agents/base/state_bytes.hpp"
 #include "agents/planning/model.hpp"
 
 namespace racebeam {
@@ -51,11 +52,10 @@ class Uct {
   const Node* root() const { return root_.get(); }  // null: none
   std::size_t nodes() const;                        // of the tree
   std::int64_t frames() const { return frames_; }   // of the last search
+
   // What goes on from search to search, for checkpoints.
-  Random& random() { return random_; }
-  const Random& random() const { return random_; }
-  RewardScaler& scaler() { return scaled_; }
-  const RewardScaler& scaler() const { return scaled_; }
+  void write(StateWriter& out) const;
+  void read(StateReader& in);
 
  private:
   std::unique_ptr<Node> make_node();

@@ -14,7 +14,8 @@ namespace {
 constexpr auto kBackgroundFooter =
     R"(Plays random actions, and finds the most frequent colour of each pixel. Basic and BASS leave it out of the screen.
 Writes to FOLDER:
-  GAME.background      for experiments: they take it from RESULTS/games if seed and number of screens are theirs
+  GAME.background      for experiments: they take it from RESULTS/games if seed and number of screens are theirs.
+                       One from --csv is taken if the plan's [backgrounds] has the SHA-256 of that file
   GAME.csv             the same: 210 lines of 160 colours from 0 to 127
   GAME-background.png  the same as a picture
   GAME-secam.png       a screen in SECAM's eight colours
@@ -23,7 +24,7 @@ Writes to FOLDER:
 Example:
   racebeam background asterix --roms ~/atari --into pictures)";
 
-void write_background_files(const DiscoveryOptions& options) {
+void write_background_files(DiscoveryOptions& options) {
   const Images images = images_of(options.images);
   const Cartridge& cartridge = cartridge_of(images, options);
   const Background background = background_of(cartridge, options);

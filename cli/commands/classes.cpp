@@ -23,7 +23,7 @@ Writes to FOLDER:
 Example:
   racebeam classes freeway --roms ~/atari --into pictures)";
 
-void write_class_files(const DiscoveryOptions& options) {
+void write_class_files(DiscoveryOptions& options) {
   const Images images = images_of(options.images);
   const Cartridge& cartridge = cartridge_of(images, options);
   const Background background = background_of(cartridge, options);

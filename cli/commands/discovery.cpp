@@ -1,9 +1,12 @@
 #include "cli/commands/discovery.hpp"
 
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 
+#include "agents/base/sealed_file.hpp"
 #include "cli/arguments/options.hpp"
+#include "games/similar.hpp"
 #include "recording/atomic_file.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
@@ -39,12 +42,17 @@ void add_screens_option(Subcommand& command, const std::string& name, int& scree
 
 const Cartridge& cartridge_of(const Images& images, const DiscoveryOptions& options) {
   if (const Cartridge* const cartridge = images.find(options.game)) return *cartridge;
+  if (!find_game(options.game))
+    throw InvalidInput("there is no game '" + options.game + "';" + did_you_mean(options.game, game_names()) +
+                       " racebeam games lists them");
   throw InvalidInput("no image is here of '" + options.game + "'; --roms names the folder that holds it");
 }
 
-Background background_of(const Cartridge& cartridge, const DiscoveryOptions& options) {
+Background background_of(const Cartridge& cartridge, DiscoveryOptions& options) {
   if (options.csv.empty()) return discover_background(cartridge, options.samples);
-  return background_of_csv(options.csv, read_input_file("background", options.csv, kMostCsvBytes));
+  const std::string text = read_input_file("background", options.csv, kMostCsvBytes);
+  options.samples.background_csv = sha256_of(text);
+  return background_of_csv(options.csv, text);
 }
 
 std::string write_background(const Background& background, const Cartridge& cartridge,
@@ -52,6 +60,9 @@ std::string write_background(const Background& background, const Cartridge& cart
   std::filesystem::create_directories(options.into);
   const std::string base = options.into + '/' + cartridge.game->name;
   replace_file(base + ".background", bytes_of(background, cartridge, options.samples), Durable::kLater);
+  if (const std::string& digest = options.samples.background_csv; !digest.empty())
+    std::printf("a plan takes this background with [backgrounds] and %s = \"%s\"\n",
+                cartridge.game->name.c_str(), digest.c_str());
   return base;
 }
 

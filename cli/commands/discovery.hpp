@@ -27,8 +27,8 @@ void add_screens_option(Subcommand& command, const std::string& name, int& scree
 // The image of the game. Throws InvalidInput if there is none.
 const Cartridge& cartridge_of(const Images& images, const DiscoveryOptions& options);
 
-// Reads --csv, or discovers the background. Throws InvalidInput.
-Background background_of(const Cartridge& cartridge, const DiscoveryOptions& options);
+// Reads --csv, whose digest the samples then have, or discovers the background. Throws InvalidInput.
+Background background_of(const Cartridge& cartridge, DiscoveryOptions& options);
 
 // Makes the folder and writes GAME.background. Returns FOLDER/GAME, the beginning of the files' paths.
 std::string write_background(const Background& background, const Cartridge& cartridge,

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -40,6 +41,8 @@ std::string footer() {
   return text + kExperimentFooter;
 }
 
+constexpr std::chrono::seconds kReports{1};  // between two changes of the line on a terminal
+
 struct ExperimentOptions {
   std::string plan, into, shard;
   bool dry_run = false;
@@ -71,12 +74,42 @@ std::string hours(double seconds) {
 }
 
 // On a terminal one line that changes, elsewhere a line a unit.
-void report(const Progress& at) {
-  const bool terminal = ::isatty(STDOUT_FILENO) == 1;
-  std::printf("%s%zu/%zu %s: %d episodes, mean score %.1f%s", terminal ? "\r\033[K" : "", at.finished, at.all,
-              at.unit.c_str(), at.episodes, at.mean_score, terminal ? "" : "\n");
-  if (terminal) std::printf(", %s left%s", hours(at.left.count()).c_str(), at.finished == at.all ? "\n" : "");
-  std::fflush(stdout);
+class ProgressLine {
+ public:
+  ProgressLine() = default;
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ~ProgressLine() {
+    if (is_open_) std::printf("\n");
+  }
+
+  bool changes() const { return terminal_; }
+
+  void report(const Progress& at) {
+    std::printf("%s%zu/%zu %s: %d episodes", terminal_ ? "\r\033[K" : "", at.finished, at.all,
+                at.unit.c_str(), at.episodes);
+    if (at.unit_finished)
+      std::printf(", mean score %.1f", at.mean_score);
+    else
+      std::printf(" and %lld decisions", static_cast<long long>(at.decisions));
+    if (terminal_)
+      std::printf(", %s left", hours(at.left.count()).c_str());
+    else
+      std::printf("\n");
+    is_open_ = terminal_;
+    std::fflush(stdout);
+  }
+
+ private:
+  const bool terminal_ = ::isatty(STDOUT_FILENO) == 1;
+  bool is_open_ = false;  // the line has not ended
+};
+
+void print_units(const Plan& plan, Shard shard) {
+  const std::vector<Unit> units = units_of(plan);
+  for (std::size_t i = shard.number - 1; i < units.size(); i += shard.count)
+    std::printf("unit %s  %.2f core-hours\n", units[i].name.c_str(),
+                seconds_of_trial(plan, *units[i].agent) / 3600);
 }
 
 void print_cost(const Plan& plan, const Images& images) {
@@ -86,8 +119,11 @@ void print_cost(const Plan& plan, const Images& images) {
                 agent.decisions, agent.core_hours);
   std::printf("%-12s %6zu units  %14.0f decisions  %10.1f core-hours\n", "all", cost.units, cost.decisions,
               cost.core_hours);
-  std::printf("memory: at most %.0f MB a thread; disk: about %.0f MB; verification: %.1f core-hours\n",
-              cost.megabytes, cost.disk_megabytes, cost.verification_core_hours);
+  std::printf("core-hours are the most: each episode is taken to last %d frames, as long as it may\n",
+              plan.play.machine.max_episode_frames);
+  std::printf(
+      "memory: about %.0f MB, and %.0f MB a thread; disk: about %.0f MB; verification: %.1f core-hours\n",
+      kProgramMegabytes, cost.megabytes, cost.disk_megabytes, cost.verification_core_hours);
   for (const std::string& game : games_without_image(plan, images))
     std::printf("missing image: %s\n", game.c_str());
 }
@@ -95,18 +131,24 @@ void print_cost(const Plan& plan, const Images& images) {
 void run(const ExperimentOptions& options) {
   Plan plan = load_plan(options.plan);
   const Images images = images_of(options.images);
-  if (options.dry_run) return print_cost(plan, images);
+  const Shard shard = shard_of(options.shard).value_or(Shard{1, 1});
+  if (options.dry_run) {
+    print_units(plan, shard);
+    return print_cost(plan, images);
+  }
   if (options.into.empty()) throw UsageError("--into is required");
   ExperimentSettings settings;
   settings.threads = threads_of(options.images);
   settings.checkpoints = std::chrono::seconds(options.checkpoint_seconds);
   settings.cpu = options.images.cpu;
-  if (const auto shard = shard_of(options.shard)) {
-    settings.shard = shard->number;
-    settings.shards = shard->count;
-  }
+  settings.shard = shard.number;
+  settings.shards = shard.count;
   bind(plan, images, RACEBEAM_VERSION);
-  run_experiment(plan, images, ResultsFolder(options.into), settings, report);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer
+  ProgressLine line;
+  if (line.changes()) settings.reports = kReports;
+  run_experiment(plan, images, ResultsFolder(options.into), settings,
+                 [&](const Progress& at) { line.report(at); });
 }
 
 }  // namespace

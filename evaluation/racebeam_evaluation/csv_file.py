@@ -17,9 +17,15 @@ class Kind(enum.Enum):
     """What the cells of a column hold. The value completes the sentence "expected ..."."""
 
     TEXT = "text"
-    WHOLE = "a whole number of at least 0"
-    DECIMAL = "a decimal number"
-    OPTIONAL = "a decimal number, or nothing"
+    NAME = "a name"
+    WHOLE = "a whole number from 0 to 2147483647"
+    DECIMAL = "a decimal number from -1e15 to 1e15"
+    OPTIONAL = "a decimal number from -1e15 to 1e15, or nothing"
+
+
+_TEXTS = (Kind.TEXT, Kind.NAME)
+_MOST_WHOLE = 2**31 - 1
+_MOST_DECIMAL = 1e15  # sums of squares are finite
 
 
 @dataclasses.dataclass(frozen=True)
@@ -33,18 +39,20 @@ class Source:
 def read(path: pathlib.Path, columns: dict[str, Kind]) -> tuple[pd.DataFrame, Source]:
     """Returns the columns of the file at `path` that `columns` names, and the digest of the file.
 
-    Cells of the kind TEXT become categories, WHOLE int64, the others float64; nothing is NaN.
+    Cells of the kinds TEXT and NAME become categories, WHOLE int64, the others float64; nothing is NaN.
     The row of index i is on line i + 2. Other columns are ignored. Raises BadInput, which names the file, and the line where there is one."""
     try:
         content = path.read_bytes()
     except OSError as error:
         raise BadInput(f"{path} cannot be read: {error.strerror}; expected a CSV file") from error
     _check_shape(path, content, columns)
-    types = {name: "category" if kind is Kind.TEXT else "str" for name, kind in columns.items()}
+    types = {name: "category" if kind in _TEXTS else "str" for name, kind in columns.items()}
     frame = pd.read_csv(io.BytesIO(content), usecols=list(columns), dtype=types, keep_default_na=False,
                         quoting=csv.QUOTE_NONE)
     for name, kind in columns.items():
-        if kind is not Kind.TEXT:
+        if kind is Kind.NAME:
+            _refuse(path, frame[name], frame[name].str.strip() == "", kind)
+        if kind not in _TEXTS:
             frame[name] = _numbers(path, frame[name], kind)
     return frame, Source(path.name, hashlib.sha256(content).hexdigest())
 
@@ -80,8 +88,15 @@ def _numbers(path: pathlib.Path, cells: pd.Series, kind: Kind) -> pd.Series:
     if kind is Kind.OPTIONAL:
         wrong &= cells != ""
     if kind is Kind.WHOLE:
-        wrong |= (values < 0) | (values % 1 != 0)
+        wrong |= (values < 0) | (values > _MOST_WHOLE) | (values % 1 != 0)
+    else:
+        wrong |= values.abs() > _MOST_DECIMAL
+    _refuse(path, cells, wrong, kind)
+    return values.astype(np.int64) if kind is Kind.WHOLE else values
+
+
+def _refuse(path: pathlib.Path, cells: pd.Series, wrong: pd.Series, kind: Kind) -> None:
+    """Raises BadInput for the first cell that is wrong, if one is."""
     if wrong.any():
         row = int(np.flatnonzero(wrong)[0])
         raise BadInput(f"{path}, line {row + 2}: {cells.name} is '{cells[row]}'; expected {kind.value}")
-    return values.astype(np.int64) if kind is Kind.WHOLE else values

@@ -24,7 +24,7 @@ def evaluate(results: Results, _: Bootstrap) -> Report:
     if results.curves is None:
         raise BadInput("the report machado2018 is of training episodes, and no RESULTS have curves.csv; expected one or more")
     sources = results.curve_sources
-    report = Report("Evaluation as in Machado et al. 2018", [], sources)
+    report = Report("Evaluation as in Machado et al. 2018", list(results.notes), sources)
     report.add_table(Table("machado2018", f"Mean score of the last {_LAST} training episodes at four numbers of frames, and its "
                            "standard deviation over trials.", checkpoints(results.curves), sources,
                            (f"n/a: fewer frames, or fewer than {_LAST} episodes; a deviation needs two trials.",), digits=1))

@@ -1,4 +1,5 @@
-"""What `racebeam experiment` leaves in its folder: evaluation episodes in results.csv, training episodes in curves.csv."""
+"""What `racebeam experiment` leaves in its folder: evaluation episodes in results.csv, training episodes in curves.csv, and
+the settings of both in plan.toml."""
 
 import dataclasses
 import pathlib
@@ -10,11 +11,16 @@ from .errors import BadInput
 
 DIVERGED = "diverged"  # the end of a trial whose weights are not finite; its row has no score
 
-_RESULTS = {"game": Kind.TEXT, "image_md5": Kind.TEXT, "agent": Kind.TEXT, "trial": Kind.WHOLE, "episode": Kind.WHOLE,
+_RESULTS = {"game": Kind.NAME, "image_md5": Kind.TEXT, "agent": Kind.NAME, "trial": Kind.WHOLE, "episode": Kind.WHOLE,
             "score": Kind.OPTIONAL, "end": Kind.TEXT}
-_CURVES = {"game": Kind.TEXT, "agent": Kind.TEXT, "trial": Kind.WHOLE, "episode": Kind.WHOLE, "score": Kind.DECIMAL,
+_CURVES = {"game": Kind.NAME, "agent": Kind.NAME, "trial": Kind.WHOLE, "episode": Kind.WHOLE, "score": Kind.DECIMAL,
            "frames": Kind.WHOLE}
 _KEY = ["game", "agent", "trial", "episode"]
+
+_OWN = {"name", "seed", "games", "agents", "trials"}  # keys in which the plans of one report may differ
+_OWN_TABLES = {"images"}                              # images are compared in results.csv
+
+_Settings = dict[str, str]  # by KEY or TABLE.KEY, as the plan has it
 
 
 @dataclasses.dataclass(frozen=True)
@@ -25,6 +31,7 @@ class Results:
     curves: pd.DataFrame | None  # a row for each training episode; the columns of _CURVES
     sources: tuple[Source, ...]  # of episodes
     curve_sources: tuple[Source, ...]
+    notes: tuple[str, ...] = ()  # sentences on what the folders' plans say differently
 
 
 def read_results(folders: list[pathlib.Path]) -> Results:
@@ -37,7 +44,7 @@ def read_results(folders: list[pathlib.Path]) -> Results:
     curves = _joined([frame for frame, _ in found]) if found else None
     if curves is not None:
         _check_once(curves, "training")
-    return Results(together, curves, sources, tuple(source for _, source in found))
+    return Results(together, curves, sources, tuple(source for _, source in found), _differences(folders))
 
 
 def _episodes(path: pathlib.Path) -> tuple[pd.DataFrame, Source]:
@@ -67,3 +74,33 @@ def _check_images(episodes: pd.DataFrame) -> None:
         different = sorted(set(images))
         if len(different) > 1:
             raise BadInput(f"{game} has the images {' and '.join(different)}; expected one image of each game")
+
+
+def _differences(folders: list[pathlib.Path]) -> tuple[str, ...]:
+    """A sentence for each setting that two plans have with different values. A folder without plan.toml is left out.
+
+    A key that only one plan has is no difference: the other has no such agent."""
+    seen: dict[str, tuple[str, str]] = {}
+    sentences: dict[str, str] = {}
+    for folder in folders:
+        path = folder / "plan.toml"
+        for key, value in (_settings(path) if path.is_file() else {}).items():
+            first, other = seen.setdefault(key, (value, folder.name))
+            if first != value:
+                sentences.setdefault(key, f"The plans differ: {key} is {first} in {other}, and {value} in {folder.name}; "
+                                          "scores are of both.")
+    return tuple(sentences.values())
+
+
+def _settings(path: pathlib.Path) -> _Settings:
+    """Of a plan as racebeam writes it: a table's head, or a key and its value, on each line."""
+    settings: _Settings = {}
+    table = ""
+    for line in path.read_text(errors="replace").splitlines():
+        if line.startswith("[") and line.endswith("]"):
+            table = line[1:-1]
+            continue
+        key, equals, value = line.partition(" = ")
+        if equals and key not in _OWN and table not in _OWN_TABLES:
+            settings[f"{table}.{key}" if table else key] = value
+    return settings

@@ -14,6 +14,7 @@ from .results import DIVERGED, Results
 BASELINES = 37                                   # Random, and one Const and one Perturb policy for each of 18 actions
 BASELINE_VIEWS = ("random", "const", "perturb")  # const and perturb: the best of 18 in each game
 _BASELINE = re.compile("random|(const|perturb)[-_].+")  # such as const_noop
+# In the order of tables. A planner must be here; other agents that are not here are learners, after those that are.
 _LEARNERS = ("basic", "bass", "disco", "lsh", "ram", "blob_prost")
 _PLANNERS = ("full_tree", "uct", "iw1")
 
@@ -74,9 +75,9 @@ def scores_of(results: Results) -> Scores:
     means = trials.groupby(["game", "agent"]).mean().unstack("agent")
     means = means.reindex(index=in_order(list(set(results.episodes["game"]))))
     references = means[[name for name in means if _view_of(name)]]
-    notes = [f"Trial {row.trial} of {row.agent} on {row.game} diverged, and is in no mean." for row in lost.itertuples()]
+    lost_trials = [f"Trial {row.trial} of {row.agent} on {row.game} diverged, and is in no mean." for row in lost.itertuples()]
     return Scores(means=means[_agents_in_order(means)], trials=_by_agent_and_game(trials), references=references,
-                  views=_views(references), notes=tuple(notes))
+                  views=_views(references), notes=(*results.notes, *lost_trials))
 
 
 def _by_agent_and_game(trials: pd.Series) -> Trials:

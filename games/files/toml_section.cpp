@@ -1,7 +1,6 @@
 #include "games/files/toml_section.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "system/invalid_input.hpp"
 
@@ -73,11 +72,13 @@ std::optional<std::string> Section::text(std::string_view key) const {
 
 std::optional<bool> Section::flag(std::string_view key) const { return value<bool>(key, "true or false"); }
 
-std::optional<int> Section::number(std::string_view key) const {
+std::optional<int> Section::number(std::string_view key, int least, int most) const {
   const std::optional<std::int64_t> number = value<std::int64_t>(key, "a whole number");
   if (!number) return std::nullopt;
-  if (*number < std::numeric_limits<int>::min() || *number > std::numeric_limits<int>::max())
-    refuse(*node(key), key, "must fit into 32 bits");
+  if (*number < least || *number > most)
+    refuse(*node(key), key,
+           std::to_string(*number) + " is out of range; accepted are " + std::to_string(least) + " to " +
+               std::to_string(most));
   return static_cast<int>(*number);
 }
 

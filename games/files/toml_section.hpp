@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,9 +38,10 @@ class Section {
 
   const toml::node* node(std::string_view key) const;  // null if the key is absent
 
-  // Each returns nothing if the key is absent, and refuses another type.
+  // Each returns nothing if the key is absent, and refuses another type, and numbers out of range.
   std::optional<std::string> text(std::string_view key) const;
-  std::optional<int> number(std::string_view key) const;
+  std::optional<int> number(std::string_view key, int least = std::numeric_limits<int>::min(),
+                            int most = std::numeric_limits<int>::max()) const;
   std::optional<bool> flag(std::string_view key) const;
   const toml::array* list(std::string_view key) const;
   const toml::table* table(std::string_view key) const;

@@ -1,8 +1,10 @@
 """racebeam experiment and racebeam verify."""
 
+import hashlib
 import os
 import pathlib
 import random
+import re
 import resource
 import signal
 import subprocess
@@ -11,6 +13,7 @@ import time
 import unittest
 
 from harness import BINARY, PATIENCE, main
+from terminal import Terminal
 
 os.environ.pop("RACEBEAM_ROMS", None)
 
@@ -78,6 +81,13 @@ class Experiment(unittest.TestCase):
         self.assertEqual(self.experiment("parts", "--cpu", "interpreter", env=os.environ | {"RACEBEAM_SIMD": "plain"})[0], 0)
         self.assertEqual(files(self.place / "parts"), files(self.place / "whole"))
 
+    def test_a_terminal_shows_progress_within_a_unit(self):
+        self.plan.write_text('games = ["beamfall"]\nagents = ["uct"]\n[agent.uct]\ntrials = 1\nsimulations = 60\n')
+        terminal = Terminal([BINARY, "experiment", str(self.plan), "--into", str(self.place / "results")])
+        self.addCleanup(terminal.close)
+        terminal.wait_until(lambda: re.match(r"0/1 beamfall-uct-1: 0 episodes and [1-9]\d* decisions, \d+ min left",
+                                             terminal.line(0)), "progress")
+
     def test_altered_results_are_named(self):
         self.experiment("results")
         table = self.place / "results" / "results.csv"
@@ -100,12 +110,18 @@ class Experiment(unittest.TestCase):
         report.write_text("made from results.csv sha256:" + digest.stdout.split()[0])
         status, printed, _ = run("verify", str(self.place / "results"), "--table", str(report))
         self.assertEqual(status, 0, printed)
+        self.assertIn("report.md says that it was made from these results\n", printed)
+        curves = hashlib.sha256((self.place / "results" / "curves.csv").read_bytes()).hexdigest()
+        report.write_text("made from curves.csv sha256:" + curves)
+        status, printed, _ = run("verify", str(self.place / "results"), "--table", str(report))
+        self.assertEqual(status, 0, printed)
+        self.assertIn("report.md says that it was made from the curves.csv of these results\n", printed)
 
     def test_a_disk_that_is_full_loses_nothing_that_is_finished(self):
         self.assertEqual(self.experiment("whole")[0], 0)
 
         def few_bytes():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python ignores it
             resource.setrlimit(resource.RLIMIT_FSIZE, (1200, 1200))
         status, _, errors = self.experiment("parts", preexec_fn=few_bytes)
         self.assertEqual(status, 1)
@@ -130,6 +146,16 @@ class Experiment(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertRegex(errors, "^racebeam: plan .*/none/plan.toml: there is no such file\n$")
 
+    def test_the_evaluation_knows_all_agents(self):
+        self.plan.write_text('games = ["beamfall"]\nagents = ["none"]\n')
+        status, _, errors = self.experiment("results")
+        self.assertEqual(status, 1)
+        agents = re.search(r"there is no agent 'none'; accepted are (.*)\n", errors)[1].split(", ")
+        scores = (ROOT / "evaluation/racebeam_evaluation/scores.py").read_text()
+        known = [name for group in ("BASELINE_VIEWS", "_LEARNERS", "_PLANNERS")
+                 for name in re.findall(r'"(\w+)"', re.search(rf"(?m)^{group} = \((.*?)\)", scores)[1])]
+        self.assertEqual(sorted(agents), sorted(known))
+
     def test_the_results_in_the_tree_are_confirmed(self):
         kept = [plan.parent for plan in sorted((ROOT / "docs/results").glob("*/plan.toml"))]
         self.assertIn(ROOT / "docs/results/own-games", kept)
@@ -144,6 +170,12 @@ class Experiment(unittest.TestCase):
         self.assertEqual(status, 0)
         self.assertIn("missing image: zaxxon\n", printed)
         self.assertRegex(printed, r"(?m)^basic +1650 units +\d+ decisions +[0-9.]+ core-hours$")
+        self.assertIn("core-hours are the most: each episode is taken to last 18000 frames, as long as it may\n", printed)
+        self.assertRegex(printed, r"(?m)^memory: about \d+ MB, and \d+ MB a thread; disk: about \d+ MB; ")
+        units = re.findall(r"(?m)^unit (\S+)  [0-9.]+ core-hours$", printed)
+        self.assertEqual((len(units), units[0], units[-1]), (11385, "asterix-random-1", "zaxxon-uct-10"))
+        _, part, _ = run("experiment", "paper", "--dry-run", "--shard", "3/1000")
+        self.assertEqual(re.findall(r"(?m)^unit (\S+) ", part), units[2::1000])
 
     def test_a_background_is_discovered_drawn_and_read_again(self):
         into = self.place / "pictures"
@@ -155,7 +187,8 @@ class Experiment(unittest.TestCase):
         self.assertEqual([len(line.split(",")) for line in table.splitlines()], [160] * 210)
         again = self.place / "again"
         self.assertEqual(run(*words, str(again), "--csv", str(into / "beamfall.csv"))[0], 0)
-        self.assertEqual((again / "beamfall.background").read_bytes(), (into / "beamfall.background").read_bytes())
+        self.assertEqual((again / "beamfall.csv").read_bytes(), (into / "beamfall.csv").read_bytes())
+        self.assertNotEqual((again / "beamfall.background").read_bytes(), (into / "beamfall.background").read_bytes())
         (into / "beamfall.csv").write_text(table + "1\n")
         status, _, errors = run(*words, str(self.place / "bad"), "--csv", str(into / "beamfall.csv"))
         self.assertEqual(status, 1)
@@ -164,6 +197,27 @@ class Experiment(unittest.TestCase):
         status, _, errors = run("background", "asterix", "--into", str(self.place / "bad"))
         self.assertEqual((status, errors), (1, "racebeam: no image is here of 'asterix'; --roms names the folder "
                                                "that holds it\n"))
+        status, _, errors = run("background", "asterik", "--into", str(self.place / "bad"))
+        self.assertEqual((status, errors), (1, "racebeam: there is no game 'asterik'; did you mean asterix? "
+                                               "racebeam games lists them\n"))
+
+    def test_an_experiment_takes_a_background_from_a_csv_file_that_its_plan_names(self):
+        csv = self.place / "beamfall.csv"
+        csv.write_text((",".join(["0"] * 160) + "\n") * 210)
+        digest = hashlib.sha256(csv.read_bytes()).hexdigest()
+        status, printed, errors = run("background", "beamfall", "--csv", str(csv),
+                                      "--into", str(self.place / "results" / "games"))
+        self.assertEqual((status, errors), (0, ""))
+        line = f'beamfall = "{digest}"'
+        self.assertIn(f"a plan takes this background with [backgrounds] and {line}\n", printed)
+        self.plan.write_text(PLAN.replace('"random", "const", "basic", "disco", "lsh", "uct"', '"basic"').partition("[agent")[0])
+        status, _, errors = self.experiment("results")
+        self.assertEqual(status, 1)
+        self.assertRegex(errors, f"beamfall.background is of '.* csv={digest}'; wanted is '.* screens=500 ")
+        self.assertFalse((self.place / "results" / "plan.toml").exists())
+        self.plan.write_text(self.plan.read_text() + f"[backgrounds]\n{line}\n")
+        self.assertEqual(self.experiment("results")[::2], (0, ""))
+        self.assertIn(f"[backgrounds]\n{line}\n", (self.place / "results" / "plan.toml").read_text())
 
     def test_classes_are_discovered_and_drawn_and_an_experiment_takes_them(self):
         games = self.place / "results" / "games"

@@ -44,14 +44,25 @@ class BadInput(unittest.TestCase):
         self.lines(result("pong", "basic", 0, 0, "inf"))
         self.refused("results.csv, line 2: score is 'inf'; expected a decimal number")
 
+    def test_a_score_whose_square_is_not_finite(self):
+        for value in ("1e308", "-1e16"):
+            self.lines(result("pong", "basic", 0, 0, value))
+            self.refused(f"results.csv, line 2: score is '{value}'; expected a decimal number from -1e15 to 1e15, or nothing")
+
+    def test_a_game_or_an_agent_without_a_name(self):
+        self.lines(result("pong", "basic", 0, 0, 1), result("pong", "", 0, 0, 1))
+        self.refused("results.csv, line 3: agent is ''; expected a name")
+        self.lines(result(" ", "basic", 0, 0, 1))
+        self.refused("results.csv, line 2: game is ' '; expected a name")
+
     def test_no_score_of_a_trial_that_did_not_diverge(self):
         self.lines(result("pong", "basic", 0, 0, ""))
         self.refused("results.csv, line 2: score is ''; expected a decimal number, or the end diverged")
 
     def test_a_trial_that_is_no_whole_number(self):
-        for value in ("1.5", "-1", "one"):
+        for value in ("1.5", "-1", "one", "1e300", "2147483648"):
             self.lines(result("pong", "basic", value, 0, 1))
-            self.refused(f"results.csv, line 2: trial is '{value}'; expected a whole number of at least 0")
+            self.refused(f"results.csv, line 2: trial is '{value}'; expected a whole number from 0 to 2147483647")
 
     def test_a_line_of_another_length(self):
         self.lines(result("pong", "basic", 0, 0, 1), "1,2,3")
@@ -74,7 +85,7 @@ class BadInput(unittest.TestCase):
 
     def test_curves_are_as_strict(self):
         self.lines(*results_of(GOOD), curves=[curve("pong", "basic", 0, 0, 1, 100), "u,pong,basic,0,1,1,many,2"])
-        self.refused("curves.csv, line 3: frames is 'many'; expected a whole number of at least 0")
+        self.refused("curves.csv, line 3: frames is 'many'; expected a whole number from 0 to 2147483647")
         self.assertIn("frames", CURVES)
 
     def test_an_episode_twice(self):
@@ -117,6 +128,44 @@ class BadInput(unittest.TestCase):
         self.refused("expected RESULTS, or --paper", folder, "--paper", status=2)
         self.refused("'-1' is not accepted; expected 0 to 4294967295", folder, "--seed=-1", status=2)
         self.refused("'0' is not accepted; expected 1 to 1000000", folder, "--repetitions", "0", status=2)
+
+
+class Plans(unittest.TestCase):
+    """Results of different settings are evaluated together only with a sentence that says so."""
+
+    PLAN = ('name = "{name}"\nenvironment = "sticky={sticky}"\ngames = ["pong"]\n\n[images]\npong = "aa"\n\n'
+            '[agent.{agent}]\ntrials = {trials}\nalpha = {alpha}\n')
+
+    def report(self, *plans):
+        with tempfile.TemporaryDirectory() as root:
+            folders = []
+            for number, plan in enumerate(plans):
+                agent = plan.setdefault("agent", "basic")
+                folders.append(write(pathlib.Path(root) / f"r{number}",
+                                     [result("pong", agent, 10 * number + trial, 0, trial) for trial in (0, 1)],
+                                     [curve("pong", agent, 10 * number, 0, 1, 100)]))
+                defaults = {"name": f"n{number}", "sticky": 0, "trials": 2 + number, "alpha": 0.5}
+                (folders[-1] / "plan.toml").write_text(self.PLAN.format(**defaults | plan))
+            texts = []
+            for kind in ("paper2013", "machado2018", "atari100k"):
+                out = pathlib.Path(root) / kind
+                done = evaluate(*folders, "--into", out, "--report", kind)
+                self.assertIn(done.returncode, (0, 3), done.stderr)
+                texts.append((out / "report.md").read_text())
+            return texts
+
+    def test_the_same_settings(self):
+        for text in self.report({}, {}):
+            self.assertNotIn("The plans differ", text)
+
+    def test_other_settings_of_the_environment_and_of_an_agent(self):
+        for text in self.report({}, {"sticky": 0.25, "alpha": 0.1}):
+            self.assertIn('The plans differ: environment is "sticky=0" in r0, and "sticky=0.25" in r1; scores are of both.', text)
+            self.assertIn("The plans differ: agent.basic.alpha is 0.5 in r0, and 0.1 in r1; scores are of both.", text)
+
+    def test_settings_of_agents_that_only_one_has(self):
+        for text in self.report({}, {"agent": "bass", "alpha": 0.1}):
+            self.assertNotIn("The plans differ", text)
 
 
 class Untested(unittest.TestCase):

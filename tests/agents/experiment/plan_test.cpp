@@ -62,13 +62,26 @@ TEST_CASE("Mistakes in a plan are named with their line") {
         "test.toml:3: preset: 'dqn' is not known; accepted are paper2013, machado2018, atari100k");
   check("environment = \"frame_skip=0\"\n", "test.toml:3: environment: frame_skip is '0'");
   check("environment = \"speed=9\"\n", "test.toml:3: environment: there is no setting 'speed'");
-  check("environment = \"max_episode_frames=0\"\n", "test.toml:1: environment: max_episode_frames is 0");
+  check("environment = \"max_episode_frames=0\"\n", "test.toml:3: environment: max_episode_frames is 0");
+  check("environment = \"noop_max=30\"\n", "test.toml:3: environment: an episode is played with noop_max=0");
+  check("environment = \"autoreset=1\"\n", "test.toml:3: environment: an episode is played with noop_max=0");
+  check("environment = \"action_set=minimal\"\n", "test.toml:3: environment: an episode is played with");
+  check("environment = \"seed=7\"\n",
+        "test.toml:3: environment: seed is not accepted here; all seeds follow from the plan's key 'seed'");
+  check("seed = 4294967295\n", "test.toml:3: seed: 4294967295 is out of range; accepted are 0 to 2147483647");
+  check("[backgrounds]\nbeamfall = \"12\"\n",
+        "test.toml:4: backgrounds.beamfall: '12' is no SHA-256; it takes 64");
+  check("[backgrounds]\npong = \"12\"\n",
+        "test.toml:4: backgrounds.pong: unknown key; accepted are beamfall");
   check("[agent.basic]\nepsilon = 1.5\n",
         "test.toml:4: agent.basic.epsilon: 1.5 is not accepted; it takes a number from 0 to 1");
   check("[agent.basic]\nalpha = 0\n",
         "test.toml:4: agent.basic.alpha: 0 is not accepted; it takes a number from 1e-09");
   check("[agent.basic]\nalpha = nan\n", "test.toml:4: agent.basic.alpha: ");
-  check("[agent.basic]\nalpha = \"much\"\n", "test.toml:4: agent.basic.alpha: this is not accepted");
+  check("[agent.basic]\nalpha = \"much\"\n",
+        "test.toml:4: agent.basic.alpha: 'much' is not accepted; it takes a number from 1e-09 to 100");
+  check("[agent.basic]\nalpha = true\n",
+        "test.toml:4: agent.basic.alpha: true is not accepted; it takes a number from 1e-09 to 100");
   check("[agent.basic]\nframe_skip = 0\n", "test.toml:4: agent.basic.frame_skip: 0 is out of range");
   check("[agent.basic]\ngrid_width = 17\n",
         "test.toml:4: agent.basic.grid_width: 17 does not divide the screen's 160 pixels");
@@ -95,6 +108,15 @@ TEST_CASE("All games without an image are named at once") {
   Plan plan = parse_plan("games = [\"asterix\", \"beamfall\", \"pong\"]\nagents = [\"random\"]\n", "");
   CHECK_THROWS_WITH(bind(plan, Images(), "0.1.0"),
                     "no image is here of: asterix, pong; --roms names the folder that holds them");
+}
+
+TEST_CASE("A mode or a difficulty that a game lacks is refused with its line") {
+  for (const std::string word : {"mode", "difficulty"}) {
+    Plan plan = parse_plan(kStart + ("environment = \"" + word + "=77\"\n"), "test.toml");
+    CHECK_THROWS_WITH(bind(plan, Images(), "0.1.0"),
+                      Catch::StartsWith("test.toml:3: environment: beamfall: ") && Catch::Contains(word) &&
+                          Catch::Contains("77"));
+  }
 }
 
 TEST_CASE("A plan of another image or version is refused") {

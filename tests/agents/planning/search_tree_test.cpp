@@ -102,3 +102,39 @@ TEST_CASE("IW(1) expands places with a new byte only, and finds what is far away
   wide.choose(ToyModel::place(0));
   CHECK(wide.value(1) == 0);  // the same frames do not reach it
 }
+
+TEST_CASE("A checkpoint without the order of actions is refused") {
+  ToyModel model(2, trap);
+  TreeSearch search(model, settings(1, 2), 1);
+  StateWriter old;
+  old.put(Random(1));
+  old.put(RewardScaler(RewardScale::kNone));
+  StateReader in(old.bytes());
+  CHECK_THROWS_WITH(search.read(in), "it ends too early");
+  old.put(std::vector<int>{0, 5});
+  StateReader wrong(old.bytes());
+  CHECK_THROWS_WITH(search.read(wrong), "its order of actions is none");
+}
+
+TEST_CASE("Values are the same with and without merging, in a world of penalties too") {
+  // 6 actions with 3 effects. Each step costs 1 to 3, so that what is not looked at would seem best.
+  ToyModel model(6, [](int place, int action) -> Arrow {
+    return {3 * place + action % 3 + 1, -1.0 - (place + action % 3) % 3};
+  });
+  for (const int levels : {1, 2, 3}) {
+    int plain_expansions = 0, merged_expansions = 0;
+    for (int i = 0, wide = 1, narrow = 1; i < levels; ++i, wide *= 6, narrow *= 3) {
+      plain_expansions += wide;
+      merged_expansions += narrow;
+    }
+    TreeSettings merging = settings(merged_expansions, 6);
+    merging.merge_duplicates = true;
+    TreeSearch plain(model, settings(plain_expansions, 6), 1), merged(model, merging, 2);
+    plain.choose(ToyModel::place(0));
+    merged.choose(ToyModel::place(0));
+    for (int action = 0; action < 6; ++action) {
+      INFO(levels << " levels, action " << action);
+      CHECK(merged.value(action) == plain.value(action));
+    }
+  }
+}

@@ -1,0 +1,54 @@
+#include "agents/experiment/plan_rows.hpp"
+
+#include "protocol/line/words.hpp"
+
+namespace racebeam {
+
+std::size_t PlanRows::Own::rows() const {
+  return diverged ? 1 : static_cast<std::size_t>(unit->agent->length.evaluation_episodes);
+}
+
+PlanRows::PlanRows(const std::vector<Unit>& units, const std::vector<ResultRow>& rows) {
+  own_.reserve(units.size());
+  for (const Unit& unit : units) {
+    by_name_.emplace(unit.name, own_.size());
+    own_.push_back({.unit = &unit});
+  }
+  for (const ResultRow& row : rows) {
+    const auto found = by_name_.find(row[0]);
+    if (found == by_name_.end() || field(row, "end") != "diverged") continue;
+    Own& own = own_[found->second];
+    own.diverged = own.unit->agent->kind->role == Role::kLearner;
+  }
+  std::size_t count = 0;
+  for (Own& own : own_) {
+    own.first = count;
+    count += own.rows();
+  }
+  marked_.resize(count);
+}
+
+std::optional<PlanRows::Place> PlanRows::find(const ResultRow& row) const {
+  const auto found = by_name_.find(row[0]);
+  const std::string& text = field(row, "episode");
+  const auto episode = parse_number<int>(text);
+  if (found == by_name_.end() || !episode || std::to_string(*episode) != text) return std::nullopt;
+  const Own& own = own_[found->second];
+  const int first = own.diverged ? 0 : 1;
+  if (*episode < first || static_cast<std::size_t>(*episode - first) >= own.rows()) return std::nullopt;
+  return Place{own.unit, *episode, own.first + static_cast<std::size_t>(*episode - first)};
+}
+
+bool PlanRows::mark(const Place& place) {
+  if (marked_[place.index]) return false;
+  marked_[place.index] = true;
+  return true;
+}
+
+void PlanRows::each_unmarked(const std::function<void(const Unit& unit, int episode)>& visit) const {
+  for (const Own& own : own_)
+    for (std::size_t i = 0; i < own.rows(); ++i)
+      if (!marked_[own.first + i]) visit(*own.unit, static_cast<int>(i) + (own.diverged ? 0 : 1));
+}
+
+}  // namespace racebeam

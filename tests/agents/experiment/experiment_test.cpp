@@ -1,0 +1,207 @@
+#include "agents/experiment/experiment.hpp"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <optional>
+
+#include "agents/base/file_lock.hpp"
+#include "agents/experiment/cost.hpp"
+#include "agents/experiment/trial.hpp"
+#include "agents/features/game_facts.hpp"
+#include "system/invalid_input.hpp"
+#include "tests/agents/experiment/verified.hpp"
+
+using namespace racebeam;
+using namespace racebeam::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The contents of all files but the times, by their paths.
+std::map<std::string, std::string> files_of(const ResultsFolder& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder.root())) {
+    const std::string path = fs::relative(entry.path(), folder.root()).string();
+    if (!entry.is_directory() && path.find("times") == std::string::npos)
+      files[path] = contents(entry.path().string());
+  }
+  return files;
+}
+
+// Their searches draw numbers, from one episode to the next.
+constexpr auto kPlanners = R"(games = ["beamfall"]
+agents = ["uct", "full_tree", "iw1"]
+[agent.uct]
+trials = 1
+evaluation_episodes = 4
+simulations = 40
+[agent.full_tree]
+trials = 1
+evaluation_episodes = 4
+frames = 600
+[agent.iw1]
+trials = 1
+evaluation_episodes = 4
+frames = 600
+)";
+
+}  // namespace
+
+TEST_CASE(
+    "Results are the same on one thread and two, by either processor, in shards and after interruptions") {
+  const Scratch place;
+  const Plan plan = bound_plan(kPlan);
+  const ResultsFolder whole(place.path("whole")), parts(place.path("parts"));
+  run(plan, whole);
+  run(plan, parts, {.threads = 2, .shard = 2, .shards = 3, .cpu = CpuKind::kInterpreter});
+  run(plan, parts, {.threads = 1, .shard = 1, .shards = 3});
+  CHECK(contents(parts.results()).size() < contents(whole.results()).size());
+  run(plan, parts, {.threads = 2});
+  CHECK(files_of(whole) == files_of(parts));
+  CHECK(!fs::exists(parts.work()));
+}
+
+TEST_CASE("A trial goes on from its checkpoint as if nothing had happened") {
+  const Scratch place;
+  const Plan plan = bound_plan(GENERATE(
+      std::string(kPlan), "environment = \"max_episode_frames=200 sticky=0.25\"\n" + std::string(kPlanners),
+      "environment = \"max_episode_frames=200\"\n" + std::string(kPlanners)));
+  const ResultsFolder whole(place.path("whole")), parts(place.path("parts"));
+  run(plan, whole);
+  const std::vector<Unit> units = units_of(plan);
+  const Images images;
+  for (const std::string& path : {parts.units(), parts.logs(), parts.facts(), parts.work()})
+    fs::create_directories(path);
+  for (const Unit& unit : units) {
+    const Cartridge& cartridge = *images.find("beamfall");
+    for (bool finished = false; !finished;) {
+      GameFacts facts(cartridge, {plan.seed, plan.background_screens, plan.class_screens, plan.play},
+                      parts.facts());
+      Trial trial(plan, unit, parts, cartridge, &facts, CpuKind::kAuto);
+      finished =
+          trial.run(std::chrono::milliseconds(0), [episodes = 0]() mutable { return episodes++ == 1; });
+    }
+  }
+  run(plan, parts);
+  CHECK(files_of(whole) == files_of(parts));
+}
+
+TEST_CASE("A unit that another process runs is named, and the rest is done") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan = bound_plan(kPlan);
+  fs::create_directories(folder.work());
+  {
+    const FileLock other(folder.lock("beamfall-random-1"));
+    CHECK_THROWS_WITH(run(plan, folder),
+                      Catch::StartsWith("beamfall-random-1 is being run by another process"));
+  }
+  CHECK(parse_results("", contents(folder.results())).size() == 38);
+  run(plan, folder);
+  CHECK(verified(folder).verdict.confirmed == 40);
+}
+
+TEST_CASE("A damaged checkpoint, and a background of another game, are refused") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan = bound_plan(kPlan);
+  fs::create_directories(folder.work());
+  write(folder.checkpoint("beamfall-random-1"), "RBCHECKP");
+  CHECK_THROWS_WITH(run(plan, folder), Catch::StartsWith("checkpoint beamfall-random-1.checkpoint: "));
+  fs::remove(folder.checkpoint("beamfall-random-1"));
+  const Cartridge other{load_image("builtin:updraft"), find_game("updraft")};
+  write(folder.facts() + "/beamfall.background", bytes_of(Background{}, other, {1, 300, 300, plan.play}));
+  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("is of 'game=updraft"));
+}
+
+TEST_CASE("Files of games that do not fit the plan are refused before anything is written") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  Plan plan = bound_plan(kPlan);
+  fs::create_directories(folder.facts());
+  const SampleSettings csv{plan.seed, 300, 300, plan.play, std::string(64, 'a')};
+  write(folder.facts() + "/beamfall.background", bytes_of(Background{}, beamfall(), csv));
+  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("csv=aaaa") && Catch::Contains("wanted is"));
+  CHECK(!fs::exists(folder.plan()));
+  CHECK(!fs::exists(folder.units()));
+
+  plan.games[0].background_csv = std::string(64, 'b');
+  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("wanted is") && Catch::Contains("csv=bbbb"));
+  fs::remove(folder.facts() + "/beamfall.background");
+  CHECK_THROWS_WITH(run(plan, folder), Catch::Contains("beamfall.background: there is no such file; racebeam "
+                                                       "background beamfall --csv FILE --into "));
+  CHECK(!fs::exists(folder.plan()));
+
+  plan.games[0].background_csv = csv.background_csv;
+  write(folder.facts() + "/beamfall.background", bytes_of(Background{}, beamfall(), csv));
+  run(plan, folder);
+  CHECK_THAT(contents(folder.plan()), Catch::Contains("[backgrounds]\nbeamfall = \"" + csv.background_csv));
+  CHECK(verified(folder).verdict.confirmed == 40);
+}
+
+TEST_CASE("What is finished is in the tables, even if a unit fails") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  fs::create_directories(folder.work());
+  write(folder.checkpoint("beamfall-basic-1"), "RBCHECKP");
+  CHECK_THROWS_WITH(run(bound_plan(kPlan), folder), Catch::StartsWith("checkpoint beamfall-basic-1"));
+  CHECK(parse_results("", contents(folder.results())).size() == 38);
+}
+
+TEST_CASE("A folder that cannot be made is named") {
+  const Scratch place;
+  write(place.path("file"), "");
+  CHECK_THROWS_WITH(run(bound_plan(kPlan), ResultsFolder(place.path("file"))),
+                    "cannot make the folder " + place.path("file") + ": Not a directory");
+}
+
+TEST_CASE("A unit that another process finishes meanwhile is no failure") {
+  const Scratch place;
+  const ResultsFolder whole(place.path("whole")), folder(place.path("results"));
+  const Plan plan = bound_plan(kPlan);
+  run(plan, whole);
+  const std::string unit = "beamfall-random-1";
+  fs::create_directories(folder.work());
+  auto lock = std::make_optional<FileLock>(folder.lock(unit));
+  CHECK_NOTHROW(run_experiment(plan, Images(), folder, {}, [&](const Progress& at) {
+    if (at.finished != 1) return;
+    fs::copy(whole.logs(unit), folder.logs(unit));
+    for (const std::string table : {"times", "curves", "results"})
+      fs::copy(whole.unit(unit, table), folder.unit(unit, table));
+    lock.reset();
+  }));
+  CHECK(files_of(whole) == files_of(folder));
+  CHECK(!fs::exists(folder.work()));
+}
+
+TEST_CASE("A unit whose process was killed meanwhile is run by the other") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  fs::create_directories(folder.work());
+  auto lock = std::make_optional<FileLock>(folder.lock("beamfall-random-1"));
+  CHECK_NOTHROW(
+      run_experiment(bound_plan(kPlan), Images(), folder, {}, [&](const Progress&) { lock.reset(); }));
+  CHECK(verified(folder).verdict.confirmed == 40);
+}
+
+TEST_CASE("Progress is reported within a unit, and weighs what is left by its cost") {
+  const Scratch place;
+  std::vector<Progress> reports;
+  const Plan plan = bound_plan(kPlan);
+  run_experiment(plan, Images(), ResultsFolder(place.path("results")),
+                 {.reports = std::chrono::milliseconds(1)},
+                 [&](const Progress& at) { reports.push_back(at); });
+  const auto within = std::ranges::find_if(
+      reports, [](const Progress& at) { return !at.unit_finished && at.unit == "beamfall-basic-1"; });
+  REQUIRE(within != reports.end());
+  CHECK(within->finished == 19);
+  CHECK(within->decisions > 0);
+  const auto last_baseline =
+      std::ranges::find_if(reports, [](const Progress& at) { return at.unit_finished && at.finished == 19; });
+  REQUIRE(last_baseline != reports.end());
+  const auto seconds = [&](std::size_t agent) { return seconds_of_trial(plan, plan.agents[agent]); };
+  CHECK(last_baseline->left / last_baseline->elapsed ==
+        Approx(seconds(2) / (seconds(0) + 18 * seconds(1))));  // Basic's one unit; Random, 18 of Perturb
+  CHECK(reports.back().left.count() == 0);
+}
