@@ -97,7 +97,7 @@ class Files(unittest.TestCase):
                  "reveal_type(racebeam.envpool.make('Pong-v5', env_type='gymnasium'))\n"
                  "reveal_type(racebeam.envpool.make('Pong-v5', 'dm').reset())\n")
         done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(package.VENV.parent / "mypy"), "-c", calls],
-                              capture_output=True, text=True, cwd=FOLDER.parent)
+                              capture_output=True, text=True, cwd=FOLDER.parent.parent)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         told = re.findall('Revealed type is "(.*)"', done.stdout)
         self.assertRegex(told[0], r"tuple\[.*ndarray\[.*signedinteger\[numpy._typing._nbit_base._32Bit\].*bool")
