@@ -1,9 +1,12 @@
 """Sessions for asyncio answer what sessions answer, in order, and end with an error that says why."""
 
 import asyncio
+import os
+import sys
 import unittest
 import unittest.mock
 
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("numpy")

@@ -4,11 +4,13 @@ import contextlib
 import os
 import pathlib
 import signal
+import sys
 import tempfile
 import threading
 import time
 import unittest
 
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")

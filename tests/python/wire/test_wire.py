@@ -11,6 +11,7 @@ import threading
 import time
 import unittest
 
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")

@@ -12,6 +12,7 @@ import time
 import unittest
 import unittest.mock
 
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")

@@ -1,10 +1,12 @@
 """AtariVectorEnv(server=...) plays what AtariVectorEnv plays, and a server that goes away is an exception."""
 
 import os
+import sys
 import threading
 import unittest
 import unittest.mock
 
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
 
 package.require("gymnasium", "numpy")
