@@ -6,6 +6,7 @@
 #include <mutex>
 #include <numeric>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "environment/vector/thread_pool.hpp"
@@ -252,8 +253,11 @@ void Batch::Impl::rethrow_failure() {
   std::rethrow_exception(failure);
 }
 
-Batch::Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings, Watch watch)
-    : impl_(std::make_unique<Impl>(cartridges, settings, watch)) {}
+Batch::Batch(std::span<const Cartridge> cartridges, const BatchSettings& settings, Watch watch) try
+    : impl_(std::make_unique<Impl>(cartridges, settings, watch)) {
+} catch (const std::system_error& error) {  // of the pool
+  throw InvalidInput(std::string(error.what()) + "; ask for fewer");
+}
 
 Batch::~Batch() = default;
 Batch::Batch(Batch&&) noexcept = default;

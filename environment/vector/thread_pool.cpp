@@ -7,7 +7,6 @@
 #include <string>
 #include <system_error>
 
-#include "system/invalid_input.hpp"
 #include "system/resources.hpp"
 
 namespace racebeam {
@@ -69,8 +68,8 @@ ThreadPool::ThreadPool(unsigned threads, std::chrono::microseconds busy_poll, in
     start(count_, first_processor);
   } catch (const std::system_error& error) {
     stop();
-    throw InvalidInput("thread " + std::to_string(threads_.size() + 2) + " of " + std::to_string(count_) +
-                       " could not be started: " + error.code().message() + "; ask for fewer");
+    throw std::system_error(error.code(), "thread " + std::to_string(threads_.size() + 2) + " of " +
+                                              std::to_string(count_) + " could not be started");
   } catch (...) {
     stop();
     throw;

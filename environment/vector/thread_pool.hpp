@@ -32,9 +32,9 @@ class ThreadPool {
   using Task = std::function<void(std::size_t number)>;
 
   // threads: how many, counting the caller of run(); 0: one for each processor that the process may use.
-  // Throws InvalidInput if one of them cannot be started; the others have ended then. busy_poll: how long a
-  // thread polls for the next job before it sleeps. first_processor: the pool's own threads are bound to this
-  // processor and those after it; -1: to none.
+  // Throws std::system_error if one of them cannot be started; the others have ended then. busy_poll: how
+  // long a thread polls for the next job before it sleeps. first_processor: the pool's own threads are bound
+  // to this processor and those after it; -1: to none.
   explicit ThreadPool(unsigned threads, std::chrono::microseconds busy_poll = {}, int first_processor = -1);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
