@@ -115,7 +115,6 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     ) -> None:
         usual = preset_of(preset)
         _check_rules(rules)
-        images.check_name(game)
         check_choice("obs_type", obs_type, tuple(VIEWS))
         check_choice("render_mode", render_mode, RENDER_MODES)
         two_player, continuous = flag("two_player", two_player), flag("continuous", continuous)
@@ -140,6 +139,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         limit = _optional("max_num_frames_per_episode", either(max_num_frames_per_episode, usual.max_num_frames_per_episode))
         life_loss_ends = flag("life_loss_ends", either(life_loss_ends, usual.life_loss_ends))
         is_full = flag("full_action_space", either(full_action_space, usual.full_action_space))
+        images.check_name(game)
         self.ale: Any = _interface(server, token, seconds("timeout", timeout))
         self._set_keys(rules, sticky, limit, life_loss_ends)
         self.seed_game()
