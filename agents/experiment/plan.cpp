@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "agents/experiment/game_sets.hpp"
 #include "agents/experiment/play.hpp"
@@ -219,30 +220,33 @@ class PlanReader {
     for (std::string& name : words("games")) plan_.games.push_back({.name = std::move(name)});
   }
 
-  void read_images() {
-    const toml::table* const images = top_.table("images");
-    if (!images) return;
-    const Section section(source_, *images, "images");
+  // A table whose keys are games of the plan, if there is one.
+  std::optional<Section> section_of_games(std::string_view key) const {
+    const toml::table* const table = top_.table(key);
+    if (!table) return std::nullopt;
+    Section section(source_, *table, std::string(key));
     std::vector<std::string_view> names;
     for (const PlanGame& game : plan_.games) names.push_back(game.name);
     section.allow(names);
-    for (PlanGame& game : plan_.games) game.image_md5 = section.text(game.name).value_or("");
+    return section;
+  }
+
+  void read_images() {
+    const auto section = section_of_games("images");
+    if (!section) return;
+    for (PlanGame& game : plan_.games) game.image_md5 = section->text(game.name).value_or("");
   }
 
   // The SHA-256 of the CSV files that games have their backgrounds from.
   void read_backgrounds() {
-    const toml::table* const backgrounds = top_.table("backgrounds");
-    if (!backgrounds) return;
-    const Section section(source_, *backgrounds, "backgrounds");
-    std::vector<std::string_view> names;
-    for (const PlanGame& game : plan_.games) names.push_back(game.name);
-    section.allow(names);
+    const auto section = section_of_games("backgrounds");
+    if (!section) return;
     for (PlanGame& game : plan_.games) {
-      const auto digest = section.text(game.name);
+      const auto digest = section->text(game.name);
       if (!digest) continue;
       if (digest->size() != 64 || digest->find_first_not_of("0123456789abcdef") != std::string::npos)
-        section.refuse(*section.node(game.name), game.name,
-                       quote(*digest) + " is no SHA-256; it takes 64 digits of 0 to 9 and a to f");
+        section->refuse(*section->node(game.name), game.name,
+                        quote(*digest) + " is no SHA-256; it takes 64 digits of 0 to 9 and a to f");
       game.background_csv = *digest;
     }
   }
