@@ -4,6 +4,7 @@ import contextlib
 import os
 import pathlib
 import pickle
+import socket
 import subprocess
 import sys
 import tempfile
@@ -183,42 +184,36 @@ class Sessions(unittest.TestCase):
             session.reconnect()
 
     def test_a_server_that_is_silent_is_a_TimeoutError(self):
-        import socket
         with socket.create_server(("127.0.0.1", 0)) as silent:
             with self.assertRaises(TimeoutError):
                 racebeam.connect(f"tcp://127.0.0.1:{silent.getsockname()[1]}", timeout=0.2)
 
-    def test_half_a_reply_ends_the_session(self):
-        import socket
+    @contextlib.contextmanager
+    def server_of(self, *replies):
+        """The address of a server that sends these replies, one a request, and then closes."""
+        def answer():
+            connection, _ = listener.accept()
+            for reply in replies:
+                connection.recv(100)
+                connection.sendall(reply)
+            connection.close()
         with socket.create_server(("127.0.0.1", 0)) as listener:
-            def answer():
-                connection, _ = listener.accept()
-                connection.recv(100)
-                connection.sendall(b"ok server=x protocol=1\n")
-                connection.recv(100)
-                connection.sendall(b"ok reward=")
-                connection.close()
             thread = threading.Thread(target=answer)
             thread.start()
-            session = racebeam.connect(f"tcp://127.0.0.1:{listener.getsockname()[1]}")
+            yield f"tcp://127.0.0.1:{listener.getsockname()[1]}"
+            thread.join()
+
+    def test_half_a_reply_ends_the_session(self):
+        with self.server_of(b"ok server=x protocol=1\n", b"ok reward=") as address:
+            session = racebeam.connect(address)
             for _ in range(2):
                 with self.assertRaises(ConnectionError):
                     session.act(1)
-            thread.join()
 
     def test_another_version_of_the_protocol_is_refused(self):
-        import socket
-        with socket.create_server(("127.0.0.1", 0)) as listener:
-            def answer():
-                connection, _ = listener.accept()
-                connection.recv(100)
-                connection.sendall(b"ok server=x protocol=2\n")
-                connection.close()
-            thread = threading.Thread(target=answer)
-            thread.start()
+        with self.server_of(b"ok server=x protocol=2\n") as address:
             with self.assertRaisesRegex(ConnectionError, "speaks version 2"):
-                racebeam.connect(f"tcp://127.0.0.1:{listener.getsockname()[1]}")
-            thread.join()
+                racebeam.connect(address)
 
     def test_a_request_is_one_line(self):
         with racebeam.launch() as session:
