@@ -36,8 +36,6 @@ ImageCode::ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity)
     : rom_(rom), wiring_(wiring), memory_(std::max(capacity, 2 * kBatchCapacity)) {}
 
 View* ImageCode::view(const CodeWindow& window, const Rom& rom, bool make) {
-  const std::less<> before;
-  if (before(window.memory, rom.data()) || !before(window.memory, rom.data() + rom.size())) return nullptr;
   const auto rom_offset = static_cast<std::size_t>(window.memory - rom.data());
   const std::lock_guard lock(mutex_);
   std::unique_ptr<View>& view = views_[{rom_offset, window.first, window.span}];

@@ -47,9 +47,8 @@ class ImageCode {
 
   ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity);
 
-  // The view through this window of a machine's memory. Null if the window shows another memory than `rom`.
-  // Null also if there is no view yet and `make` is false: making one takes as long as some thousand
-  // instructions.
+  // The view through this window of a machine's `rom`. Null if there is no view yet and `make` is false:
+  // making one takes as long as some thousand instructions.
   View* view(const CodeWindow& window, const Rom& rom, bool make);
 
   // Translates code near `pc`, which must be in the view. Returns the block at `pc`, or null if the code

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -20,6 +21,10 @@ namespace {
 constexpr std::int32_t kMargin = 400;
 
 constexpr std::int32_t kFewestCycles = 2;  // of an instruction
+
+// Instructions that the interpreter runs at least where nothing can be translated: mostly short routines in
+// RAM.
+constexpr std::int32_t kOutsideImage = 8;
 
 // Runs of interpreted instructions. Those below kShortRun end exactly. Others end at the next jump or branch,
 // at most kRunSlack instructions later.
@@ -64,6 +69,12 @@ class InterpretedRun {
   std::int32_t length_ = 1;
 };
 
+// Code elsewhere, mostly in RAM, may change, and is not translated.
+bool is_in_image(const CodeWindow& window, const Rom& rom) {
+  const std::less<> before;
+  return !before(window.memory, rom.data()) && before(window.memory, rom.data() + rom.size());
+}
+
 bool same(const CodeWindow& a, const CodeWindow& b) {
   return a.memory == b.memory && a.first == b.first && a.span == b.span;
 }
@@ -107,7 +118,8 @@ struct Translator::Impl {
     translator::View* view = nullptr;
   };
 
-  // Translated code of the instruction at PC. `start` is null if there is none.
+  // Translated code of the instruction at PC. `start` is null if there is none, and so is `profitability`
+  // where none can be made.
   struct Entry {
     const void* start = nullptr;
     translator::Profitability* profitability = nullptr;
@@ -149,6 +161,7 @@ translator::View* Translator::Impl::current_view(Board& board) {
   const std::uintptr_t place = reinterpret_cast<std::uintptr_t>(board.code.memory) / MemoryMap::kPageSize;
   CachedView& cached = views[(place ^ board.code.first / 1024U) % views.size()];
   if (cached.view == nullptr || !same(cached.window, board.code)) {
+    if (!is_in_image(board.code, board.slot.rom)) return nullptr;
     const translator::TranslationBudget::Charge charge(budget);
     cached = {board.code, code->view(board.code, board.slot.rom, budget.covers_batch())};
   }
@@ -164,7 +177,7 @@ Translator::Impl::Entry Translator::Impl::find_entry(Board& board) {
   translator::Profitability* const profitability =
       &view->profitability[static_cast<std::uint16_t>(pc - view->code.first)];
   if (const void* known = view->entry(pc)) return {known, profitability};
-  if (code->is_full() || !budget.covers_batch()) return {};
+  if (code->is_full() || !budget.covers_batch()) return {nullptr, profitability};
   const translator::TranslationBudget::Charge charge(budget);
   return {code->translate(*view, pc, layout), profitability};
 }
@@ -229,7 +242,9 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
     }
     const Impl::Entry entry = impl_->find_entry(board);
     const std::int32_t run =
-        entry.start != nullptr ? impl_->run_block(board, entry) : impl_->interpreted_run.next(1);
+        entry.start != nullptr
+            ? impl_->run_block(board, entry)
+            : impl_->interpreted_run.next(entry.profitability != nullptr ? 1 : kOutsideImage);
     if (run == 0 || board.stop) continue;
     if (run < kShortRun || left < run + kRunSlack)
       interpret(board, std::min(run, left));

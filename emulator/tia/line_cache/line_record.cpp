@@ -91,14 +91,14 @@ std::uint8_t LineRecord::hash() const {
 // writes, on the bytes that count for what is shown (line_dependencies.hpp), and on the following.
 void LineRecord::summarize(bool pal) {
   TiaRegisters more = kAlways;
-  RegisterVectors sets(kUsedUp);
+  RegisterVectors sets(kUsedUp), may_set(TiaRegisters{});
   std::array<std::uint8_t, 5> motion = motions_of(start);
   bool foreseen = (start.cosmic | end.cosmic) == 0;
   for (unsigned i = 0; i < count; ++i) {
     const LineWrite write(event[i]);
     const unsigned reg = write.reg();
     sets |= RegisterVectors(kRegisterBytes[reg].sets);
-    if (reg != HMOVE) more = more | kRegisterBytes[reg].may_set;  // these may stay as they were
+    if (reg != HMOVE) may_set |= RegisterVectors(kRegisterBytes[reg].may_set);  // or stay as they were
     // clang-format off
     switch (reg) {
       // May start the Cosmic Ark mode, by an HMOVE on the previous line.
@@ -117,6 +117,7 @@ void LineRecord::summarize(bool pal) {
   }
   more.spare[0] = foreseen ? 0 : kAll;
   RegisterVectors counts(more);
+  counts |= may_set;
   counts |= seen_bytes();
   if (view.seen & kMoves) counts |= RegisterVectors(kMotions);
   sets |= counts;

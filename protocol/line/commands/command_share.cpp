@@ -1,5 +1,6 @@
 // share, unshare, shared, watch
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -63,7 +64,7 @@ void append_scores(std::string& out, const Snapshot& snapshot) {
 std::int64_t frames_a_second(const Snapshot& snapshot) {
   constexpr std::chrono::seconds kPause{2};
   const bool pauses = Snapshot::Clock::now() - snapshot.when > kPause;
-  return pauses ? 0 : static_cast<std::int64_t>(snapshot.fps + 0.5);
+  return pauses ? 0 : std::llround(snapshot.fps);
 }
 
 }  // namespace
