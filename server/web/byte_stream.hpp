@@ -69,7 +69,7 @@ class ByteStream {
   auto async_read_some(const Buffers& buffers, Token&& token) {
     return boost::asio::async_initiate<Token, Signature>(
         [this](auto&& done, const Buffers& space) {
-          start_read(first<Space>(space), IoHandler(std::move(done), get_executor()));
+          start_read(first<Space>(space), IoHandler(std::forward<decltype(done)>(done), get_executor()));
         },
         token, buffers);
   }
@@ -77,7 +77,7 @@ class ByteStream {
   auto async_write_some(const Buffers& buffers, Token&& token) {
     return boost::asio::async_initiate<Token, Signature>(
         [this](auto&& done, const Buffers& bytes) {
-          start_write(first<Bytes>(bytes), IoHandler(std::move(done), get_executor()));
+          start_write(first<Bytes>(bytes), IoHandler(std::forward<decltype(done)>(done), get_executor()));
         },
         token, buffers);
   }
