@@ -1,7 +1,10 @@
 """racebeam.envpool has EnvPool's arguments, results and infos. What EnvPool itself shows was measured (EnvPool 1.2.5)."""
 
+import sys
 import time
+import types
 import unittest
+import unittest.mock
 import warnings
 
 import package
@@ -131,6 +134,16 @@ class Others(unittest.TestCase):
             seen, reward, done, info = envs.step(np.zeros(3, int))
             self.assertEqual((done.tolist(), info["TimeLimit.truncated"].tolist()), ([is_done] * 3, [is_done] * 3))
         self.assertEqual(len(make("gym", gym_reset_return_info=True).reset()), 2)
+
+    def test_spaces_are_those_of_gym_where_that_is_imported(self):
+        self.assertIsInstance(make("gym").action_space, gymnasium.spaces.Discrete)
+        box = unittest.mock.Mock(side_effect=lambda low, high, shape, dtype: ("box", low, high, shape, np.dtype(dtype)))
+        theirs = types.SimpleNamespace(spaces=types.SimpleNamespace(Box=box, Discrete=lambda count: ("discrete", int(count))))
+        with unittest.mock.patch.dict(sys.modules, gym=theirs):
+            envs = make("gym")
+            self.assertEqual(envs.observation_space, ("box", 0, 255, (4, 84, 84), np.uint8))
+            self.assertEqual((envs.action_space, envs.single_action_space), (("discrete", 18),) * 2)
+            self.assertIsInstance(make().action_space, gymnasium.spaces.Discrete)
 
     def test_time_steps_of_dm(self):
         envs = make("dm", max_episode_steps=2)

@@ -268,7 +268,16 @@ class GymnasiumEnvPool(_Pool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any])
 
 
 class GymEnvPool(_Pool):
-    """env_type="gym": reset() returns observations, and a step has one end, `done`."""
+    """env_type="gym": reset() returns observations, and a step has one end, `done`.
+
+    To a program that has imported gym, the spaces are those of that package."""
+
+    def __init__(self, task_id: str, config: dict[str, Any]) -> None:
+        super().__init__(task_id, config)
+        if "gym" in sys.modules:
+            theirs, box, actions = sys.modules["gym"].spaces, self.single_observation_space, self.single_action_space
+            self.observation_space = self.single_observation_space = theirs.Box(0, 255, box.shape, box.dtype)
+            self.action_space = self.single_action_space = theirs.Discrete(actions.n)
 
     def reset(self, env_id: Any = None) -> Any:
         return self._reset(env_id, None)[0]
