@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "environment/input/effective_actions.hpp"
 #include "environment/input/paddles.hpp"
-#include "environment/input/sticky_actions.hpp"
 
 namespace racebeam {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "emulator/state/inputs.hpp"
+#include "environment/input/effective_actions.hpp"
 #include "environment/input/paddles.hpp"
-#include "environment/input/sticky_actions.hpp"
 
 namespace racebeam {
 

@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "emulator/state/power_on.hpp"
-#include "environment/input/legal_actions.hpp"
-#include "environment/input/sticky_actions.hpp"
+#include "environment/input/effective_actions.hpp"
 #include "games/game/actions.hpp"
 #include "tests/support/crc.hpp"
 

@@ -1,10 +1,27 @@
-#include "environment/input/legal_actions.hpp"
+#include "environment/input/effective_actions.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 namespace racebeam {
+namespace {
+
+float through_text(float p) {
+  char text[32];
+  const char* end = std::to_chars(text, text + sizeof text, p, std::chars_format::general, 6).ptr;
+  std::from_chars(text, end, p);
+  return p;
+}
+
+}  // namespace
+
+std::uint64_t sticky_threshold(float p) {
+  constexpr double kDraws = 4294967296.0;
+  const double draws = std::ceil(kDraws * through_text(p));  // exact: a product with a power of two
+  return draws <= 0 ? 0 : draws >= kDraws ? 1ULL << 32 : static_cast<std::uint64_t>(draws);
+}
 
 LegalActions::LegalActions(const std::vector<int>& legal, bool paddles) : paddles_(paddles) {
   for (const int action : legal) legal_ |= 1u << action;
