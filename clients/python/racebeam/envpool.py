@@ -276,6 +276,7 @@ class GymEnvPool(_Pool):
         super().__init__(task_id, config)
         if "gym" in sys.modules:
             theirs, box, actions = sys.modules["gym"].spaces, self.single_observation_space, self.single_action_space
+            assert isinstance(actions, spaces.Discrete)
             self.observation_space = self.single_observation_space = theirs.Box(0, 255, box.shape, box.dtype)
             self.action_space = self.single_action_space = theirs.Discrete(actions.n)
 
