@@ -103,13 +103,15 @@ std::vector<std::uint8_t> to_bytes(const Slot::Saved& saved, const Environment& 
   return bytes;
 }
 
+bool is_saved_slot(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= sizeof kSlotMagic && std::ranges::equal(bytes.first(sizeof kSlotMagic), kSlotMagic);
+}
+
 void check_saved_slot(std::span<const std::uint8_t> bytes) {
   const std::size_t size = bytes.size();
-  if (size < sizeof(SlotHeader) + sizeof(SlotValues))
+  if (size < sizeof(SlotHeader) + sizeof(SlotValues) || !is_saved_slot(bytes))
     throw InvalidInput("these " + std::to_string(size) + " bytes are no state of a vector environment");
   const auto header = take<SlotHeader>(bytes);
-  if (!std::ranges::equal(header.magic, kSlotMagic))
-    throw InvalidInput("these " + std::to_string(size) + " bytes are no state of a vector environment");
   if (header.version != kSavedSlotVersion)
     throw InvalidInput("the state was saved by another version of racebeam (format " +
                        std::to_string(header.version) + "; this one reads format " +

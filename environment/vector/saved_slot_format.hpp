@@ -17,6 +17,8 @@ constexpr std::uint32_t kSavedSlotVersion = 1;
 // changed. Throws InvalidInput if it could not restore the state.
 std::vector<std::uint8_t> to_bytes(const Slot::Saved& saved, const Environment& environment);
 
+bool is_saved_slot(std::span<const std::uint8_t> bytes);  // whether they begin as a slot's do
+
 // Throws InvalidInput if `bytes` are not of a slot, were truncated or altered, or come from another version
 // of racebeam.
 void check_saved_slot(std::span<const std::uint8_t> bytes);

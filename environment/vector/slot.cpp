@@ -192,6 +192,7 @@ Slot::Saved Slot::save(bool with_random, bool with_noops) const {
 void Slot::restore(const Saved& saved) {
   environment_.restore(*saved.machine);
   progress_ = saved.progress;
+  progress_.lives = environment_.lives();  // a slot whose steps are acts does not count them
   if (saved.noops) noops_.set_generator(*saved.noops);
   look_at_ends();
   if (!stack_) return;

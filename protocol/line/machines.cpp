@@ -74,9 +74,18 @@ Machines::Machines(Session& session) : session_(session) {}
 Machines::~Machines() = default;
 
 std::size_t Machines::size() const { return opened_ ? opened_->vector.size() : 0; }
-Environment& Machines::machine(std::size_t number) { return opened_->vector.slot(number).environment(); }
+Slot& Machines::slot(std::size_t number) { return opened_->vector.slot(number); }
 Pacer& Machines::pacer(std::size_t number) { return opened_->host.seat(number).pacer; }
 void Machines::close() { opened_.reset(); }
+
+std::size_t Machines::number_of(std::string_view text) const {
+  if (empty()) throw RequestError(ErrorCode::kNoMachines, "machine= needs machines; open some first");
+  return static_cast<std::size_t>(number_within(text, "machine", 0, static_cast<std::int64_t>(size()) - 1));
+}
+
+void Machines::append_view(std::size_t number) {
+  opened_->host.seat(number).view->append(session_.out, session_.raw, slot(number));
+}
 
 void Machines::observe(const std::vector<Field>& fields) {
   if (empty()) return;
@@ -89,7 +98,7 @@ void Machines::observe(const std::vector<Field>& fields) {
 
 void Machines::rest() {
   for (std::size_t number = 0; number < size(); ++number) {
-    machine(number).rest();
+    slot(number).environment().rest();
     std::string().swap(opened_->host.seat(number).text);
     std::string().swap(opened_->host.seat(number).raw);
   }

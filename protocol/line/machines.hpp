@@ -28,9 +28,12 @@ class Machines {
 
   bool empty() const { return opened_ == nullptr; }
   std::size_t size() const;
-  Environment& machine(std::size_t number);
+  Slot& slot(std::size_t number);
   Pacer& pacer(std::size_t number);  // paces this machine
   void close();
+  // What machine=TEXT means in a request. Throws RequestError if there is no such machine.
+  std::size_t number_of(std::string_view text) const;
+  void append_view(std::size_t number);            // what this machine shows, to session.out
   void observe(const std::vector<Field>& fields);  // may throw RequestError, and changes nothing then
   void rest();                                     // releases caches
   std::size_t footprint(const std::vector<Field>& fields) const;  // estimated bytes of memory

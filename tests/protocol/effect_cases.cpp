@@ -30,6 +30,7 @@ const std::string kAlternating = "act RIGHT NOOP RIGHT NOOP RIGHT NOOP RIGHT NOO
                   kAfterSave = "act RIGHT NOOP*9\nrestore a\nsave b random=1\nexport b",
                   kEnds = "load duel seed=7 sticky=0 max_episode_frames=2\nobserve episode_frame ends",
                   kThreeSteps = "step NOOP\nstep NOOP\nstep NOOP",
+                  kTwoPlaces = "open 2\nobserve ram\nstep RIGHT NOOP\nact LEFT*9\n",
                   kOpen = "open 2\nobserve episode_frame\nstep NOOP";
 
 const std::string
@@ -109,6 +110,12 @@ const Cases kWithDuel = {
     {"restore", "save a\nact NOOP\nrestore a", "save a\nact NOOP", "look frame"},
     {"restore NAME", "save a\nact NOOP\nsave b\nrestore a", "save a\nact NOOP\nsave b\nrestore b",
      "look frame"},
+    {"save machine", kTwoPlaces + "save a machine=1", kTwoPlaces + "save a", "restore a\nlook ram"},
+    {"save N", kTwoPlaces + "save a machine=1", kTwoPlaces + "save a machine=0", "restore a\nlook ram"},
+    {"restore machine", kTwoPlaces + "save a\nrestore a machine=1", kTwoPlaces + "save a\nrestore a",
+     "step NOOP"},
+    {"restore N", kTwoPlaces + "save a\nrestore a machine=1", kTwoPlaces + "save a\nrestore a machine=0",
+     "step NOOP"},
     {"drop", "save a\ndrop a", "save a", "states"},
     {"drop NAME", "save a\nsave b\ndrop a", "save a\nsave b\ndrop b", "states"},
     {"drop all", "save a\nsave b\ndrop all", "save a\nsave b\ndrop b", "states"},
@@ -127,6 +134,8 @@ const Cases kWithDuel = {
     {"watch ENCODING", "share room\nwatch room ram:hex", "share room\nwatch room ram:base64"},
     {"export", "save a\nexport a", "act NOOP\nsave a\nexport a"},
     {"export NAME", "save a\nact NOOP\nsave b\nexport a", "save a\nact NOOP\nsave b\nexport b"},
+    {"export whole", "save a\nexport a whole=1", "save a\nexport a"},
+    {"export 1", "save a\nexport a whole=1", "save a\nexport a whole=0"},
     {"import", "import a " + state_as_text(), "save a", "restore a\nlook ram"},
     {"import NAME", "import a " + state_as_text(), "import b " + state_as_text(), "states"},
     {"import BASE64", "import a " + state_as_text(), "import a AAAA", "restore a"},

@@ -185,6 +185,88 @@ TEST_CASE("A reset with a seed is what load with that seed gives, and keeps the 
   CHECK(state(played) == state(loaded));
 }
 
+std::string ask_all(LineClient& client, std::initializer_list<const char*> requests) {
+  std::string last;
+  for (const char* const request : requests) {
+    last = client.ask(request);
+    INFO(request);
+    CHECK(last.starts_with("ok"));
+  }
+  return last;
+}
+
+constexpr const char* kStacked = "load beamfall seed=5 sticky=0.5 noop_max=20 max_episode_frames=90";
+
+TEST_CASE("A state of a machine of open plays on in another as it would have, through resets") {
+  LineClient client;
+  ask_all(client, {kStacked, "observe reward ends lives episode_frame grey20x20x2:hex",
+                   "open 3 steps=frames autoreset=same-step", "step FIRE RIGHT LEFT",
+                   "save a machine=1 random=1", "step FIRE*1 UP NOOP"});
+  const auto of_two = [&](const std::string& reply) {  // machine 1's group, and machine 2's
+    const auto first = reply.find(" | ", reply.find(" | ") + 1), second = reply.find(" | ", first + 1);
+    return std::pair(reply.substr(first, second - first), reply.substr(second));
+  };
+  const std::string one = ask_all(client, {"restore a machine=1"});
+  CHECK(ask_all(client, {"restore a machine=2"}) == one);
+  for (int step = 0; step < 60; ++step) {
+    const auto [machine, other] = of_two(ask_all(client, {step % 3 == 0 ? "step RIGHT" : "step LEFT"}));
+    REQUIRE(machine == other);
+  }
+}
+
+TEST_CASE("A whole export has the score and the stack of screens, and the other has neither") {
+  LineClient one, other;
+  ask_all(one, {kStacked, "observe grey20x20x2:hex", "open 1 steps=frames", "step FIRE", "step RIGHT",
+                "save a machine=0 random=1"});
+  const std::string shown = ask_all(one, {"restart 0"});
+  const std::string whole = value(one.ask("export a whole=1"), "data"),
+                    plain = value(one.ask("export a"), "data");
+  CHECK(whole.size() > plain.size());
+  CHECK(plain == value(one.ask("export a whole=0"), "data"));
+  ask_all(other, {kStacked, "observe grey20x20x2:hex", "open 1 steps=frames"});
+  CHECK(other.ask("import a " + whole) == "ok state=a");
+  CHECK("ok machines=1 |" + other.ask("restore a machine=0").substr(2) == shown);
+  CHECK(other.ask("step RIGHT") == one.ask("step RIGHT"));
+  CHECK(value(other.ask("export a whole=1"), "data") == whole);
+  CHECK(other.ask("import b " + plain) == "ok state=b");
+  CHECK(other.ask("restore b machine=0") ==
+        "error bad-state the state has no stack of screens; here, one has a stack of 2 grey screens of 20 x "
+        "20");
+  CHECK(code(other.ask("restore b")) == "");
+  CHECK(code(other.ask("import c " + whole.substr(0, 400))) == "bad-state");
+}
+
+TEST_CASE("A state of the machine of load begins the episodes of machines, and the other way round") {
+  LineClient client;
+  ask_all(client, {"load beamfall seed=5 sticky=0 frame_skip=4", "observe lives ram", "act FIRE*30", "save a",
+                   "open 2 steps=frames lives=end"});
+  const std::string shown = ask_all(client, {"look"});
+  CHECK(ask_all(client, {"restore a machine=1"}) == shown);
+  const std::string acted = ask_all(client, {"act RIGHT"});
+  const std::string stepped = ask_all(client, {"step RIGHT"});
+  CHECK(stepped.ends_with(acted.substr(2)));
+  ask_all(client, {"save b machine=1", "act LEFT*9"});
+  CHECK(ask_all(client, {"restore b"}) == acted);
+}
+
+TEST_CASE("machine= of save and restore needs a machine of open") {
+  LineClient client;
+  ask_all(client, {"load beamfall", "save a"});
+  CHECK(client.ask("save b machine=0") == "error no-machines machine= needs machines; open some first");
+  CHECK(client.ask("restore a machine=0") == "error no-machines machine= needs machines; open some first");
+  ask_all(client, {"open 2"});
+  CHECK(client.ask("save b machine=2") ==
+        "error bad-value machine is '2'; it takes a whole number from 0 to 1");
+  CHECK(client.ask("restore a machine=-1") ==
+        "error bad-value machine is '-1'; it takes a whole number from 0 to 1");
+  CHECK(code(client.ask("restore nothing machine=1")) == "no-state");
+  CHECK(client.ask("save b machine=1 machine=1") == "error bad-arguments machine is given twice");
+  CHECK(code(client.ask("save b machines=1")) == "bad-arguments");
+  CHECK(code(client.ask("restore a random=1")) == "bad-arguments");
+  CHECK(code(client.ask("export a whole=2")) == "bad-value");
+  CHECK(client.ask("states") == "ok count=1 states=a");
+}
+
 TEST_CASE("Stacks of any size are observed, one at a time") {
   LineClient client;
   client.ask("load beamfall");

@@ -57,12 +57,8 @@ struct Subject {  // of a recording
 // The machine of `load`, or one of `open`.
 Subject subject_of(Session& session, Words arguments) {
   if (arguments.empty()) return {session.loaded->machine(), session.loaded->pacer()};
-  const std::string_view number = value_of(arguments[0], "machine", "record");
-  if (session.machines.empty())
-    throw RequestError(ErrorCode::kNoMachines, "machine= needs machines; open some first");
-  const auto last = static_cast<std::int64_t>(session.machines.size()) - 1;
-  const auto machine = static_cast<std::size_t>(number_within(number, "machine", 0, last));
-  return {session.machines.machine(machine), session.machines.pacer(machine)};
+  const std::size_t number = session.machines.number_of(value_of(arguments[0], "machine", "record"));
+  return {session.machines.slot(number).environment(), session.machines.pacer(number)};
 }
 
 // To the server. What is written slowly may outlive the session by far.

@@ -1,9 +1,11 @@
 // save, restore, drop, states, export, import, branch
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "environment/saved/saved_state_format.hpp"
 #include "environment/saved_state.hpp"
+#include "environment/vector/saved_slot_format.hpp"
 #include "games/similar.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/line/commands/branch.hpp"
@@ -64,9 +66,32 @@ void check_keep(const Session& session, std::string_view prefix, std::size_t lis
   }
 }
 
-bool read_random(Words words) {
-  if (words.empty()) return false;
-  return number_within(value_of(words[0], "random", "save"), "random", 0, 1) == 1;
+bool flag_of(std::string_view word, std::string_view key, std::string_view command) {
+  return number_within(value_of(word, key, command), key, 0, 1) == 1;
+}
+
+struct SaveOptions {
+  bool random = false;
+  std::optional<std::size_t> machine;  // of `open`
+};
+
+SaveOptions read_save_options(const Session& session, Words words) {
+  SaveOptions options;
+  std::string_view before;
+  for (const std::string_view word : words) {
+    std::string_view key = word;
+    const std::string_view value = cut_behind(key, '=');
+    if (key == std::exchange(before, key)) refuse_twice(key);
+    if (key == "machine") {
+      options.machine = session.machines.number_of(value);
+    } else if (key == "random") {
+      options.random = number_within(value, key, 0, 1) == 1;
+    } else {
+      throw RequestError(ErrorCode::kBadArguments,
+                         quote(word) + " is not accepted here; save takes random= and machine=");
+    }
+  }
+  return options;
 }
 
 // A,B,C
@@ -79,6 +104,34 @@ std::vector<Action> parse_list(std::string_view word, Session& session) {
     if (action.size() == word.size()) return list;
     if (list.size() % kBetweenLooks == 0) session.pacer.breathe();
     word = rest;
+  }
+}
+
+// One of `open`. A stack that would begin anew is refused, since an agent would not notice.
+void restore_machine(Session& session, const Slot::Saved& place, std::string_view text) {
+  const std::size_t number = session.machines.number_of(text);
+  Slot& slot = session.machines.slot(number);
+  try {
+    slot.check_stack(place);
+  } catch (const InvalidInput& error) {
+    throw RequestError(ErrorCode::kBadState, error.what());
+  }
+  slot.restore(place);
+  slot.begin_request();
+  session.out += "ok";
+  session.machines.append_view(number);
+}
+
+// A whole state, or that of a console alone.
+Slot::Saved imported(std::span<const std::uint8_t> bytes, const Environment& machine) {
+  try {
+    if (is_saved_slot(bytes)) return saved_slot(bytes, machine);
+    Slot::Saved place;
+    place.machine = from_bytes(bytes, machine);
+    place.with_random = place.machine->random.has_value();
+    return place;
+  } catch (const InvalidInput& error) {
+    throw RequestError(ErrorCode::kBadState, error.what());
   }
 }
 
@@ -101,13 +154,19 @@ std::int64_t acts_of(const std::vector<Action>& list) {
 
 void run_save(Session& session, Words arguments) {
   const std::string_view name = state_name(arguments[0]);
-  keep(session, name, session.loaded->slot().save(read_random(arguments.subspan(1))));
+  const SaveOptions options = read_save_options(session, arguments.subspan(1));
+  const bool random = options.random;
+  keep(session, name,
+       options.machine ? session.machines.slot(*options.machine).save(random, random)
+                       : session.loaded->slot().save(random));
   session.out += "ok";
   append_pair(session.out, "state", name);
 }
 
 void run_restore(Session& session, Words arguments) {
   const Slot::Saved& place = find_state(session, arguments[0]);
+  if (arguments.size() == 2)
+    return restore_machine(session, place, value_of(arguments[1], "machine", "restore"));
   session.loaded->slot().restore(place);
   session.loaded->slot().begin_request();
   session.out += "ok";
@@ -144,7 +203,10 @@ void run_states(Session& session, Words) {
 }
 
 void run_export(Session& session, Words arguments) {
-  const auto bytes = to_bytes(*find_state(session, arguments[0]).machine, session.loaded->machine());
+  const Slot::Saved& place = find_state(session, arguments[0]);
+  const bool whole = arguments.size() == 2 && flag_of(arguments[1], "whole", "export");
+  const Environment& artist = session.loaded->machine();
+  const auto bytes = whole ? to_bytes(place, artist) : to_bytes(*place.machine, artist);
   session.out += "ok";
   append_pair(session.out, "state", arguments[0]);
   append_pair(session.out, "bytes", static_cast<std::int64_t>(bytes.size()));
@@ -157,14 +219,7 @@ void run_import(Session& session, Words arguments) {
   const auto bytes = bytes_of_base64(arguments[1]);
   if (!bytes)
     throw RequestError(ErrorCode::kBadState, "the state is not base64 (A-Z a-z 0-9 + / and = at the end)");
-  Slot::Saved place;
-  try {
-    place.machine = from_bytes(*bytes, session.loaded->machine());
-    place.with_random = place.machine->random.has_value();
-  } catch (const InvalidInput& error) {
-    throw RequestError(ErrorCode::kBadState, error.what());
-  }
-  keep(session, name, std::move(place));
+  keep(session, name, imported(*bytes, session.loaded->machine()));
   session.out += "ok";
   append_pair(session.out, "state", name);
 }
