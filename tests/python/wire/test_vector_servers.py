@@ -85,9 +85,8 @@ class Same(Servers):
         with self.assertRaises(IndexError):
             there.step([0, 0, 0, 0, 99])
         self.play(here, there, 3)
-        for envs in (lambda: there.save(0), lambda: there.send([0] * COUNT)):
-            with self.assertRaisesRegex(InvalidInput, "on a server"):
-                envs()
+        with self.assertRaisesRegex(InvalidInput, "on a server"):
+            there.send([0] * COUNT)
         for servers in ([], [3]):
             with self.subTest(servers=servers), self.assertRaises(TypeError):
                 AtariVectorEnv("beamfall", 2, server=servers)
@@ -107,6 +106,30 @@ class Same(Servers):
             os._exit(9)
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 7)
         self.play(here, there, 2)
+
+
+class States(Servers):
+    def test_a_state_goes_from_one_server_to_the_other(self):
+        here, there = self.both()
+        self.play(here, there, 10)
+        for envs in (here, there):
+            envs.restore(COUNT - 1, envs.save(0))
+        self.check(there.show(), here.show())
+        self.play(here, there, 20)
+        with self.assertRaisesRegex(IndexError, f"there is no environment {COUNT}"):
+            there.save(COUNT)
+
+    def test_a_server_that_is_lost_is_a_ConnectionError_and_the_next_step_goes_on(self):
+        here, there = self.both()
+        state = there.save(COUNT - 1)
+        self.kill(self.second)
+        for call in (lambda: there.save(COUNT - 1), lambda: there.restore(COUNT - 1, state)):
+            with self.assertRaises(ConnectionError):
+                call()
+        self.check(there.step([0] * COUNT), here.step([0] * COUNT), FIRST, lost=SECOND)
+        there.step([0] * COUNT)
+        there.restore(COUNT - 1, state)
+        self.assertEqual(there.save(COUNT - 1).__getstate__(), state.__getstate__())
 
 
 class Lost(Servers):

@@ -1,6 +1,7 @@
 """AtariVectorEnv(server=...) plays what AtariVectorEnv plays, and a server that goes away is an exception."""
 
 import os
+import pickle
 import sys
 import threading
 import unittest
@@ -80,6 +81,58 @@ class Same(Compared):
             self.play(here, there, 30)
 
 
+class States(Compared):
+    def test_a_state_goes_from_here_to_there_and_back(self):
+        ended = 0
+        with server() as (address, _):
+            for settings in SETTINGS:
+                with self.subTest(**settings):
+                    here, there = both(address, **{"seed": 5, "max_num_frames_per_episode": 90, **settings}, render_mode="rgb_array")
+                    self.play(here, there, 10)
+                    for one, other in ((here, there), (there, here)):
+                        states = [one.save(env) for env in range(3)]
+                        expected = [states[1], states[2], states[0]]
+                        for env, state in enumerate(expected):
+                            one.restore(env, state)
+                            other.restore(env, pickle.loads(pickle.dumps(state)))
+                        self.assertTrue(all(map(np.array_equal, there.render(), here.render())))
+                        self.check(there.show(), here.show())
+                        self.assertEqual([there.save(env).__getstate__() for env in range(3)],
+                                         [state.__getstate__() for state in expected])
+                        ended += self.play(here, there, 30)
+                    there.close()
+        self.assertGreater(ended, 50)
+
+    def test_a_state_without_generators_keeps_those_that_are_there(self):
+        with server() as (address, _):
+            here, there = both(address, seed=1, repeat_action_probability=0.5)
+            states = [envs.save(1, include_rng=False) for envs in (here, there)]
+            self.assertEqual(*(state.__getstate__() for state in states))
+            self.play(here, there, 20)
+            for envs, state in zip((here, there), states):
+                envs.restore(1, state)
+            self.play(here, there, 20)
+
+    def test_bad_states_are_refused_as_here(self):
+        with server() as (address, _):
+            here, there = both(address, count=2, seed=1)
+            self.play(here, there, 5)
+            other = AtariVectorEnv("beamfall", 1, stack_num=2).save(0)
+            foreign = AtariVectorEnv("updraft", 1).save(0)
+            for env, state, error, sentence in (
+                    (0, other, InvalidInput, "the state has a stack of 2 grey screens of 84 x 84; here, one has a stack of 4 grey screens"),
+                    (0, foreign, InvalidInput, "the state is of the image"), (0, None, TypeError, ""),
+                    (2, here.save(0), IndexError, "there is no environment 2; there are 0 to 1"),
+                    (-1, here.save(0), IndexError, "there is no environment -1; there are 0 to 1")):
+                for envs in (here, there):
+                    with self.subTest(sentence=sentence, envs=envs), self.assertRaisesRegex(error, sentence):
+                        envs.restore(env, state)
+            with self.assertRaisesRegex(IndexError, "there is no environment 2; there are 0 to 1"):
+                there.save(2)
+            self.assertEqual(there.machines()._session.states(), [])
+            self.play(here, there, 5)
+
+
 class Refused(unittest.TestCase):
     def test_bad_input_is_what_it_is_here(self):
         with server() as (address, _):
@@ -96,7 +149,7 @@ class Refused(unittest.TestCase):
     def test_what_a_server_does_not_do_is_said(self):
         with server("--max-machines", "4") as (address, _):
             envs = AtariVectorEnv("beamfall", 2, server=address)
-            for call in (lambda: envs.save(0), lambda: envs.restore(0, None), lambda: envs.send([0, 0]), envs.recv):
+            for call in (lambda: envs.send([0, 0]), envs.recv):
                 with self.assertRaisesRegex(InvalidInput, "on a server"):
                     call()
             for arguments in ({"batch_size": 1}, {"num_envs": 5}, {"start": "baselines", "use_fire_reset": False}):

@@ -805,11 +805,12 @@ class Session:
     def poke(self, index: int, data: bytes) -> None:
         self.ask("poke", index, data.hex().upper())
 
-    def save(self, name: str, random: int = 0) -> None:
-        self.ask("save", name, random=random)
+    def save(self, name: str, random: int = 0, machine: int | None = None) -> None:
+        """`machine`: one of those of open(), 0 the first."""
+        self.ask("save", name, random=random, **({} if machine is None else {"machine": machine}))
 
-    def restore(self, name: str) -> Values:
-        return self._shown("restore", name)
+    def restore(self, name: str, machine: int | None = None) -> Values:
+        return self._shown("restore", name, **({} if machine is None else {"machine": machine}))
 
     def drop(self, *names: str) -> None:
         self.ask("drop", *names)
@@ -817,8 +818,9 @@ class Session:
     def states(self) -> list[str]:
         return self.list_of("states", "states")
 
-    def export_state(self, name: str) -> bytes:
-        return base64.b64decode(self.ask("export", name)[0]["data"])
+    def export_state(self, name: str, whole: int = 0) -> bytes:
+        """`whole`: 1 for the score, the progress of the episode and the stack of screens, too."""
+        return base64.b64decode(self.ask("export", name, **({"whole": whole} if whole else {}))[0]["data"])
 
     def import_state(self, name: str, data: bytes) -> None:
         self.ask("import", name, base64.b64encode(data).decode())

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from .._core import ActionSet, ResetOrder, Rules, SavedMachine
 from ..errors import InvalidInput
 from ..vector_results import Bools, Numbers, Pixels, Results
 from .client import Reply, Values
-from .remote import RemoteInterface
+from .remote import STATE, RemoteInterface
 
 NO_LIMITS = (-2**31, 2**31 - 1)
 RULES = {Rules.ALE_0_12: "ale-0.12", Rules.FIXED: "fixed"}
@@ -49,12 +50,6 @@ class OnServers:
 
     def receive(self, results: Results) -> None:
         raise _impossible("recv")
-
-    def save(self, machine: int, include_rng: bool) -> SavedMachine:
-        raise _impossible("save")
-
-    def restore(self, machine: int, state: SavedMachine) -> None:
-        raise _impossible("restore")
 
 
 class RemoteMachines(OnServers):
@@ -148,11 +143,17 @@ class RemoteMachines(OnServers):
         self._ask(results, "restart", "0" * self._count)
 
     def _ask(self, results: Results, *words: object, **settings: object) -> None:
+        with self._exclusively():
+            self.begin(*words, **settings)
+            self.finish(results)
+
+    @contextlib.contextmanager
+    def _exclusively(self) -> Iterator[None]:
+        """A turn of one thread. The session ends if a request stays without its reply."""
         self._session.check_process()  # the turn may be that of a thread which a child does not have
         with self._turn:
             try:
-                self.begin(*words, **settings)
-                self.finish(results)
+                yield
             except BaseException:
                 if self.waits():
                     self._session.cut()
@@ -191,6 +192,34 @@ class RemoteMachines(OnServers):
         column, row = (1 + (part > limit).astype(int) - (part < -limit) for part in parts)
         actions = STICK[(fire > limit).astype(int), row, column]
         return [f"{action}@{strength:.9g}" for action, strength in zip(actions, radius)]
+
+    # States, which pass through the session under one name
+
+    def save(self, machine: int, include_rng: bool) -> SavedMachine:
+        self._check_machine(machine)
+        with self._exclusively():
+            self._machine.ask(self._session.save, STATE, random=int(include_rng), machine=machine)
+            data = self._machine.ask(self._session.export_state, STATE, whole=1)
+            self._machine.ask(self._session.drop, STATE)
+        state = SavedMachine.__new__(SavedMachine)
+        state.__setstate__(data)
+        return state
+
+    def restore(self, machine: int, state: SavedMachine) -> None:
+        if not isinstance(state, SavedMachine):
+            raise TypeError(f"state is {state!r}; it takes what save() returned")
+        self._check_machine(machine)
+        with self._exclusively():
+            self._machine.ask(self._session.import_state, STATE, state.__getstate__())
+            try:
+                self._last[machine] = self._machine.ask(self._session.restore, STATE, machine=machine)
+            finally:
+                if not self.waits():
+                    self._machine.ask(self._session.drop, STATE)
+
+    def _check_machine(self, machine: int) -> None:
+        if not 0 <= machine < self._count:
+            raise IndexError(f"there is no environment {machine}; there are 0 to {self._count - 1}")
 
     # What is shown
 

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import queue
 import secrets
 import threading
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from .._core import Autoreset
+from .._core import Autoreset, SavedMachine
 from ..errors import InvalidInput
 from ..vector_results import Bools, Pixels, Results
 from .client import Refused
@@ -146,6 +147,13 @@ class SpreadMachines(OnServers):
         self._exchange(play, results)
 
     def _exchange(self, play: Callable[[], None], results: Results) -> None:
+        with self._exclusively():
+            self.lost, self._lost_before = self._lost_before, np.zeros(self._count, np.bool_)
+            play()
+        results.env_id[:] = range(self._count)
+
+    @contextlib.contextmanager
+    def _exclusively(self) -> Iterator[None]:
         """A turn of one thread. Where it is cut off, such as by Ctrl-C, all sessions end: replies that are read later would be taken
         for others', and a session that ended alone for a server that is lost."""
         self._parts[0].machines.check_process()
@@ -153,14 +161,12 @@ class SpreadMachines(OnServers):
             if self._is_cut:
                 raise ConnectionError("the sessions have ended: they were interrupted between a request and the end of its reply")
             try:
-                self.lost, self._lost_before = self._lost_before, np.zeros(self._count, np.bool_)
-                play()
+                yield
             except BaseException as error:
                 if not isinstance(error, Exception) or any(part.machines.waits() for part in self._parts):
                     self._is_cut = True
                     self.close()
                 raise
-        results.env_id[:] = range(self._count)
 
     @staticmethod
     def _failure(call: Callable[..., None], *arguments: object) -> Exception | None:
@@ -236,5 +242,25 @@ class SpreadMachines(OnServers):
         return sum(part.rows.stop - part.rows.start for part in self._parts if part.address == address)
 
     def screen(self, machine: int) -> Pixels:
-        part = next(part for part in self._parts if part.rows.start <= machine < part.rows.stop)
-        return part.machines.screen(machine - part.rows.start)
+        part, row = self._place_of(machine)
+        return part.machines.screen(row)
+
+    # States of one environment. A loss is a ConnectionError, and the next step goes on elsewhere. That step shows new episodes, and
+    # also what was restored after the loss, before it plays.
+
+    def save(self, machine: int, include_rng: bool) -> SavedMachine:
+        part, row = self._place_of(machine)
+        with self._exclusively():
+            return part.machines.save(row, include_rng)
+
+    def restore(self, machine: int, state: SavedMachine) -> None:
+        part, row = self._place_of(machine)
+        with self._exclusively():
+            part.machines.restore(row, state)
+
+    def _place_of(self, machine: int) -> tuple[_Part, int]:
+        """The part that plays an environment, and its row there."""
+        for part in self._parts:
+            if part.rows.start <= machine < part.rows.stop:
+                return part, machine - part.rows.start
+        raise IndexError(f"there is no environment {machine}; there are 0 to {self._count - 1}")
