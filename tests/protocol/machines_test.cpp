@@ -249,6 +249,15 @@ TEST_CASE("A state of the machine of load begins the episodes of machines, and t
   CHECK(ask_all(client, {"restore b"}) == acted);
 }
 
+TEST_CASE("A whole export counts against the longest reply") {
+  LineService service = test::line_service();
+  service.limits.reply = 3 << 20;
+  LineClient client(service);
+  ask_all(client, {"load beamfall", "observe rgb160x210x16:raw", "save a"});
+  CHECK(code(client.ask("export a whole=1")) == "limit");
+  ask_all(client, {"observe none", "save a", "export a whole=1"});
+}
+
 TEST_CASE("machine= of save and restore needs a machine of open") {
   LineClient client;
   ask_all(client, {"load beamfall", "save a"});

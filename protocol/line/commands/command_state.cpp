@@ -205,6 +205,9 @@ void run_states(Session& session, Words) {
 void run_export(Session& session, Words arguments) {
   const Slot::Saved& place = find_state(session, arguments[0]);
   const bool whole = arguments.size() == 2 && flag_of(arguments[1], "whole", "export");
+  const std::size_t reply = 2 * place.footprint();
+  session.check_reply(reply, "this state");
+  session.memory.check(3 * reply, "a reply about this state");
   const Environment& artist = session.loaded->machine();
   const auto bytes = whole ? to_bytes(place, artist) : to_bytes(*place.machine, artist);
   session.out += "ok";
