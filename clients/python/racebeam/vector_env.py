@@ -78,8 +78,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     seed: of the first environment, until a reset has another one; the next has one more; None: at random.
     render_mode: "rgb_array" lets render() return the pictures.
     server: the environments run there; token, timeout: as racebeam.connect() has them. They are of one game,
-        and all step together: send() and recv() are not there. A list spreads the environments over servers. If one is
-        lost, its episodes are truncated, and its environments begin new ones on the others; info["lost"] says where.
+        and batch_size is num_envs. A list spreads the environments over servers. If one is lost, its episodes are
+        truncated, and its environments begin new ones on the others; info["lost"] says where.
 
     Rewards are int32. info has env_id, lives, frame_number, episode_frame_number, raw_reward, the reward before it was
     clipped, and game_over, whatever lives and limits say: an array each. With SAME_STEP, where episodes end, also final_obs,

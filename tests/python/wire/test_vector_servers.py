@@ -85,8 +85,9 @@ class Same(Servers):
         with self.assertRaises(IndexError):
             there.step([0, 0, 0, 0, 99])
         self.play(here, there, 3)
-        with self.assertRaisesRegex(InvalidInput, "on a server"):
-            there.send([0] * COUNT)
+        with self.assertRaises(IndexError):
+            there.send([99] + [0] * (COUNT - 1))
+        self.play(here, there, 3)
         for servers in ([], [3]):
             with self.subTest(servers=servers), self.assertRaises(TypeError):
                 AtariVectorEnv("beamfall", 2, server=servers)
@@ -106,6 +107,34 @@ class Same(Servers):
             os._exit(9)
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 7)
         self.play(here, there, 2)
+
+
+class Halves(Servers):
+    def test_all_servers_play_between_the_halves(self):
+        here, there = self.both()
+        for step in range(20):
+            for envs in (here, there):
+                envs.send([step % 3] * COUNT)
+            with self.assertRaisesRegex(InvalidInput, f"{COUNT} machines play; receive them first"):
+                there.step([0] * COUNT)
+            self.check(there.recv(), here.recv())
+        for envs in (here, there):
+            envs.machines().send_resets(np.arange(COUNT) * 7)
+        self.check(there.recv(), here.recv())
+        self.play(here, there, 5)
+
+    def test_a_server_that_is_lost_between_the_halves(self):
+        here, there = self.both(noop_max=0, use_fire_reset=False)
+        before = there.step([1] * COUNT)[0]
+        here.step([1] * COUNT)
+        self.halt(self.second)
+        for envs in (here, there):
+            envs.send([0] * COUNT)
+        self.kill(self.second)
+        shown = there.recv()
+        self.assertTrue(shown[3][SECOND].all() and np.array_equal(shown[0][SECOND], before[SECOND]))
+        self.check(shown, here.recv(), FIRST, lost=SECOND)
+        self.check(there.step([0] * COUNT), here.step([0] * COUNT), FIRST)
 
 
 class States(Servers):

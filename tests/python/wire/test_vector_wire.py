@@ -2,6 +2,7 @@
 
 import os
 import pickle
+import select
 import sys
 import threading
 import unittest
@@ -81,6 +82,70 @@ class Same(Compared):
             self.play(here, there, 30)
 
 
+class Halves(Compared):
+    def halves(self, envs, actions):
+        envs.send(actions)
+        return envs.recv()
+
+    def test_a_step_in_two_halves_is_a_step(self):
+        with server() as (address, _):
+            for settings in ({}, SETTINGS[1], SETTINGS[4]):
+                with self.subTest(**settings):
+                    here, there = both(address, **{"seed": 5, **settings})
+                    here.action_space.seed(1)
+                    for _ in range(30):
+                        actions = here.action_space.sample()
+                        expected = self.halves(here, actions)
+                        self.check(self.halves(there, actions), expected)
+
+    def test_the_server_plays_between_the_halves(self):
+        with server() as (address, _):
+            envs = AtariVectorEnv("beamfall", 3, seed=1, server=address)
+            replies = envs.machines()._session.reader.connection
+            self.assertEqual(select.select([replies], [], [], 0)[0], [])
+            envs.send([1, 1, 1])
+            self.assertEqual(select.select([replies], [], [], 60)[0], [replies])
+            envs.recv()
+
+    def test_resets_in_two_halves(self):
+        with server() as (address, _):
+            here, there = both(address, seed=5)
+            for seeds in ([3, 9, -1], None, [4, 5, 6]):
+                for envs in (here, there):
+                    envs.machines().send_resets(None if seeds is None else np.array(seeds))
+                self.check(there.recv(), here.recv())
+                self.play(here, there, 3)
+
+    def test_nothing_else_is_possible_between_the_halves(self):
+        with server() as (address, _):
+            for envs in both(address, count=2, seed=1, render_mode="rgb_array"):
+                envs.reset(seed=1)
+                state = envs.save(0)
+                envs.send([0, 0])
+                for call in (envs.reset, envs.show, envs.render, lambda: envs.save(0), lambda: envs.restore(0, state),
+                             lambda: envs.step([0, 0]), lambda: envs.send([0, 0])):
+                    with self.assertRaisesRegex(InvalidInput, "receive"):
+                        call()
+                self.assertEqual(envs.recv()[4]["frame_number"].shape, (2,))
+                with self.assertRaisesRegex(InvalidInput, "0 machines play, and a receive takes 2; send some first"):
+                    envs.recv()
+                for actions in ([0, 99], [0]):
+                    with self.assertRaises((IndexError, InvalidInput)):
+                        envs.send(actions)
+                envs.step([0, 0])
+
+    def test_a_server_that_dies_between_the_halves_is_a_ConnectionError(self):
+        with server() as (address, process):
+            envs = AtariVectorEnv("beamfall", 2, seed=1, server=address)
+            envs.send([0, 0])
+            process.kill()
+            process.wait()
+            for _ in range(2):
+                with self.assertRaises(ConnectionError):
+                    while True:  # the first reply may have been there
+                        self.halves(envs, [0, 0]) if envs.machines()._awaited is None else envs.recv()
+
+
 class States(Compared):
     def test_a_state_goes_from_here_to_there_and_back(self):
         ended = 0
@@ -149,9 +214,6 @@ class Refused(unittest.TestCase):
     def test_what_a_server_does_not_do_is_said(self):
         with server("--max-machines", "4") as (address, _):
             envs = AtariVectorEnv("beamfall", 2, server=address)
-            for call in (lambda: envs.send([0, 0]), envs.recv):
-                with self.assertRaisesRegex(InvalidInput, "on a server"):
-                    call()
             for arguments in ({"batch_size": 1}, {"num_envs": 5}, {"start": "baselines", "use_fire_reset": False}):
                 with self.subTest(arguments=arguments), self.assertRaises(InvalidInput):
                     AtariVectorEnv("beamfall", **{"num_envs": 2, "server": address, **arguments})

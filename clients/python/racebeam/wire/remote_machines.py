@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import re
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -33,26 +33,29 @@ def _word(member: Any) -> str:
     return str(member.name).lower().replace("_", "-")
 
 
-class OnServers:
-    """What servers do not do."""
+class Halves:
+    """A step or reset in two halves: what began, receive() ends. Between them, nothing else is possible."""
 
-    def send(self, actions: npt.NDArray[np.int64], machines: Numbers) -> None:
-        raise _impossible("send")
+    _count: int
+    _awaited: Callable[[Results], None] | None = None  # what receive() does
 
-    def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None:
-        raise _impossible("send")
+    def _check_all(self, machines: Numbers) -> None:
+        if not np.array_equal(machines, range(self._count)):
+            raise InvalidInput(f"environments {machines} are to play; servers play all {self._count} together")
 
-    def send_strengths(self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers) -> None:
-        raise _impossible("send")
+    def _check_half(self, is_second: bool) -> None:
+        if is_second and self._awaited is None:
+            raise InvalidInput(f"0 machines play, and a receive takes {self._count}; send some first")
+        if not is_second and self._awaited is not None:
+            raise InvalidInput(f"{self._count} machines play; receive them first")
 
-    def send_resets(self, seeds: npt.NDArray[np.int64] | None) -> None:
-        raise _impossible("send")
+    def _take(self) -> Callable[[Results], None]:
+        awaited, self._awaited = self._awaited, None
+        assert awaited is not None
+        return awaited
 
-    def receive(self, results: Results) -> None:
-        raise _impossible("recv")
 
-
-class RemoteMachines(OnServers):
+class RemoteMachines(Halves):
     """Has the methods of _core.VectorMachines. Raises what RemoteInterface does; RuntimeError in a child after a fork.
 
     settings: those of _core.VectorSettings, by name. timeout: of connect(). All machines step together.
@@ -129,7 +132,34 @@ class RemoteMachines(OnServers):
     def step_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, results: Results) -> None:
         self._ask(results, "step", *self.words_of(joysticks, threshold))
 
+    def send(self, actions: npt.NDArray[np.int64], machines: Numbers) -> None:
+        self._send(self.words(actions), machines)
+
+    def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None:
+        self._send(self.words_of(joysticks, threshold), machines)
+
+    def send_strengths(self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers) -> None:
+        self._send(with_strengths(self.words(actions), strengths), machines)
+
+    def _send(self, words: Sequence[object], machines: Numbers) -> None:
+        self._check_all(machines)
+        with self._exclusively():
+            self.begin("step", *words)
+            self._awaited = self.finish
+
+    def send_resets(self, seeds: npt.NDArray[np.int64] | None) -> None:
+        with self._exclusively():
+            self._awaited = lambda results: self._reset(None, seeds, results)
+
+    def receive(self, results: Results) -> None:
+        with self._exclusively(is_second=True):
+            self._take()(results)
+
     def reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None:
+        with self._exclusively():
+            self._reset(chosen, seeds, results)
+
+    def _reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None:
         """Machines whose seeds count up as the server counts them are reset by one request."""
         masks: dict[int | None, list[str]] = {}
         for machine in range(self._count) if chosen is None else np.flatnonzero(chosen):
@@ -137,7 +167,8 @@ class RemoteMachines(OnServers):
             first = None if seed < 0 else (seed - int(machine)) % 2**32
             masks.setdefault(first, ["0"] * self._count)[machine] = "1"
         for first, mask in (masks or {None: ["0"] * self._count}).items():
-            self._ask(results, "restart", "".join(mask), **({} if first is None else {"seed": first}))
+            self.begin("restart", "".join(mask), **({} if first is None else {"seed": first}))
+            self.finish(results)
 
     def show(self, results: Results) -> None:
         self._ask(results, "restart", "0" * self._count)
@@ -148,10 +179,11 @@ class RemoteMachines(OnServers):
             self.finish(results)
 
     @contextlib.contextmanager
-    def _exclusively(self) -> Iterator[None]:
-        """A turn of one thread. The session ends if a request stays without its reply."""
+    def _exclusively(self, *, is_second: bool = False) -> Iterator[None]:
+        """A turn of one thread. The session ends if an exception leaves a request without its reply."""
         self._session.check_process()  # the turn may be that of a thread which a child does not have
         with self._turn:
+            self._check_half(is_second)
             try:
                 yield
             except BaseException:
@@ -273,6 +305,7 @@ class RemoteMachines(OnServers):
         results.final_numbers[:, machine] = [values[prefix + name.removeprefix("final_")] for name in FINAL_NUMBERS]
 
     def screen(self, machine: int) -> Pixels:
+        self._check_half(False)
         return np.frombuffer(self._last[machine]["rgb"], np.uint8).reshape(-1, 160, 3).copy()
 
 
@@ -282,8 +315,9 @@ def _seen(results: Results) -> Pixels:
     return seen
 
 
-def _impossible(what: str) -> InvalidInput:
-    return InvalidInput(f"{what}() is not possible for environments on a server")
+def with_strengths(words: Sequence[object], strengths: npt.NDArray[np.float32]) -> list[str]:
+    """The words of `step` with how far each paddle is turned."""
+    return [f"{word}@{strength:.9g}" for word, strength in zip(words, strengths)]
 
 
 def _field(settings: dict[str, Any], height: int) -> str:

@@ -15,9 +15,9 @@ import numpy.typing as npt
 
 from .._core import Autoreset, SavedMachine
 from ..errors import InvalidInput
-from ..vector_results import Bools, Pixels, Results
+from ..vector_results import Bools, Numbers, Pixels, Results
 from .client import Refused
-from .remote_machines import OnServers, RemoteMachines
+from .remote_machines import Halves, RemoteMachines, with_strengths
 
 LEAVING = ("stopping", "busy", "idle", "internal")  # the errors after which a server closes the session
 
@@ -38,7 +38,7 @@ class _Part:
         self.is_fresh = False  # it was moved, and the next step shows the beginning of its episodes
 
 
-class SpreadMachines(OnServers):
+class SpreadMachines(Halves):
     """Has the methods of _core.VectorMachines. Raises what RemoteMachines does; ConnectionError when no server is left.
 
     Each server plays as many environments as the next, give or take one. Those beyond the number of environments are spare.
@@ -125,17 +125,47 @@ class SpreadMachines(OnServers):
     # Playing
 
     def step(self, actions: npt.NDArray[np.int64], results: Results) -> None:
-        self._step([part.machines.words(actions[part.rows]) for part in self._parts], results)
+        words = self._words(actions)
+        self._exchange(lambda results: self._begun(words)(results), results)
 
     def step_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, results: Results) -> None:
-        self._step([part.machines.words_of(joysticks[part.rows], threshold) for part in self._parts], results)
+        words = self._words_of(joysticks, threshold)
+        self._exchange(lambda results: self._begun(words)(results), results)
 
-    def _step(self, words: list[list[Any]], results: Results) -> None:
-        """All servers play at the same time."""
+    def send(self, actions: npt.NDArray[np.int64], machines: Numbers) -> None:
+        self._send(self._words(actions), machines)
+
+    def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None:
+        self._send(self._words_of(joysticks, threshold), machines)
+
+    def send_strengths(self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers) -> None:
+        words = self._words(actions)
+        self._send([with_strengths(acts, strengths[part.rows]) for part, acts in zip(self._parts, words)], machines)
+
+    def _send(self, words: list[list[Any]], machines: Numbers) -> None:
+        self._check_all(machines)
+        with self._exclusively():
+            self._awaited = self._begun(words)
+
+    def send_resets(self, seeds: npt.NDArray[np.int64] | None) -> None:
+        with self._exclusively():
+            self._awaited = lambda results: self._reset(None, seeds, results)
+
+    def receive(self, results: Results) -> None:
+        self._exchange(lambda results: self._take()(results), results, is_second=True)
+
+    def _words(self, actions: npt.NDArray[np.int64]) -> list[list[Any]]:
+        return [part.machines.words(actions[part.rows]) for part in self._parts]
+
+    def _words_of(self, joysticks: npt.NDArray[np.float32], threshold: float) -> list[list[Any]]:
+        return [part.machines.words_of(joysticks[part.rows], threshold) for part in self._parts]
+
+    def _begun(self, words: list[list[Any]]) -> Callable[[Results], None]:
+        """All servers play at the same time. What it returns awaits them."""
         requests = [("restart", "0" * len(acts)) if part.is_fresh else ("step", *acts) for part, acts in zip(self._parts, words)]
+        failures = [self._failure(part.machines.begin, *request) for part, request in zip(self._parts, requests)]
 
-        def play() -> None:
-            failures = [self._failure(part.machines.begin, *request) for part, request in zip(self._parts, requests)]
+        def finish(results: Results) -> None:
             for index, part in enumerate(self._parts):
                 failures[index] = failures[index] or self._failure(part.machines.finish, results.of(part.rows))
             for part, failure in zip(self._parts, failures):
@@ -144,22 +174,23 @@ class SpreadMachines(OnServers):
                 else:
                     part.is_fresh = False
 
-        self._exchange(play, results)
+        return finish
 
-    def _exchange(self, play: Callable[[], None], results: Results) -> None:
-        with self._exclusively():
+    def _exchange(self, play: Callable[[Results], None], results: Results, *, is_second: bool = False) -> None:
+        with self._exclusively(is_second=is_second):
             self.lost, self._lost_before = self._lost_before, np.zeros(self._count, np.bool_)
-            play()
+            play(results)
         results.env_id[:] = range(self._count)
 
     @contextlib.contextmanager
-    def _exclusively(self) -> Iterator[None]:
+    def _exclusively(self, *, is_second: bool = False) -> Iterator[None]:
         """A turn of one thread. Where it is cut off, such as by Ctrl-C, all sessions end: replies that are read later would be taken
         for others', and a session that ended alone for a server that is lost."""
         self._parts[0].machines.check_process()
         with self._turn:
             if self._is_cut:
                 raise ConnectionError("the sessions have ended: they were interrupted between a request and the end of its reply")
+            self._check_half(is_second)
             try:
                 yield
             except BaseException as error:
@@ -180,22 +211,22 @@ class SpreadMachines(OnServers):
         return None
 
     def reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None:
+        self._exchange(lambda results: self._reset(chosen, seeds, results), results)
+
+    def _reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None:
         def ask(part: _Part) -> None:
             rows = part.rows
             part.machines.reset(None if chosen is None else chosen[rows], None if seeds is None else seeds[rows], results.of(rows))
             part.is_fresh = False
 
-        self._each(ask, results)
+        self._each(ask)
 
     def show(self, results: Results) -> None:
-        self._each(lambda part: part.machines.show(results.of(part.rows)), results)
+        self._exchange(lambda results: self._each(lambda part: part.machines.show(results.of(part.rows))), results)
 
-    def _each(self, ask: Callable[[_Part], None], results: Results) -> None:
-        def play() -> None:
-            for part in self._parts:
-                self._ask(part, ask)
-
-        self._exchange(play, results)
+    def _each(self, ask: Callable[[_Part], None]) -> None:
+        for part in self._parts:
+            self._ask(part, ask)
 
     def _ask(self, part: _Part, ask: Callable[[_Part], None]) -> None:
         """Asks the server of a part, and the next one while a server is lost."""
@@ -242,6 +273,7 @@ class SpreadMachines(OnServers):
         return sum(part.rows.stop - part.rows.start for part in self._parts if part.address == address)
 
     def screen(self, machine: int) -> Pixels:
+        self._check_half(False)
         part, row = self._place_of(machine)
         return part.machines.screen(row)
 
