@@ -31,8 +31,8 @@ constexpr std::int32_t kOutsideImage = 8;
 constexpr std::int32_t kShortRun = 32, kRunSlack = 4096;
 
 // Back-off after steps that were too long for translated code, and were interpreted again. After one, the
-// next steps are interpreted at once: one, then three, up to 63. The count halves after 64 steps that
-// translated code completed.
+// next steps are interpreted at once: one, then three, up to 63. The count halves after 4 steps that
+// translated code completed, so that a game that thinks for some frames is translated again soon.
 class StepBackoff {
  public:
   bool skips_step() { return left_ > 0 && left_-- > 0; }
@@ -46,7 +46,7 @@ class StepBackoff {
   }
 
  private:
-  static constexpr int kLongest = 63, kCalm = 64;
+  static constexpr int kLongest = 63, kCalm = 4;
 
   int length_ = 0, left_ = 0, calm_ = 0;  // steps
 };

@@ -164,7 +164,7 @@ TEST_CASE("open refuses keys that it does not have, and those of frames with act
   CHECK(code(client.ask("open 1 step=frames")) == "bad-arguments");
   CHECK(code(client.ask("open 1 steps=acts steps=acts")) == "bad-arguments");
   client.ask("load beamfall");
-  CHECK(code(client.ask("open 2 steps=frames")) == "");
+  CHECK(code(client.ask("open 2 steps=frames")).empty());
   CHECK(code(client.ask("restart 10 seed=-1")) == "bad-value");
   CHECK(code(client.ask("restart seeds=1")) == "bad-arguments");
   CHECK(code(client.ask("reset seed=x")) == "bad-value");
@@ -232,7 +232,7 @@ TEST_CASE("A whole export has the score and the stack of screens, and the other 
   CHECK(other.ask("restore b machine=0") ==
         "error bad-state the state has no stack of screens; here, one has a stack of 2 grey screens of 20 x "
         "20");
-  CHECK(code(other.ask("restore b")) == "");
+  CHECK(code(other.ask("restore b")).empty());
   CHECK(code(other.ask("import c " + whole.substr(0, 400))) == "bad-state");
 }
 
@@ -293,7 +293,7 @@ TEST_CASE("Stacks of any size are observed, one at a time") {
         value(client.ask("look grey84:hex"), "grey84"));
   for (const std::string field :
        {"grey84x", "grey84x4x", "grey10", "rgb84", "rgb84x4", "grey1x2x3x4", "greyWxHxN"})
-    CHECK(code(client.ask("observe " + field)) != "");
+    CHECK_FALSE(code(client.ask("observe " + field)).empty());
   CHECK(client.ask("observe grey84x4 rgb20x20x1") ==
         "error bad-arguments grey84x4 and rgb20x20x1 are two stacks; there can be one");
   CHECK(client.ask("observe grey161x84x1") ==
