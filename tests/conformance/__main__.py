@@ -36,6 +36,7 @@ from results import Results
 from run import Run
 
 PATIENCE = 300  # seconds for one run
+INTERRUPTED = 130  # the exit status
 
 
 def parse_arguments():
@@ -147,26 +148,34 @@ def command_line():
     return [word for word in sys.argv[1:] if word not in ("--resume", "--publish")]
 
 
+def prepare(options):
+    """What is kept in the folder, the runs to compare, and what is left out of them."""
+    check_numbers(options)
+    first = base_seed(options.seed)
+    identity = {"version": ours.version(), "program": ours.digest(), "reference": REFERENCE_VERSION,
+                "options": options.racebeam_options, "forms": options.forms, "seeds": [first + i for i in range(options.seeds)]}
+    path = options.out / ("run.jsonl" if options.run else "results.jsonl")
+    kept = Results(path, identity, options.resume)
+    return kept, *chosen_runs(options, kept.identity["seeds"])
+
+
 def main():
     parser, options = parse_arguments()
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     try:
-        check_numbers(options)
-        first = base_seed(options.seed)
-        identity = {"version": ours.version(), "program": ours.digest(), "reference": REFERENCE_VERSION,
-                    "options": options.racebeam_options, "forms": options.forms, "seeds": [first + i for i in range(options.seeds)]}
-        path = options.out / ("run.jsonl" if options.run else "results.jsonl")
-        kept = Results(path, identity, options.resume)
-        runs, gaps = chosen_runs(options, kept.identity["seeds"])
+        kept, runs, gaps = prepare(options)
     except (ValueError, OSError) as error:
         parser.error(str(error))
+    except KeyboardInterrupt:
+        print("\nstopped before the first run")
+        return INTERRUPTED
     try:
         compare_all(runs, options, kept)
     except KeyboardInterrupt:
         print("\nstopped; scripts/conformance --resume goes on where this ended")
         conclude(runs, options, kept, gaps)
-        return 130
+        return INTERRUPTED
     return conclude(runs, options, kept, gaps)
 
 

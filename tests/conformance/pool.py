@@ -8,6 +8,7 @@ import tempfile
 import time
 
 CONTEXT = multiprocessing.get_context("fork")
+INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 
 
 class Task:
@@ -23,8 +24,9 @@ class Task:
         """In the child. It gets its own process group: an interrupt only reaches the parent, which then ends
         the group."""
         os.setpgid(0, 0)
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in INTERRUPTS:
             signal.signal(number, signal.SIG_DFL)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, INTERRUPTS)
         for stream in (1, 2):
             os.dup2(self.errors.fileno(), stream)
         outbox.send(function(self.item))
@@ -57,15 +59,28 @@ class Task:
         self.errors.close()
 
 
+def ready_of(tasks):
+    """The inboxes of those that have ended, after a second at the latest. Interrupts come through here only."""
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, INTERRUPTS)
+    try:
+        return multiprocessing.connection.wait([task.inbox for task in tasks], timeout=1)
+    finally:
+        signal.pthread_sigmask(signal.SIG_BLOCK, INTERRUPTS)
+
+
 def results(function, items, jobs, patience):
     """Yields (item, result) as they are finished. A result is what `function(item)` returned, or a sentence
-    if it failed."""
+    if it failed.
+
+    Interrupts are blocked but for the time that it waits: elsewhere they could end half a start of a process, or half
+    a line of what the caller keeps."""
     waiting, running = list(reversed(items)), []
+    usual = signal.pthread_sigmask(signal.SIG_BLOCK, INTERRUPTS)
     try:
         while waiting or running:
             while waiting and len(running) < jobs:
                 running.append(Task(function, waiting.pop(), patience))
-            ready = multiprocessing.connection.wait([task.inbox for task in running], timeout=1)
+            ready = ready_of(running)
             for task in list(running):
                 late = time.monotonic() > task.deadline
                 if task.inbox not in ready and not late:
@@ -79,3 +94,4 @@ def results(function, items, jobs, patience):
     finally:
         for task in running:
             task.kill()
+        signal.pthread_sigmask(signal.SIG_SETMASK, usual)
