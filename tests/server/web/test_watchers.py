@@ -169,7 +169,7 @@ class Watchers(unittest.TestCase):
                 self.assertTrue(reply.startswith(b"ok game=beamfall "), reply[:80])
                 seen.add(number(reply, "frame"))
             self.assertLess(max(agent.times, default=0), LONGEST)
-        self.assertGreater(len(seen), 3)
+        self.assertGreaterEqual(len(seen), 3)  # each round has a picture of its own
         refused = self.watcher().ask(b"watch room")
         self.assertTrue(refused.startswith(b"error limit "), refused)
         grown = (self.memory() - before) / 1000
