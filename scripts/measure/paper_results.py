@@ -256,7 +256,8 @@ class Document:
                           "ALE agrees", "ALE does not"], *rows))
         if none:
             self.say("`racebeam bench --screen none --frame-skip 5`, frames a second: " +
-                     ", ".join(f"{game} {number(speed, 0)}" for game, speed in none.items()) + ".")
+                     ", ".join(f"{game} {number(speed, 0)}" for game, speed in none.items()) +
+                     ". Of a game in several plans, the figure is that of the last plan, on its processor.")
 
     def logs(self):
         self.add("## Logs")
