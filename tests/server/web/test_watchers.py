@@ -159,8 +159,10 @@ class Watchers(unittest.TestCase):
         alone, _ = agent.measure(1)
         before = self.memory()
         crowd = [self.watcher() for _ in range(1000)]
-        seen = set()
-        for _ in range(3):
+        seen, rounds = set(), 0
+        while rounds < 3 or len(seen) <= rounds:  # until the agent acts among the replies of a round
+            self.assertLess(rounds, 12, "no round has two pictures")
+            rounds += 1
             agent.times = []
             for wire in crowd:
                 wire.send(b"watch room screen:delta")
@@ -169,7 +171,6 @@ class Watchers(unittest.TestCase):
                 self.assertTrue(reply.startswith(b"ok game=beamfall "), reply[:80])
                 seen.add(number(reply, "frame"))
             self.assertLess(max(agent.times, default=0), LONGEST)
-        self.assertGreaterEqual(len(seen), 3)  # each round has a picture of its own
         refused = self.watcher().ask(b"watch room")
         self.assertTrue(refused.startswith(b"error limit "), refused)
         grown = (self.memory() - before) / 1000
