@@ -242,7 +242,7 @@ class Document:
             `scripts/check/verify-with-ale` plays the same logs in ALE.""")
         rows, none = [], {}
         for name, found in self.figures.items():
-            none |= found["bench"]["none"]
+            none.setdefault(found["machine"].get("processor", "-"), {}).update(found["bench"]["none"])
             verified, ale = found["verified"], found["ale"] or {}
             if verified:
                 rows.append([f"`{name}`", *(f"{verified[key]:,}" for key in ("confirmed", "wrong", "not_checked")),
@@ -254,10 +254,10 @@ class Document:
             return
         self.add(rows_of(["plan", "confirmed", "wrong", "not checked", "frames a second and core", "of the time of the run",
                           "ALE agrees", "ALE does not"], *rows))
-        if none:
-            self.say("`racebeam bench --screen none --frame-skip 5`, frames a second: " +
-                     ", ".join(f"{game} {number(speed, 0)}" for game, speed in none.items()) +
-                     ". Of a game in several plans, the figure is that of the last plan, on its processor.")
+        for processor, speeds in none.items():
+            if speeds:
+                self.say(f"`racebeam bench --screen none --frame-skip 5` on {processor}, frames a second: " +
+                         ", ".join(f"{game} {number(speed, 0)}" for game, speed in speeds.items()) + ".")
 
     def logs(self):
         self.add("## Logs")
