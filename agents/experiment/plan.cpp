@@ -478,7 +478,8 @@ std::vector<Unit> units_of(const Plan& plan) {
 }
 
 SampleSettings sample_settings(const Plan& plan, const PlanGame& game) {
-  return {plan.seed, plan.background_screens, plan.class_screens, plan.play, game.background_csv};
+  return {plan.seed, plan.background_screens, plan.class_screens,
+          plan.play, game.background_csv,     plan.version};
 }
 
 PlaySettings play_settings(const Plan& plan, const PlanAgent& agent) {

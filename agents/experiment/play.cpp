@@ -1,5 +1,6 @@
 #include "agents/experiment/play.hpp"
 
+#include "agents/base/episode_start.hpp"
 #include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
 
@@ -57,10 +58,7 @@ Stage::Stage(const Cartridge& cartridge, const PlaySettings& settings, Drawing d
 
 void Stage::begin(std::uint32_t seed) {
   settings_.machine.random_seed = seed;
-  machine_.reload(seed);
-  if (settings_.mode) machine_.set_mode(*settings_.mode);
-  if (settings_.difficulty) machine_.set_difficulty(*settings_.difficulty);
-  if (settings_.mode || settings_.difficulty) machine_.reset_game();
+  begin_episode(machine_, settings_, seed);
 }
 
 Episode play(Agent& agent, Stage& stage, std::int64_t most_frames, const Watch& watch) {

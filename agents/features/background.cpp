@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "agents/base/episode_start.hpp"
 #include "agents/base/random.hpp"
 #include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
@@ -12,16 +13,25 @@ namespace {
 constexpr std::size_t kMostDecisionsBefore = 600, kDecisionsAfter = 600;
 constexpr double kPerturb = 0.95;
 
+Settings machine_of_samples(const Settings& wanted) {
+  Settings machine;
+  machine.frame_skip = wanted.frame_skip;
+  machine.color_averaging = wanted.color_averaging;
+  machine.cpu = wanted.cpu;
+  machine.sticky = 0;
+  return machine;
+}
+
 }  // namespace
 
 void sample_screens(const Cartridge& cartridge, const SampleSettings& settings, int screens,
                     std::uint64_t seed, const LookAtScreen& look) {
   Random random(seed);
-  Environment machine(cartridge.image, cartridge.game, settings.play.machine);
+  Environment machine(cartridge.image, cartridge.game, machine_of_samples(settings.play.machine));
   const auto any = [&] { return static_cast<int>(random.below(kActions)); };
   int seen = 0;
   while (seen < screens) {
-    machine.reload(static_cast<std::uint32_t>(random.next()) | 1U);
+    begin_episode(machine, settings.play, static_cast<std::uint32_t>(random.next()) | 1U);
     machine.set_drawing(Drawing::kNone);
     const int fixed = any();
     for (std::size_t left = random.below(kMostDecisionsBefore); left > 0 && !machine.game_over(); --left)

@@ -19,14 +19,16 @@ namespace racebeam {
 struct SampleSettings {
   std::uint32_t seed = 1;
   int background_screens = 18000, class_screens = 36000;
-  PlaySettings play;
+  PlaySettings play;  // of these, samples have frame_skip, color_averaging, mode and difficulty
   // The SHA-256 of the CSV file that the background is from; empty: it is discovered.
   std::string background_csv = {};
+  std::string version = {};  // of the program
 };
 
 // Calls `look` with so many screens of sample trajectories; `first` says that a new one begins. Each begins
 // with a random number of decisions of a Perturb policy, whose screens are not looked at, and goes on with
-// random actions.
+// random actions. What is discovered depends on nothing that its file does not name (game_facts.cpp), so that
+// the machine has no sticky actions, and no limit of frames, whatever the settings say.
 using LookAtScreen = std::function<void(const Environment& environment, bool first)>;
 void sample_screens(const Cartridge& cartridge, const SampleSettings& settings, int screens,
                     std::uint64_t seed, const LookAtScreen& look);

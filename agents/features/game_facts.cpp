@@ -5,6 +5,7 @@
 
 #include "agents/base/file_lock.hpp"
 #include "agents/base/sealed_file.hpp"
+#include "protocol/line/words.hpp"
 #include "recording/atomic_file.hpp"
 #include "system/invalid_input.hpp"
 
@@ -16,18 +17,27 @@ constexpr SealedKind kBackground = {
 constexpr SealedKind kClasses = {
     .what = "class file", .magic = "RBCLASSE", .version = 1, .most = std::size_t{1} << 28, .level = 9};
 
-// The first line of a file.
+std::string source_of(const Cartridge& cartridge) {
+  return "game=" + cartridge.game->name + " image=" + cartridge.image->md5;
+}
+
+// The first line of a file: all that what was discovered depends on.
 std::string source_of(const Cartridge& cartridge, const SampleSettings& settings, int screens) {
-  return "game=" + cartridge.game->name + " image=" + cartridge.image->md5 +
-         " seed=" + std::to_string(settings.seed) + " screens=" + std::to_string(screens) +
-         " frame_skip=" + std::to_string(settings.play.machine.frame_skip) +
-         " color_averaging=" + std::to_string(settings.play.machine.color_averaging);
+  const PlaySettings& play = settings.play;
+  std::string line = source_of(cartridge);
+  append_pair(line, "seed", std::int64_t{settings.seed});
+  append_pair(line, "screens", screens);
+  append_pair(line, "frame_skip", play.machine.frame_skip);
+  append_pair(line, "color_averaging", int{play.machine.color_averaging});
+  if (play.mode) append_pair(line, "mode", *play.mode);
+  if (play.difficulty) append_pair(line, "difficulty", *play.difficulty);
+  append_pair(line, "version", settings.version);
+  return line;
 }
 
 std::string source_of_background(const Cartridge& cartridge, const SampleSettings& settings) {
   if (settings.background_csv.empty()) return source_of(cartridge, settings, settings.background_screens);
-  return "game=" + cartridge.game->name + " image=" + cartridge.image->md5 +
-         " csv=" + settings.background_csv;
+  return source_of(cartridge) + " csv=" + settings.background_csv;
 }
 
 // Classes depend on the background, too.
@@ -85,8 +95,9 @@ const Fact& GameFacts::kept(std::optional<Fact>& fact, const std::string& ending
   if (fact) return *fact;
   if (folder_.empty()) return fact.emplace(discover());
   const std::string file = path(ending);
-  const FileLock lock(path(".lock"));
-  if (std::filesystem::exists(file)) return fact.emplace(read(file));
+  std::optional<FileLock> lock;
+  if (!std::filesystem::exists(file)) lock.emplace(path(".lock"));
+  if (std::filesystem::exists(file)) return fact.emplace(read(file));  // another process may have made it
   fact = discover();
   replace_file(file, bytes(*fact), Durable::kNow);
   return *fact;

@@ -20,10 +20,8 @@ constexpr std::size_t kMostCsvBytes = std::size_t{1} << 20;
 }  // namespace
 
 DiscoveryOptions::DiscoveryOptions() {
-  Settings& machine = samples.play.machine;
-  machine.frame_skip = 5;
-  machine.sticky = 0;
-  machine.max_episode_frames = 18000;
+  samples.play.machine.frame_skip = 5;
+  samples.version = RACEBEAM_VERSION;
 }
 
 void add_discovery_options(Subcommand& command, DiscoveryOptions& options) {

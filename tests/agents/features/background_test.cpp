@@ -82,3 +82,39 @@ TEST_CASE("Screens are those of random play, as many as were asked for") {
   });
   CHECK(seen == 1500);
 }
+
+TEST_CASE("Samples depend on nothing that the file of a background does not name") {
+  const SampleSettings settings{1, 500, 500, short_episodes()};
+  const auto samples = [](const SampleSettings& of) {
+    std::vector<std::uint64_t> states;
+    sample_screens(beamfall(), of, 700, of.seed,
+                   [&](const Environment& machine, bool) { states.push_back(machine.state_hash()); });
+    return states;
+  };
+  const auto file = [](const SampleSettings& of) { return bytes_of(Background{}, beamfall(), of); };
+  using Change = std::function<void(SampleSettings&)>;
+  const Change change =
+      GENERATE(Change([](SampleSettings& of) { of.play.machine.sticky = 0.25F; }),
+               Change([](SampleSettings& of) { of.play.machine.max_episode_frames = 300; }),
+               Change([](SampleSettings& of) { of.play.machine.system_seed = 7; }),
+               Change([](SampleSettings& of) { of.play.machine.truncate_on_life_loss = true; }),
+               Change([](SampleSettings& of) { of.play.machine.frame_skip = 4; }),
+               Change([](SampleSettings& of) { of.play.machine.color_averaging = true; }),
+               Change([](SampleSettings& of) { of.play.mode = 0; }),
+               Change([](SampleSettings& of) { of.play.difficulty = 0; }),
+               Change([](SampleSettings& of) { of.seed = 2; }));
+  SampleSettings other = settings;
+  change(other);
+  CHECK((samples(other) == samples(settings) || file(other) != file(settings)));
+}
+
+TEST_CASE("A background of another version is refused") {
+  SampleSettings settings{1, 500, 500, short_episodes()};
+  settings.version = "0.0.9";
+  const Scratch folder;
+  const std::string path = folder.path("a.background");
+  write(path, bytes_of(Background{}, beamfall(), settings));
+  settings.version = "0.1.0";
+  CHECK_THROWS_WITH(background_of(path, beamfall(), settings),
+                    Catch::Contains("version=0.0.9'; wanted is") && Catch::Contains("version=0.1.0'"));
+}

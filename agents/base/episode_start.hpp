@@ -1,0 +1,19 @@
+// How an episode begins: as the line protocol's `load` begins one.
+#pragma once
+
+#include <cstdint>
+
+#include "environment/environment.hpp"
+#include "protocol/line/play_settings.hpp"
+
+namespace racebeam {
+
+// Powers the machine on anew. Throws InvalidInput for a mode or a difficulty that the game lacks.
+inline void begin_episode(Environment& machine, const PlaySettings& play, std::uint32_t seed) {
+  machine.reload(seed);
+  if (play.mode) machine.set_mode(*play.mode);
+  if (play.difficulty) machine.set_difficulty(*play.difficulty);
+  if (play.mode || play.difficulty) machine.reset_game();
+}
+
+}  // namespace racebeam
