@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
+#include <string>
 
 namespace racebeam {
 namespace {
@@ -13,13 +15,22 @@ using Floats [[gnu::vector_size(8)]] = float;
 
 constexpr int kFetchAhead = 24;  // features whose weights are on their way from memory
 
+// Throws InvalidInput if a trace cannot name each weight.
+std::size_t weights_of(std::size_t features, std::size_t actions) {
+  const std::size_t most = std::numeric_limits<std::uint32_t>::max() / actions;
+  if (features > most)
+    throw InvalidInput("there are " + std::to_string(features) + " features; a learner accepts at most " +
+                       std::to_string(most));
+  return features * actions;
+}
+
 }  // namespace
 
 Sarsa::Sarsa(const SarsaSettings& settings, std::size_t features, std::uint64_t seed, int actions)
     : settings_(settings),
       actions_(static_cast<std::size_t>(actions)),
       grows_(features == 0),
-      weights_(features * actions_),
+      weights_(weights_of(features, actions_)),
       scaled_(settings.reward_scale),
       random_(seed) {}
 
@@ -100,6 +111,7 @@ void Sarsa::compute_all_values(const ActiveFeatures& features) {
 
 // Of actions with equal values, each is as likely.
 int Sarsa::choose() {
+  if (!std::isfinite(std::accumulate(values_.begin(), values_.end(), 0.0))) diverged_ = true;
   if (random_.uniform() < (learning_ ? settings_.exploration : settings_.evaluation_exploration))
     return static_cast<int>(random_.below(actions_));
   const double best =
@@ -108,7 +120,6 @@ int Sarsa::choose() {
   std::size_t count = 0;
   for (std::size_t action = 0; action < actions_; ++action)
     if (values_[action] == best) equal[count++] = static_cast<int>(action);
-  if (count == 0) diverged_ = true;  // not a number
   return count <= 1 ? equal[0] : equal[random_.below(count)];
 }
 
@@ -163,7 +174,7 @@ void Sarsa::move_weights(float step) {
 }
 
 void Sarsa::refine(std::size_t groups, std::span<const FeatureSplit> splits) {
-  if (groups * actions_ > weights_.size()) weights_.resize(groups * actions_);
+  if (groups * actions_ > weights_.size()) weights_.resize(weights_of(groups, actions_));
   for (const FeatureSplit& each : splits) split(each);
 }
 

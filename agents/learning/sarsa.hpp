@@ -33,6 +33,7 @@ struct SarsaSettings {
 class Sarsa {
  public:
   // features: the number of indices; 0: none are known yet, and refine() adds them. actions: at most 18.
+  // Throws InvalidInput for more features than traces can number.
   Sarsa(const SarsaSettings& settings, std::size_t features, std::uint64_t seed, int actions = kActions);
 
   // The first action of an episode, in a state with these features.

@@ -173,6 +173,22 @@ TEST_CASE("Weights that are not finite are noticed") {
   CHECK(sarsa.diverged());
 }
 
+TEST_CASE("Weights that the last update of training made infinite are noticed in evaluation") {
+  for (const double reward : {1e39, -1e39}) {
+    Sarsa sarsa(plain(0), 1, 1);
+    sarsa.begin(active({0}));
+    sarsa.end(reward);
+    sarsa.set_learning(false);
+    sarsa.begin(active({0}));
+    CHECK(sarsa.diverged());
+  }
+}
+
+TEST_CASE("More features than traces can number are refused before memory is taken") {
+  CHECK_THROWS_WITH(Sarsa(SarsaSettings(), std::size_t{1} << 40, 1),
+                    "there are 1099511627776 features; a learner accepts at most 238609294");
+}
+
 TEST_CASE("A learner that was written goes on as the one that wrote it") {
   const SarsaSettings settings;
   Sarsa one(settings, 50, 1), other(settings, 50, 2);
