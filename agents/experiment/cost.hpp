@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "agents/experiment/plan.hpp"
+#include "system/resources.hpp"
 
 namespace racebeam {
 
@@ -36,5 +37,8 @@ double seconds_of_trial(const Plan& plan, const PlanAgent& agent);
 
 // Episodes are taken to be as long as they may be, so that this is the most.
 Cost cost_of(const Plan& plan);
+
+// Throws InvalidInput if so many threads are expected to take more than `bytes` of memory.
+void check_memory(const Plan& plan, unsigned threads, const Allowance& bytes);
 
 }  // namespace racebeam

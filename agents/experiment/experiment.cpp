@@ -190,8 +190,9 @@ class Run {
   }
 
   std::function<void()> watch_of(Own& own, const Trial& trial) {
-    if (settings_.reports.count() == 0) return {};
+    if (settings_.reports.count() == 0) return settings_.check;
     return [this, &own, &trial, last = Clock::now()]() mutable {
+      if (settings_.check) settings_.check();
       if (Clock::now() - last < settings_.reports) return;
       last = Clock::now();
       const Trial::Place place = trial.place();

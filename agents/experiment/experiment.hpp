@@ -17,6 +17,8 @@ struct ExperimentSettings {
   std::chrono::milliseconds checkpoints{60000};  // at least so much time between two
   CpuKind cpu = CpuKind::kAuto;
   std::chrono::milliseconds reports{0};  // between two within a unit; 0: only finished units are reported
+  std::function<void()> check =
+      {};  // called after each decision, by all threads; what it throws ends the run
 };
 
 // Where an experiment is.
@@ -35,7 +37,7 @@ using Report = std::function<void(const Progress& progress)>;  // from one threa
 // `plan` is bound. Finished units are not run again, and unfinished ones go on. Throws InvalidInput for a
 // folder of another plan, or with backgrounds or classes of another, before anything is written; and
 // std::runtime_error when units are still being run by another process, or when a file cannot be written.
-// What is finished stays, and is in the tables.
+// What is finished stays, and is in the tables, whatever ends the run.
 void run_experiment(const Plan& plan, const Images& images, const ResultsFolder& folder,
                     const ExperimentSettings& settings, const Report& report);
 

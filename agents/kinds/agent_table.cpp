@@ -25,7 +25,8 @@ constexpr std::array kPerturbSettings = {
 constexpr std::array<std::string_view, 3> kRewardScales = {"first", "none", "sign"};  // as RewardScale counts
 
 constexpr double kLeastStep = 1e-9, kMostStep = 100;
-constexpr int kMostVectors = 65535;
+constexpr int kMostVectors = 65535, kMostOnes = 100000;
+constexpr int kMostBuckets = 20000;  // a sum of 100,000 hashes fits into 31 bits
 
 constexpr AgentSetting alpha(double value, std::string_view source) {
   return {"alpha", value, kLeastStep, kMostStep, false, source};
@@ -72,8 +73,8 @@ constexpr std::array kLshSettings = {alpha(0.5, "appendix C, LSH"),
                                      kClearTraces,
                                      kRewardScale,
                                      AgentSetting{"vectors", 2000, 1, kMostVectors, true, "appendix C, LSH"},
-                                     AgentSetting{"ones", 1000, 1, 100000, true, "appendix C, LSH"},
-                                     AgentSetting{"buckets", 50, 1, 65535, true, "appendix C, LSH"}};
+                                     AgentSetting{"ones", 1000, 1, kMostOnes, true, "appendix C, LSH"},
+                                     AgentSetting{"buckets", 50, 1, kMostBuckets, true, "appendix C, LSH"}};
 constexpr std::array kRamSettings = {alpha(0.2, "appendix C, RAM-based"),
                                      lambda(0.5, "appendix C, RAM-based"),
                                      kGamma,
@@ -207,6 +208,29 @@ std::unique_ptr<Agent> make_uct(const AgentContext& context) {
                                                   .reward_scale = reward_scale(values)});
 }
 
+double tiles(const AgentValues& values) { return values.growth("grid_width") * values.growth("grid_height"); }
+Effort effort_of_basic(const AgentValues& values) { return {tiles(values), tiles(values)}; }
+Effort effort_of_bass(const AgentValues& values) {
+  const double pairs = tiles(values) * tiles(values);
+  return {pairs, pairs};
+}
+Effort effort_of_disco(const AgentValues& values) {
+  const double tilings = values.growth("tilings"), grid = values.growth("grid");
+  return {tilings, tilings * grid * grid};
+}
+// Half of the memory are the weights, and half the vectors.
+Effort effort_of_lsh(const AgentValues& values) {
+  const double vectors = values.growth("vectors");
+  return {vectors, vectors * (values.growth("buckets") + values.growth("ones")) / 2};
+}
+Effort effort_of_tree(const AgentValues& values) {
+  return {values.growth("frames"), values.growth("frames")};
+}
+Effort effort_of_uct(const AgentValues& values) {
+  const double simulations = values.growth("simulations");
+  return {simulations * values.growth("depth_frames"), simulations};
+}
+
 constexpr std::array kKinds = {
     AgentKind{.name = "random",
               .summary = "a random action on every frame",
@@ -241,6 +265,7 @@ constexpr std::array kKinds = {
               .settings = kTileSettings,
               .decisions_per_second = 9100,
               .megabytes = 20,
+              .effort = effort_of_basic,
               .make = make_basic},
     AgentKind{.name = "bass",
               .summary = "SARSA on SECAM's colours of tiles, and all pairs of these",
@@ -249,6 +274,7 @@ constexpr std::array kKinds = {
               .settings = kTileSettings,
               .decisions_per_second = 5000,
               .megabytes = 340,
+              .effort = effort_of_bass,
               .make = make_bass},
     AgentKind{.name = "disco",
               .summary = "SARSA on places and velocities of objects of discovered classes",
@@ -257,6 +283,7 @@ constexpr std::array kKinds = {
               .settings = kDiscoSettings,
               .decisions_per_second = 6500,
               .megabytes = 40,
+              .effort = effort_of_disco,
               .make = make_disco},
     AgentKind{.name = "lsh",
               .summary = "SARSA on locality sensitive hashes of the screen",
@@ -265,6 +292,7 @@ constexpr std::array kKinds = {
               .settings = kLshSettings,
               .decisions_per_second = 3600,
               .megabytes = 40,
+              .effort = effort_of_lsh,
               .make = make_lsh},
     AgentKind{.name = "ram",
               .summary = "SARSA on the bits of RAM, and all pairs of these",
@@ -289,6 +317,7 @@ constexpr std::array kKinds = {
               .settings = kFullTreeSettings,
               .decisions_per_second = 0.7,
               .megabytes = 210,
+              .effort = effort_of_tree,
               .make = make_full_tree},
     AgentKind{.name = "uct",
               .summary = "UCT with random rollouts",
@@ -297,6 +326,7 @@ constexpr std::array kKinds = {
               .settings = kUctSettings,
               .decisions_per_second = 1,  // an estimate: whole episodes were not measured
               .megabytes = 10,
+              .effort = effort_of_uct,
               .make = make_uct},
     AgentKind{.name = "iw1",
               .summary = "IW(1): breadth-first search of states with a new byte of RAM",
@@ -305,6 +335,7 @@ constexpr std::array kKinds = {
               .settings = kWidthSettings,
               .decisions_per_second = 1,  // an estimate: whole episodes were not measured
               .megabytes = 130,
+              .effort = effort_of_tree,
               .make = make_iw1},
 };
 
@@ -314,10 +345,17 @@ AgentValues::AgentValues(std::span<const AgentSetting> settings) : settings_(set
   for (const AgentSetting& setting : settings) values_.push_back(setting.value);
 }
 
-double AgentValues::operator[](std::string_view name) const {
+double AgentValues::operator[](std::string_view name) const { return values_[place_of(name)]; }
+
+double AgentValues::growth(std::string_view name) const {
+  const std::size_t place = place_of(name);
+  return values_[place] / settings_[place].value;
+}
+
+std::size_t AgentValues::place_of(std::string_view name) const {
   const auto found = std::ranges::find(settings_, name, &AgentSetting::name);
   if (found == settings_.end()) throw std::out_of_range("no setting " + std::string(name));
-  return values_[static_cast<std::size_t>(found - settings_.begin())];
+  return static_cast<std::size_t>(found - settings_.begin());
 }
 
 std::span<const AgentKind> agent_kinds() { return kKinds; }

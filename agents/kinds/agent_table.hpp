@@ -35,11 +35,14 @@ class AgentValues {
 
   double operator[](std::string_view name) const;  // throws std::out_of_range for a name that is not there
   int whole(std::string_view name) const { return static_cast<int>((*this)[name]); }
+  double growth(std::string_view name) const;  // the value, in multiples of the default
   void set(std::size_t place, double value) { values_[place] = value; }  // as in settings()
   std::span<const AgentSetting> settings() const { return settings_; }
   bool operator==(const AgentValues& other) const { return values_ == other.values_; }
 
  private:
+  std::size_t place_of(std::string_view name) const;
+
   std::span<const AgentSetting> settings_;
   std::vector<double> values_;
 };
@@ -59,6 +62,11 @@ struct AgentContext {
 // What an experiment does with an agent if the plan says nothing else.
 enum class Role { kBaseline, kLearner, kPlanner };
 
+// Time of a decision, and memory: in multiples of what they are with the default settings.
+struct Effort {
+  double time = 1, memory = 1;
+};
+
 struct AgentKind {
   std::string_view name;
   std::string_view summary;
@@ -66,8 +74,11 @@ struct AgentKind {
   bool each_action = false;       // there is one of this kind for each of the 18 actions
   std::optional<int> frame_skip;  // frames of a decision; none: the plan's
   std::span<const AgentSetting> settings;
-  double decisions_per_second;  // of processor time, measured: the mean of the five training games
+  // With the default settings. Of processor time, measured: the mean of the five training games.
+  double decisions_per_second;
   double megabytes;  // the most memory that a trial takes, a checkpoint being written included; measured
+  // Of other settings, about. Null: they change it little.
+  Effort (*effort)(const AgentValues& values) = nullptr;
   std::unique_ptr<Agent> (*make)(const AgentContext& context);
 };
 

@@ -14,8 +14,10 @@
 #include "agents/experiment/plan.hpp"
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/options.hpp"
+#include "cli/commands/interruption.hpp"
 #include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
+#include "system/resources.hpp"
 
 namespace racebeam {
 namespace {
@@ -23,7 +25,8 @@ namespace {
 constexpr auto kExperimentFooter = R"(
 RESULTS is a folder. It gets the plan with every setting written out, results.csv with a row for each evaluation
 episode, curves.csv with a row for each training episode, times.csv, and a log of each evaluation episode. The
-command can be stopped at any time, and repeated: finished units are not run again, and unfinished ones go on.
+command can be stopped at any time, and repeated: finished units are not run again, and unfinished ones go on. SIGINT,
+SIGHUP and SIGTERM end it after the decisions that are being made; a second signal at once.
 
 Examples:
   racebeam experiment smoke --into results
@@ -79,8 +82,12 @@ class ProgressLine {
   ProgressLine() = default;
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
-  ~ProgressLine() {
+  ~ProgressLine() { end(); }
+
+  void end() {
     if (is_open_) std::printf("\n");
+    is_open_ = false;
+    std::fflush(stdout);
   }
 
   bool changes() const { return terminal_; }
@@ -144,11 +151,20 @@ void run(const ExperimentOptions& options) {
   settings.shard = shard.number;
   settings.shards = shard.count;
   bind(plan, images, RACEBEAM_VERSION);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer
+  check_memory(plan, settings.threads, usable_memory());
+  std::signal(SIGXFSZ, SIG_IGN);    // a file that may not grow is an error of its writer
+  const Interruption interruption;  // ends after the tables are put together
+  settings.check = [&] { interruption.check(); };
   ProgressLine line;
   if (line.changes()) settings.reports = kReports;
-  run_experiment(plan, images, ResultsFolder(options.into), settings,
-                 [&](const Progress& at) { line.report(at); });
+  try {
+    run_experiment(plan, images, ResultsFolder(options.into), settings,
+                   [&](const Progress& at) { line.report(at); });
+  } catch (const Interrupted&) {
+    line.end();
+    std::fprintf(stderr, "racebeam: a signal ended the experiment; the same command goes on with it\n");
+    throw;
+  }
 }
 
 }  // namespace

@@ -81,6 +81,20 @@ class Experiment(unittest.TestCase):
         self.assertEqual(self.experiment("parts", "--cpu", "interpreter", env=os.environ | {"RACEBEAM_SIMD": "plain"})[0], 0)
         self.assertEqual(files(self.place / "parts"), files(self.place / "whole"))
 
+    def test_a_signal_ends_it_with_a_sentence_and_all_that_is_finished_is_in_the_tables(self):
+        self.plan.write_text(PLAN.replace("training_episodes = 8", "training_episodes = 800"))
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            into = self.place / number.name
+            process = subprocess.Popen([BINARY, "experiment", str(self.plan), "--into", str(into), "--threads", "1"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            for _ in range(19):  # all of the baselines
+                process.stdout.readline()
+            process.send_signal(number)
+            _, errors = process.communicate(timeout=PATIENCE)
+            self.assertEqual((process.returncode, errors), (
+                -number, "racebeam: a signal ended the experiment; the same command goes on with it\n"))
+            self.assertEqual((into / "results.csv").read_text().count("\n"), 1 + 19 * 3)
+
     def test_a_terminal_shows_progress_within_a_unit(self):
         self.plan.write_text('games = ["beamfall"]\nagents = ["uct"]\n[agent.uct]\ntrials = 1\nsimulations = 60\n')
         terminal = Terminal([BINARY, "experiment", str(self.plan), "--into", str(self.place / "results")])

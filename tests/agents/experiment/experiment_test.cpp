@@ -1,5 +1,6 @@
 #include "agents/experiment/experiment.hpp"
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <map>
 #include <optional>
@@ -146,6 +147,27 @@ TEST_CASE("What is finished is in the tables, even if a unit fails") {
   write(folder.checkpoint("beamfall-basic-1"), "RBCHECKP");
   CHECK_THROWS_WITH(run(bound_plan(kPlan), folder), Catch::StartsWith("checkpoint beamfall-basic-1"));
   CHECK(parse_results("", contents(folder.results())).size() == 38);
+}
+
+TEST_CASE("What ends a run early is handed on, and what is finished is in the tables") {
+  struct Ended {};
+  const Scratch place;
+  const ResultsFolder whole(place.path("whole")), folder(place.path("results"));
+  const Plan plan = bound_plan(kPlan);
+  run(plan, whole);
+  std::atomic<int> finished = 0;
+  ExperimentSettings settings{.threads = 2};
+  settings.check = [&] {
+    if (finished >= 5) throw Ended();
+  };
+  CHECK_THROWS_AS(run_experiment(plan, Images(), folder, settings,
+                                 [&](const Progress& at) { finished += at.unit_finished; }),
+                  Ended);
+  const std::size_t rows = parse_results("", contents(folder.results())).size();
+  CHECK(rows >= 10);
+  CHECK(rows < 40);
+  run(plan, folder);
+  CHECK(files_of(whole) == files_of(folder));
 }
 
 TEST_CASE("A folder that cannot be made is named") {
