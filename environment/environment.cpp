@@ -223,7 +223,7 @@ bool Environment::same_state(const Environment& other) const {
 
 void Environment::restore(const Saved& saved) { impl_->restore(saved); }
 void Environment::check(const Saved& saved) const { impl_->check_values(saved); }
-std::shared_ptr<const Environment::Saved> Environment::save_classic() const {
+std::shared_ptr<const Environment::Saved> Environment::save_without_pictures() const {
   return impl_->save_without_pictures();
 }
 void Environment::restore_classic(const Saved& saved) { impl_->restore_classic(saved); }

@@ -13,14 +13,15 @@ class MachineModel final : public Model {
  public:
   MachineModel(const Cartridge& cartridge, Settings settings, std::uint32_t seed);
 
-  // The state of the game that is played, without its generator.
-  static State state_of(const Environment& game) { return game.save(); }
+  // The state of the game that is played, without its generator and its pictures. Pictures would take most of
+  // the memory of a tree, and of the time to save.
+  static State state_of(const Environment& game) { return game.save_without_pictures(); }
 
   int actions() const override { return kActions; }
   void enter(const State& state) override;
   double act(int action) override;
   bool over() const override { return machine_.game_over(); }
-  State save() const override { return machine_.save(); }
+  State save() const override { return state_of(machine_); }
   // Without sticky actions, what the players hold decides nothing: each action sets it anew. States that
   // differ in it alone are equal, as the paper's duplicates are.
   std::uint64_t hash(const State& state) const override;

@@ -60,7 +60,7 @@ std::shared_ptr<const Environment::Saved> Environment::Impl::save(bool with_rand
 void Environment::Impl::restore(const Saved& saved) {
   check(saved);
   console.restore(saved.values.machine, saved.cartridge_ram);
-  console.restore_pictures(saved.pictures);
+  if (saved.pictures.current) console.restore_pictures(saved.pictures);
   console.sound() = saved.values.sound;
   rule.restore(saved.values.rule);
   play = saved.values.play;

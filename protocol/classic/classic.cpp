@@ -128,7 +128,7 @@ int ClassicSession::recorded_act(int a, int b) {
 // A stack: the newest states are kept.
 void ClassicSession::save_state() {
   if (saved_.size() == kMostClassicStates) saved_.pop_front();
-  saved_.push_back(environment_.save_classic());
+  saved_.push_back(environment_.save_without_pictures());
 }
 
 void ClassicSession::load_state() {

@@ -167,7 +167,7 @@ TEST_CASE("The stack keeps the newest 4096 states") {
 TEST_CASE("A saved state holds no pictures") {
   Client client;
   client.say("1,0,0,0\n3,18\n");
-  const auto pictures = client.machine.save_classic()->pictures;
+  const auto pictures = client.machine.save_without_pictures()->pictures;
   CHECK_FALSE(pictures.current);
   CHECK_FALSE(pictures.previous);
 }

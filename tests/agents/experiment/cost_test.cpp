@@ -9,9 +9,8 @@ using namespace racebeam;
 namespace {
 
 Cost cost_with(const std::string& agent, const std::string& settings) {
-  return cost_of(parse_plan("games = [\"beamfall\"]\nagents = [\"" + agent + "\"]\n[agent." + agent + "]\n" +
-                                settings,
-                            ""));
+  return cost_of(parse_plan(
+      "games = [\"beamfall\"]\nagents = [\"" + agent + "\"]\n[agent." + agent + "]\n" + settings, ""));
 }
 
 }  // namespace
@@ -39,11 +38,13 @@ TEST_CASE("A plan that takes more memory than there is is refused") {
   const Plan plan = parse_plan("games = [\"beamfall\"]\nagents = [\"random\", \"bass\"]\n", "");
   const Allowance gigabyte{1000000000, "the control group"};
   CHECK_NOTHROW(check_memory(plan, 2, gigabyte));
-  CHECK_THROWS_WITH(check_memory(plan, 3, gigabyte),
-                    "the plan takes about 1090 MB of memory: 340 MB for bass on each of 3 threads; the control "
-                    "group allows 1000 MB; accepted are fewer --threads, or settings that take less");
+  CHECK_THROWS_WITH(
+      check_memory(plan, 3, gigabyte),
+      "the plan takes about 1090 MB of memory: 340 MB for bass on each of 3 threads; the control "
+      "group allows 1000 MB; accepted are fewer --threads, or settings that take less");
   const Plan large = parse_plan(
-      "games = [\"beamfall\"]\nagents = [\"bass\"]\n[agent.bass]\ntrials = 1\ngrid_width = 160\ngrid_height = "
+      "games = [\"beamfall\"]\nagents = [\"bass\"]\n[agent.bass]\ntrials = 1\ngrid_width = 160\ngrid_height "
+      "= "
       "210\n",
       "");
   CHECK_THROWS_WITH(check_memory(large, 8, gigabyte), Catch::Contains("for bass on each of 1 threads"));

@@ -90,7 +90,7 @@ TEST_CASE("The game goes where the search saw it go, so that the subtree is kept
   }
 }
 
-TEST_CASE("A tree of 26,600 states takes less than 256 MiB") {
+TEST_CASE("A tree of 26,600 states takes less than 128 MiB") {
   Environment game(beamfall().image, beamfall().game, settings());
   MachineModel model(beamfall(), settings(), 5);
   std::vector<Model::State> states;
@@ -100,5 +100,5 @@ TEST_CASE("A tree of 26,600 states takes less than 256 MiB") {
     model.act(i % 18);
     states.push_back(model.save());
   }
-  CHECK(resident_memory() - before < std::uint64_t{256} << 20);
+  CHECK(resident_memory() - before < std::uint64_t{128} << 20);
 }

@@ -141,6 +141,26 @@ TEST_CASE("A state of another image or game is refused and changes nothing") {
   CHECK(environment.frame_number() == 0);
 }
 
+TEST_CASE("A state without pictures is the same from the next frame on") {
+  Settings settings = sticky_settings();
+  settings.sticky = 0;
+  Environment running(test::counter_image(), test::game(), settings),
+      other(test::counter_image(), test::game(), settings);
+  for (unsigned run = 0; run < 20; ++run) {
+    play(running, 7, run);
+    const auto whole = running.save(), small = running.save_without_pictures();
+    CHECK_FALSE(small->pictures.current);
+    CHECK(small->state_hash() == whole->state_hash());
+    running.set_drawing(run % 2 == 0 ? Drawing::kNone : Drawing::kEvery);
+    play(running, 3, run + 100);
+    running.restore(*small);
+    other.restore(*whole);
+    CHECK(running.state_hash() == other.state_hash());
+    running.set_drawing(Drawing::kEvery);
+    CHECK(play(running, 6, run + 200) == play(other, 6, run + 200));
+  }
+}
+
 TEST_CASE("A classic restore answers the old screen and RAM until a frame runs") {
   Environment environment(test::counter_image(), test::game(), sticky_settings());
   play(environment, 5, 1);
