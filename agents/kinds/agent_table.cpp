@@ -39,7 +39,7 @@ constexpr AgentSetting kEpsilon{"epsilon", 0.05, 0, 1, false, "appendix C, All a
 constexpr AgentSetting kEvaluationEpsilon{
     "evaluation_epsilon", 0.05, 0, 1, false, "docs/paper-notes.md, Evaluation"};
 constexpr AgentSetting kLeastTrace{"least_trace", 0.01, 0, 1, false, "docs/paper-notes.md, Traces"};
-constexpr AgentSetting kClearTraces{"clear_other_traces", 1, 0, 1, true, "docs/paper-notes.md, Traces"};
+constexpr AgentSetting kClearTraces{"clear_other_traces", 0, 0, 1, true, "docs/paper-notes.md, Traces"};
 constexpr AgentSetting kRewardScale{"reward_scale", 0, 0, 2, true, "docs/paper-notes.md, Rewards",
                                     kRewardScales};
 

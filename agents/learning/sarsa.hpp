@@ -26,7 +26,7 @@ struct SarsaSettings {
   double exploration = 0.05;             // epsilon, of all agents
   double evaluation_exploration = 0.05;  // paper-notes: in evaluation, too
   double least_trace = 0.01;             // paper-notes: smaller traces are dropped
-  bool clear_other_traces = true;        // paper-notes: of the same feature, those of the actions not taken
+  bool clear_other_traces = false;       // paper-notes: of the same feature, those of the actions not taken
   RewardScale reward_scale = RewardScale::kFirst;  // paper-notes
 };
 

@@ -63,16 +63,17 @@ class Basic:
 
 
 class Sarsa:
-    """Linear SARSA with replacing traces. Each feature has one trace, of the action that was taken last."""
+    """Linear SARSA with replacing traces, one for each feature and action."""
 
     def __init__(self, features, seed):
         self.weights = np.zeros((features, ACTIONS), np.float32)
-        self.traces, self.taken = np.zeros(features, np.float32), np.zeros(features, np.intp)
+        self.traces, self.live = np.zeros(features * ACTIONS, np.float32), np.empty(0, np.intp)  # live: where they are not 0
         self.most_active, self.first_reward = 1, 0.0
         self.random, self.learning = Random(seed), True
 
     def begin(self, features):
-        self.traces[:] = 0
+        self.traces[self.live] = 0
+        self.live = np.empty(0, np.intp)
         return self.choose(features, self.values(features))
 
     def next(self, reward, features):
@@ -111,15 +112,17 @@ class Sarsa:
     def learn(self, active, taken, error):
         if not self.learning:
             return
-        self.traces[active], self.taken[active] = 1, taken
+        replaced = active * ACTIONS + taken
+        self.traces[replaced] = 1
         self.most_active = max(self.most_active, len(active))
         step = STEP_SIZE / self.most_active * error
         if not np.isfinite(step):
             sys.exit("sarsa.py: the weights diverged")
-        live = np.flatnonzero(self.traces)
-        self.weights[live, self.taken[live]] += np.float32(step) * self.traces[live]
+        live = np.union1d(self.live, replaced)
+        self.weights.reshape(-1)[live] += np.float32(step) * self.traces[live]
         decayed = self.traces[live] * np.float32(DISCOUNT * DECAY)
         self.traces[live] = np.where(decayed < LEAST_TRACE, np.float32(0), decayed)
+        self.live = live[decayed >= LEAST_TRACE]
 
 
 def play(session, agent, basic, load):
