@@ -120,15 +120,17 @@ struct Batch::Impl final : VectorHost {
   void check_free() const;
   void check_free(std::size_t machine) const;
   void check_machines(std::span<const std::int32_t> machines) const;
-  void begin(std::span<const std::size_t> numbers);
+  void begin(std::span<const std::int32_t> machines);
   void play(std::size_t number);
-  std::span<const std::size_t> await_batch();
+  std::size_t busy() const;
+  std::span<const std::size_t> await(std::size_t count);
   [[noreturn]] void rethrow_failure();
 
   struct Job {
     Act act;
     bool resets = false;
     std::int64_t seed = -1;
+    std::uint64_t place = 0;  // among all that were sent
     bool failed = false;
   };
 
@@ -151,6 +153,7 @@ struct Batch::Impl final : VectorHost {
   std::vector<Act> acts;              // of a request; a member to reuse its memory
   std::vector<std::uint8_t> playing;  // by machine: from send() to receive()
   std::vector<Job> jobs;
+  std::uint64_t sent = 0;
   std::vector<std::size_t> received;
   std::mutex mutex;
   std::condition_variable one_is_done;
@@ -174,10 +177,7 @@ std::span<const Act> Batch::Impl::acts_of(std::span<const int> actions, auto mac
 }
 
 void Batch::Impl::check_free() const {
-  const auto busy = std::ranges::count(playing, 1);
-  refuse_unless(busy == 0, [&] {
-    return count_of(static_cast<std::size_t>(busy), "machines play; receive them first");
-  });
+  refuse_unless(busy() == 0, [&] { return count_of(busy(), "machines play; receive them first"); });
 }
 
 void Batch::Impl::check_free(std::size_t machine) const {
@@ -198,10 +198,16 @@ void Batch::Impl::check_machines(std::span<const std::int32_t> machines) const {
   }
 }
 
-void Batch::Impl::begin(std::span<const std::size_t> numbers) {
-  for (const std::size_t number : numbers) playing[number] = 1;
+void Batch::Impl::begin(std::span<const std::int32_t> machines) {
+  const std::vector<std::size_t> numbers(machines.begin(), machines.end());
+  for (const std::size_t number : numbers) {
+    playing[number] = 1;
+    jobs[number].place = sent++;
+  }
   queue.push(numbers);
 }
+
+std::size_t Batch::Impl::busy() const { return static_cast<std::size_t>(std::ranges::count(playing, 1)); }
 
 // Runs on any thread.
 void Batch::Impl::play(std::size_t number) {
@@ -220,14 +226,13 @@ void Batch::Impl::play(std::size_t number) {
   one_is_done.notify_one();
 }
 
-// Waits for a batch; meanwhile the caller's thread runs machines, too.
-std::span<const std::size_t> Batch::Impl::await_batch() {
-  const auto busy = static_cast<std::size_t>(std::ranges::count(playing, 1));
-  refuse_unless(busy >= batch_size, [&] {
-    return count_of(busy, "machines play, and a receive takes ") + std::to_string(batch_size) +
+// Meanwhile the caller's thread runs machines, too.
+std::span<const std::size_t> Batch::Impl::await(std::size_t count) {
+  refuse_unless(busy() >= count, [&] {
+    return count_of(busy(), "machines play, and a receive takes ") + std::to_string(count) +
            "; send some first";
   });
-  const auto enough = [this] { return done.size() >= batch_size; };
+  const auto enough = [&] { return done.size() >= count; };
   Lookout lookout(watch);
   std::unique_lock lock(mutex);
   while (!enough()) {
@@ -237,10 +242,11 @@ std::span<const std::size_t> Batch::Impl::await_batch() {
     lock.lock();
     if (!worked) one_is_done.wait_for(lock, Lookout::kInterval, enough);
   }
-  const auto end = done.begin() + static_cast<std::ptrdiff_t>(batch_size);
+  const auto end = done.begin() + static_cast<std::ptrdiff_t>(count);
   received.assign(done.begin(), end);
   done.erase(done.begin(), end);
-  if (batch_size == vector.size()) std::ranges::sort(received);
+  if (batch_size == vector.size())
+    std::ranges::sort(received, {}, [this](std::size_t number) { return jobs[number].place; });
   for (const std::size_t number : received) playing[number] = 0;
   return received;
 }
@@ -308,13 +314,22 @@ void Batch::show(const BatchArrays& out) const {
     impl_->layout.write(impl_->vector.slot(number), number, number, out);
 }
 
+void Batch::end_episodes(std::span<const std::int32_t> machines, std::span<const std::int64_t> seeds) {
+  if (!seeds.empty()) check_count(seeds.size(), "seeds", machines.size());
+  impl_->check_machines(machines);
+  for (std::size_t i = 0; i < machines.size(); ++i) {
+    Slot& slot = impl_->vector.slot(static_cast<std::size_t>(machines[i]));
+    slot.end_episode(seed_of(seeds.empty() ? -1 : seeds[i]));
+  }
+}
+
 void Batch::send(std::span<const Act> acts, std::span<const std::int32_t> machines) {
   check_count(acts.size(), "actions", machines.size());
   for (const Act& act : acts) check_act(act);
   impl_->check_machines(machines);
-  std::vector<std::size_t> numbers(machines.begin(), machines.end());
-  for (std::size_t i = 0; i < numbers.size(); ++i) impl_->jobs[numbers[i]] = {.act = acts[i]};
-  impl_->begin(numbers);
+  for (std::size_t i = 0; i < machines.size(); ++i)
+    impl_->jobs[static_cast<std::size_t>(machines[i])] = {.act = acts[i]};
+  impl_->begin(machines);
 }
 
 void Batch::send(std::span<const int> actions, std::span<const std::int32_t> machines) {
@@ -327,15 +342,17 @@ void Batch::send(std::span<const int> actions, std::span<const std::int32_t> mac
 void Batch::send_resets(std::span<const std::int64_t> seeds) {
   if (!seeds.empty()) check_count(seeds.size(), "seeds", size());
   impl_->check_free();
-  std::vector<std::size_t> numbers(size());
-  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
-  for (const std::size_t number : numbers)
+  std::vector<std::int32_t> all(size());
+  std::iota(all.begin(), all.end(), 0);
+  for (std::size_t number = 0; number < size(); ++number)
     impl_->jobs[number] = {.act = {}, .resets = true, .seed = seeds.empty() ? -1 : seeds[number]};
-  impl_->begin(numbers);
+  impl_->begin(all);
 }
 
-void Batch::receive(const BatchArrays& out) {
-  const auto numbers = impl_->await_batch();
+std::size_t Batch::playing() const { return impl_->busy(); }
+
+void Batch::receive(const BatchArrays& out, std::size_t count) {
+  const auto numbers = impl_->await(count);
   for (std::size_t position = 0; position < numbers.size(); ++position) {
     const std::size_t number = numbers[position];
     if (impl_->jobs[number].failed) impl_->rethrow_failure();

@@ -76,15 +76,22 @@ class Batch {
   // Writes what all machines show now, without a step.
   void show(const BatchArrays& out) const;
 
+  // Ends the episodes of these machines, as Slot::end_episode() does. Negative seeds are none. Throws
+  // InvalidInput, and does nothing, while one of them plays.
+  void end_episodes(std::span<const std::int32_t> machines, std::span<const std::int64_t> seeds = {});
+
   // A step in two halves, so that the caller can use the results of some machines while others play. send()
   // begins a step of each machine in `machines`; none of them may be playing. send_resets() begins a reset of
-  // every machine. receive() waits for the batch_size() machines that finish first, and writes their results.
-  // All throw InvalidInput, and do nothing, if that is impossible. receive() also throws if one of its
-  // machines has failed: what the last failure was.
+  // every machine. receive() waits for the `count` machines that finish first, and writes their results. If
+  // batch_size() is size(), they follow each other as they were sent. All throw InvalidInput, and do nothing,
+  // if that is impossible. receive() also throws if one of its machines has failed: what the last failure
+  // was.
   void send(std::span<const Act> acts, std::span<const std::int32_t> machines);
   void send(std::span<const int> actions, std::span<const std::int32_t> machines);
   void send_resets(std::span<const std::int64_t> seeds = {});
-  void receive(const BatchArrays& out);
+  std::size_t playing() const;  // machines that were sent, and not received
+  void receive(const BatchArrays& out, std::size_t count);
+  void receive(const BatchArrays& out) { receive(out, batch_size()); }
 
  private:
   struct Impl;

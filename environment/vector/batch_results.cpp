@@ -27,7 +27,9 @@ BatchArrays BatchResults::arrays() {
           terminated,     truncated,
           finished,       game_over,
           lives,          frames,
-          episode_frames, numbers};
+          episode_frames, numbers,
+          elapsed,        acts,
+          lives_lost};
 }
 
 std::size_t ResultLayout::whole_screen() const { return static_cast<std::size_t>(height_) * kScreenWidth; }
@@ -55,7 +57,8 @@ BatchResults ResultLayout::make_results(std::size_t count) const {
   if (screens_) results.screens.resize(count * whole_screen());
   results.ram.resize(count * kRamSize);
   for (auto* numbers : {&results.rewards, &results.rewards_b, &results.raw_rewards, &results.raw_rewards_b,
-                        &results.lives, &results.frames, &results.episode_frames, &results.numbers})
+                        &results.lives, &results.frames, &results.episode_frames, &results.numbers,
+                        &results.elapsed, &results.acts, &results.lives_lost})
     numbers->resize(count);
   for (auto* flags : {&results.terminated, &results.truncated, &results.finished, &results.game_over})
     flags->resize(count);
@@ -90,6 +93,9 @@ void ResultLayout::write(const Slot& slot, std::size_t number, std::size_t posit
   put(arrays.frames, position, environment.frame_number());
   put(arrays.episode_frames, position, environment.episode_frame_number());
   put(arrays.numbers, position, static_cast<std::int64_t>(number));
+  put(arrays.elapsed, position, slot.elapsed());
+  put(arrays.acts, position, outcome.acts);
+  put(arrays.lives_lost, position, outcome.lives_lost);
   put_ram(environment.ram(), arrays.ram, position);
   write_stack(slot, arrays.observations, position);
   if (arrays.screens.empty()) return;

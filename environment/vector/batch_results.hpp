@@ -26,6 +26,8 @@ struct BatchArrays {
   std::span<std::uint8_t> game_over;  // 1: the game is over; lives and limits do not count
   std::span<std::int32_t> lives, frames, episode_frames;  // as Environment counts them
   std::span<std::int32_t> numbers;                        // each machine's own, from 0
+  // Frames of play in this game; acts of the request, none in a reset; and the lives that they lost.
+  std::span<std::int32_t> elapsed, acts, lives_lost;
 };
 
 // Owns memory for all arrays.
@@ -35,7 +37,7 @@ struct BatchResults {
   std::vector<std::uint8_t> screens, ram;
   std::vector<std::int32_t> rewards, rewards_b, raw_rewards, raw_rewards_b;
   std::vector<std::uint8_t> terminated, truncated, finished, game_over;
-  std::vector<std::int32_t> lives, frames, episode_frames, numbers;
+  std::vector<std::int32_t> lives, frames, episode_frames, numbers, elapsed, acts, lives_lost;
 
   BatchArrays arrays();
 };

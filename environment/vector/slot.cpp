@@ -88,6 +88,13 @@ void Slot::look_at_ends() {
   outcome_.finished = acts ? outcome_.terminated || outcome_.truncated : progress_.finished;
 }
 
+void Slot::end_episode(std::optional<std::uint32_t> seed) {
+  progress_.finished = true;
+  progress_.goes_on = false;
+  if (seed) next_seed_ = seed;
+  look_at_ends();
+}
+
 bool Slot::finished() const {
   return settings_.steps == Steps::kActs ? environment_.game_over() : progress_.finished;
 }
@@ -142,6 +149,7 @@ void Slot::run_frames(const Act& act) {
     if (progress_.finished || left == 1) break;
   }
   progress_.finished |= lost && settings_.life_loss == LifeLoss::kEnds;
+  outcome_.lives_lost += std::max(0, progress_.lives - environment_.lives());
   progress_.lives = environment_.lives();
   progress_.goes_on = settings_.life_loss == LifeLoss::kEnds && lost && !over && !too_long;
   progress_.terminated = over || (settings_.life_loss != LifeLoss::kIgnored && lost);
@@ -192,6 +200,7 @@ Slot::Saved Slot::save(bool with_random, bool with_noops) const {
 void Slot::restore(const Saved& saved) {
   environment_.restore(*saved.machine);
   progress_ = saved.progress;
+  next_seed_.reset();
   progress_.lives = environment_.lives();  // a slot whose steps are acts does not count them
   if (saved.noops) noops_.set_generator(*saved.noops);
   look_at_ends();

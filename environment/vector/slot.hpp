@@ -67,6 +67,7 @@ struct Outcome {
   std::int64_t raw_reward = 0, raw_reward_b = 0;  // the same before clamping
   int acts = 0;
   int frames = 0;
+  int lives_lost = 0;  // with Steps::kFrames
   bool terminated = false, truncated = false;
   bool finished = false;   // the episode is over
   bool game_over = false;  // the game itself is over; lives and limits do not count
@@ -93,7 +94,12 @@ class Slot {
   // and what the pace throws; the slot is then unchanged.
   void reset(std::optional<std::uint32_t> seed = std::nullopt);
 
-  bool finished() const;  // the episode is over: act() does nothing
+  // With Steps::kFrames: the episode is over, and the next one is a new game. Its reset has this seed, if it
+  // is given none, and so have later ones until a reset was made.
+  void end_episode(std::optional<std::uint32_t> seed);
+
+  bool finished() const;                             // the episode is over: act() does nothing
+  int elapsed() const { return progress_.elapsed; }  // frames of play in this game
   const Outcome& outcome() const { return outcome_; }
   std::int64_t score() const { return progress_.score; }
   void set_outcome(const Outcome& outcome) { outcome_ = outcome; }
@@ -166,7 +172,8 @@ class Slot {
   Pace* const pace_;
   Environment environment_;
   const std::vector<int>& actions_;
-  Noops noops_;  // with a generator of its own, as in the reference
+  Noops noops_;                             // with a generator of its own, as in the reference
+  std::optional<std::uint32_t> next_seed_;  // of end_episode()
   Outcome outcome_;
   Progress progress_;
   std::optional<ScreenStack> stack_;

@@ -25,14 +25,18 @@ void Slot::reset(std::optional<std::uint32_t> seed) {
   std::optional<Saved> before;
   if (may_fail) before = save(true, true);
   const Outcome outcome = outcome_;
+  const std::optional<std::uint32_t> next_seed = next_seed_;
+  if (!seed) seed = next_seed;
   try {
     if (seed) reload(*seed);
     progress_.goes_on && !seed ? begin_life() : begin_episode();
   } catch (...) {
     if (before) restore(*before);
+    next_seed_ = next_seed;
     outcome_ = outcome;
     throw;
   }
+  next_seed_.reset();
 }
 
 void Slot::reload(std::uint32_t seed) {

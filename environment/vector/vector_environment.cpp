@@ -1,7 +1,5 @@
 #include "environment/vector/vector_environment.hpp"
 
-#include <optional>
-
 #include "environment/vector/first_failure.hpp"
 
 namespace racebeam {
@@ -13,11 +11,11 @@ SlotSettings settings_of(const SlotSettings& settings, std::size_t number) {
   return own;
 }
 
+}  // namespace
+
 std::optional<std::uint32_t> seed_of(std::int64_t seed) {
   return seed < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(seed));
 }
-
-}  // namespace
 
 VectorEnvironment::VectorEnvironment(std::span<const Cartridge> cartridges, const SlotSettings& settings,
                                      Autoreset autoreset, VectorHost& host)

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,9 @@ enum class Autoreset {
   kSameStep,  // the same step resets it, and reports the last observation beside the new one
   kDisabled   // its steps do nothing until the caller resets it
 };
+
+// A negative seed is none.
+std::optional<std::uint32_t> seed_of(std::int64_t seed);
 
 class VectorHost {
  public:

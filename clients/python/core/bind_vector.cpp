@@ -30,8 +30,9 @@ template <class T>
 using Rows = nb::ndarray<T, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
 // racebeam.vector_results.Results, whose order this is.
-using Results = std::tuple<std::optional<Buffer>, std::optional<Buffer>, Rows<std::int32_t>, Rows<bool>,
-                           std::optional<Buffer>, std::optional<Rows<std::int32_t>>>;
+using Results =
+    std::tuple<std::optional<Buffer>, std::optional<Buffer>, Rows<std::int32_t>, Rows<bool>,
+               std::optional<Buffer>, std::optional<Rows<std::int32_t>>, std::optional<Rows<std::int32_t>>>;
 
 template <class T>
 std::span<const T> span_of(const Given<T>& array) {
@@ -64,7 +65,7 @@ void share_out(const Rows<T>& rows, std::size_t count, const std::array<std::spa
 }
 
 BatchArrays arrays_of(const Batch& batch, std::size_t count, const Results& results) {
-  const auto& [observations, ram, numbers, flags, final_observations, final_numbers] = results;
+  const auto& [observations, ram, numbers, flags, final_observations, final_numbers, played] = results;
   const std::size_t screens = count * batch.observation_size();
   BatchArrays to;
   to.observations = bytes_of(observations, screens);
@@ -79,6 +80,7 @@ BatchArrays arrays_of(const Batch& batch, std::size_t count, const Results& resu
   }
   if (final_numbers)
     share_out(*final_numbers, count, std::array{&to.final_lives, &to.final_frames, &to.final_episode_frames});
+  if (played) share_out(*played, count, std::array{&to.elapsed, &to.acts, &to.lives_lost});
   return to;
 }
 
@@ -136,10 +138,23 @@ void send_resets(VectorMachines& self, const std::optional<Given<std::int64_t>>&
   self.batch().send_resets(span_of(seeds));
 }
 
+void end_episodes(VectorMachines& self, const Given<std::int32_t>& machines,
+                  const std::optional<Given<std::int64_t>>& seeds) {
+  const Turn turn(self.lock());
+  self.batch().end_episodes(span_of(machines), span_of(seeds));
+}
+
+std::size_t playing(VectorMachines& self) {
+  const Turn turn(self.lock());
+  return self.batch().playing();
+}
+
+// As many machines as the results have room for.
 void receive(VectorMachines& self, const Results& results) {
+  const std::size_t count = std::get<2>(results).shape(1);
   const Turn turn(self.lock());
   Batch& batch = self.batch();
-  batch.receive(arrays_of(batch, batch.batch_size(), results));
+  batch.receive(arrays_of(batch, count, results), count);
 }
 
 void reset(VectorMachines& self, const std::optional<Given<bool>>& chosen,
@@ -259,7 +274,10 @@ void bind_vector(nb::module_& module) {
       .def("send_strengths", send_strengths, "actions"_a.noconvert(), "strengths"_a.noconvert(),
            "machines"_a.noconvert())
       .def("send_resets", send_resets, "seeds"_a.none())
-      .def("receive", receive, results)
+      .def("end_episodes", end_episodes, "machines"_a.noconvert(), "seeds"_a.none() = nb::none(),
+           "The next step of each of these machines begins a new game; -1 is no seed.")
+      .def("playing", playing, "How many machines were sent, and not received.")
+      .def("receive", receive, results, "As many machines as the results have room for.")
       .def("reset", reset, "chosen"_a.none(), "seeds"_a.none(), results)
       .def("show", show, results)
       .def("save", save, "machine"_a, "include_rng"_a)

@@ -59,14 +59,12 @@ class Reader {
 
   bool is_done() const { return next_ == buffers_.size; }
 
+  std::size_t size_of_next() const { return size_of(next_buffer()); }
+
   template <class T>
   std::span<T> next(std::size_t count) {
-    if (is_done()) throw InvalidInput("a call of XLA has too few buffers");
-    const auto& buffer = *static_cast<const xla::Buffer*>(buffers_.buffers[next_]);
-    std::size_t size = 1;
-    for (std::int64_t axis = 0; axis < buffer.rank; ++axis)
-      size *= static_cast<std::size_t>(buffer.shape[axis]);
-    if (buffer.type != type_of<std::remove_const_t<T>>() || size != count)
+    const xla::Buffer& buffer = next_buffer();
+    if (buffer.type != type_of<std::remove_const_t<T>>() || size_of(buffer) != count)
       throw InvalidInput("buffer " + std::to_string(next_) + " of a call of XLA has another type, or not " +
                          std::to_string(count) + " values");
     ++next_;
@@ -74,6 +72,18 @@ class Reader {
   }
 
  private:
+  const xla::Buffer& next_buffer() const {
+    if (is_done()) throw InvalidInput("a call of XLA has too few buffers");
+    return *static_cast<const xla::Buffer*>(buffers_.buffers[next_]);
+  }
+
+  static std::size_t size_of(const xla::Buffer& buffer) {
+    std::size_t size = 1;
+    for (std::int64_t axis = 0; axis < buffer.rank; ++axis)
+      size *= static_cast<std::size_t>(buffer.shape[axis]);
+    return size;
+  }
+
   const xla::Buffers& buffers_;
   std::int64_t next_ = 0;
 };
@@ -84,8 +94,7 @@ std::span<std::uint8_t> as_bytes(std::span<bool> flags) {
 }
 
 // What racebeam.xla.RESULTS lists, in its order.
-BatchArrays results_of(const Batch& batch, Reader& results) {
-  const std::size_t count = batch.size();
+BatchArrays results_of(const Batch& batch, std::size_t count, Reader& results) {
   BatchArrays to;
   if (batch.observation_size() > 0) {
     to.observations = results.next<std::uint8_t>(count * batch.observation_size());
@@ -101,25 +110,47 @@ BatchArrays results_of(const Batch& batch, Reader& results) {
   return to;
 }
 
+// What racebeam.envpool.xla.RESULTS lists: after the former, what EnvPool shows besides.
+BatchArrays received_of(const Batch& batch, Reader& results) {
+  const std::size_t count = batch.batch_size();
+  BatchArrays to = results_of(batch, count, results);
+  to.ram = results.next<std::uint8_t>(count * kRamSize);
+  for (auto* const numbers : {&to.elapsed, &to.acts, &to.lives_lost})
+    *numbers = results.next<std::int32_t>(count);
+  return to;
+}
+
 // Calls
 
 // Arguments: the actions, or joysticks and their threshold.
-void play_step(Batch& batch, Reader& arguments, const BatchArrays& out) {
-  batch.step(std::span<const int>(indices_of(batch, arguments.next<const std::int32_t>(batch.size()))), out);
+void play_step(Batch& batch, Reader& arguments, Reader& results) {
+  const std::vector<int> indices = indices_of(batch, arguments.next<const std::int32_t>(batch.size()));
+  batch.step(std::span<const int>(indices), results_of(batch, batch.size(), results));
 }
 
-void play_step_joysticks(Batch& batch, Reader& arguments, const BatchArrays& out) {
+void play_step_joysticks(Batch& batch, Reader& arguments, Reader& results) {
   const auto joysticks = arguments.next<const float>(3 * batch.size());
-  batch.step(std::span<const Act>(acts_of(joysticks, arguments.next<const float>(1)[0])), out);
+  const std::vector<Act> acts = acts_of(joysticks, arguments.next<const float>(1)[0]);
+  batch.step(std::span<const Act>(acts), results_of(batch, batch.size(), results));
 }
 
 // Arguments: seeds, negative for none, and which machines are reset.
-void play_reset(Batch& batch, Reader& arguments, const BatchArrays& out) {
+void play_reset(Batch& batch, Reader& arguments, Reader& results) {
   const auto seeds = arguments.next<const std::int32_t>(batch.size());
   const auto chosen = arguments.next<const bool>(batch.size());
-  batch.reset(out, std::vector<std::uint8_t>(chosen.begin(), chosen.end()),
+  batch.reset(results_of(batch, batch.size(), results),
+              std::vector<std::uint8_t>(chosen.begin(), chosen.end()),
               std::vector<std::int64_t>(seeds.begin(), seeds.end()));
 }
+
+// Arguments: the actions, and the machines that they are of.
+void play_send(Batch& batch, Reader& arguments, Reader&) {
+  const std::size_t count = arguments.size_of_next();
+  const std::vector<int> indices = indices_of(batch, arguments.next<const std::int32_t>(count));
+  batch.send(std::span<const int>(indices), arguments.next<const std::int32_t>(count));
+}
+
+void play_receive(Batch& batch, Reader&, Reader& results) { batch.receive(received_of(batch, results)); }
 
 // The first argument is a handle, and so is the first result, which makes the next call depend on this one.
 template <class Ask>
@@ -132,7 +163,7 @@ void answer(const xla::CallFrame& frame, const Ask& ask) {
   const auto shared = named_by(handle);
   const std::scoped_lock hold(shared->lock());
   Batch& batch = shared->batch(nullptr);  // signals are for calls of Python
-  ask(batch, arguments, results_of(batch, results));
+  ask(batch, arguments, results);
 }
 
 xla::Error* error_of(const xla::CallFrame& frame, xla::ErrorCode code, const char* sentence) {
@@ -167,7 +198,9 @@ xla::Error* handle_call(xla::CallFrame* frame) {
 nb::dict targets() {
   const std::pair<const char*, xla::Handler*> all[] = {{"step", handle_call<play_step>},
                                                        {"step_joysticks", handle_call<play_step_joysticks>},
-                                                       {"reset", handle_call<play_reset>}};
+                                                       {"reset", handle_call<play_reset>},
+                                                       {"send", handle_call<play_send>},
+                                                       {"receive", handle_call<play_receive>}};
   nb::dict found;
   for (const auto& [name, handler] : all) found[name] = nb::capsule(reinterpret_cast<void*>(handler));
   return found;

@@ -23,6 +23,7 @@ class Results(NamedTuple):
     flags: Bools
     final_observations: Optional[Pixels]  # with SAME_STEP, of the episodes that have ended
     final_numbers: Optional[Numbers]  # lives, frames, episode_frames
+    played: Optional[Numbers] = None  # elapsed: frames of play in this game; acts: none in a reset; lives_lost: by them
 
     @property
     def rewards(self) -> Any:
@@ -73,7 +74,7 @@ class Results(NamedTuple):
             return None if array is None else array[(slice(None),) * axis + (envs,)]
 
         return Results(some(self.observations), some(self.ram), some(self.numbers, 1), some(self.flags, 1),
-                       some(self.final_observations), some(self.final_numbers, 1))
+                       some(self.final_observations), some(self.final_numbers, 1), some(self.played, 1))
 
     @classmethod
     def around(cls, observations: Pixels | None, ram: Pixels | None, envs: int, final_observations: Pixels | None) -> Results:

@@ -219,7 +219,7 @@ TEST_CASE("A batch that sends says what can't be sent or received") {
   batch.receive(results.arrays());
 }
 
-TEST_CASE("All machines of a batch are received by their numbers, whichever finished first") {
+TEST_CASE("All machines of a batch are received as they were sent, whichever finished first") {
   auto settings = short_episodes();
   settings.threads = 2;
   Batch halves(copies(5), settings), whole(copies(5), settings);
@@ -228,8 +228,57 @@ TEST_CASE("All machines of a batch are received by their numbers, whichever fini
     halves.send(std::vector{4, 3, 2, 1, 0}, std::vector{4, 2, 3, 0, 1});
     halves.receive(results.arrays());
     whole.step(std::vector{1, 0, 3, 2, 4}, expected.arrays());
-    CHECK(results.numbers == std::vector{0, 1, 2, 3, 4});
+    CHECK(results.numbers == std::vector{4, 2, 3, 0, 1});
+    halves.show(results.arrays());
+    CHECK(results.observations == expected.observations);
+    CHECK(results.episode_frames == expected.episode_frames);
+  }
+}
+
+TEST_CASE("A batch may be sent and received in parts") {
+  const auto settings = short_episodes();
+  Batch parts(copies(4), settings), whole(copies(4), settings);
+  BatchResults results = parts.make_results(), expected = whole.make_results();
+  parts.send(std::vector{1, 2}, std::vector{3, 1});
+  CHECK(parts.playing() == 2);
+  CHECK_THROWS_WITH(parts.receive(results.arrays(), 3),
+                    "2 machines play, and a receive takes 3; send some first");
+  parts.receive(results.arrays(), 2);
+  CHECK(std::vector(results.numbers.begin(), results.numbers.begin() + 2) == std::vector{3, 1});
+  parts.receive(results.arrays(), 0);
+  parts.end_episodes(std::vector{2}, std::vector<std::int64_t>{9});
+  parts.send(std::vector{3, 3}, std::vector{0, 2});
+  CHECK_THROWS_WITH(parts.end_episodes(std::vector{1, 0}), "machine 0 plays already; receive it first");
+  parts.receive(results.arrays(), parts.playing());
+  CHECK(parts.playing() == 0);
+  whole.step(std::vector{3, 2, 0, 1}, expected.arrays());
+  whole.reset(expected.arrays(), std::vector<std::uint8_t>{0, 0, 1, 0},
+              std::vector<std::int64_t>{-1, -1, 9, -1});
+  parts.show(results.arrays());
+  CHECK(results.observations == expected.observations);
+  CHECK(results.frames == expected.frames);
+}
+
+TEST_CASE("The next step of an episode that the caller ended is a reset with the caller's seed") {
+  const auto settings = short_episodes();
+  Batch ended(copies(3), settings), reset(copies(3), settings);
+  BatchResults results = ended.make_results(), expected = reset.make_results();
+  const std::vector<std::int32_t> all{0, 1, 2};
+  CHECK_THROWS_WITH(ended.end_episodes(all, std::vector<std::int64_t>{1}),
+                    "there are 1 seeds for 3 machines");
+  ended.end_episodes(all, std::vector<std::int64_t>{8, 3, 4});
+  ended.end_episodes(all);  // keeps them
+  ended.step(std::vector{1, 1, 1}, results.arrays());
+  reset.reset(expected.arrays(), {}, std::vector<std::int64_t>{8, 3, 4});
+  check_same(results, expected);
+  CHECK(results.acts == std::vector{0, 0, 0});
+  CHECK(results.elapsed == std::vector{0, 0, 0});
+  for (int step = 1; step < 12; ++step) {  // the seed was for one reset
+    ended.step(std::vector{1, 2, 3}, results.arrays());
+    reset.step(std::vector{1, 2, 3}, expected.arrays());
     check_same(results, expected);
+    if (step < 8) CHECK(results.elapsed[0] == std::min(4 * step, 30));
+    CHECK(results.acts[0] == (step != 9));
   }
 }
 

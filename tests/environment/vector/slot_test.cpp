@@ -78,6 +78,7 @@ TEST_CASE("A lost life does to the episode what was chosen") {
     INFO(static_cast<int>(life_loss));
     CHECK(slot->outcome().terminated == (life_loss != LifeLoss::kIgnored));
     CHECK(slot->finished() == (life_loss >= LifeLoss::kEnds));
+    CHECK(slot->outcome().lives_lost == 1);
     CHECK(slot->outcome().frames == (slot->finished() ? 1 : 3));
     CHECK_FALSE(slot->outcome().game_over);
     const int frames = slot->environment().episode_frame_number();
