@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import package
 
@@ -102,7 +103,7 @@ class Names(unittest.TestCase):
                   "import ale_py.roms\n"
                   "gym.register_envs(ale_py)\n"
                   "env = gym.make('ALE/Pong-v5'); env.reset(seed=1)\n"
-                  "assert type(env.unwrapped) is AtariEnv is racebeam.AtariEnv, type(env.unwrapped)\n"
+                  "assert type(env.unwrapped) is AtariEnv is racebeam.ale_py.AtariEnv, type(env.unwrapped)\n"
                   "old = gym.make('PongNoFrameskip-v4'); assert old.unwrapped._frameskip == 1\n"
                   "ale = ALEInterface(); ale.loadROM(roms.get_rom_path('pong')); ale.act(Action.FIRE)\n"
                   "print(len(roms.get_all_rom_ids()))")
@@ -144,12 +145,11 @@ class Names(unittest.TestCase):
 @unittest.skipIf(PONG is None, "there is no image of pong")
 class Interface(unittest.TestCase):
     def outcome(self, call, ale):
-        """What a call returns, or the type of what it raises."""
+        """What a call returns, or exactly which type it raises."""
         try:
             value = call(ale)
         except Exception as error:
-            wide = next(kind for kind in (TypeError, RuntimeError) if isinstance(error, kind))
-            return wide.__name__
+            return type(error)
         if isinstance(value, np.ndarray):
             return value.dtype, value.shape, value.flags.writeable, value.flags.c_contiguous, value.tobytes()
         if isinstance(value, list) and value and hasattr(value[0], "name"):
@@ -313,6 +313,48 @@ class Vectors(unittest.TestCase):
         self.check(*(envs.step(np.array([1, 2])) for envs in both))
 
 
+@unittest.skipIf(PONG is None, "there is no image of pong")
+class Refusals(unittest.TestCase):
+    """Code that catches what ale_py raises catches what the drop-in raises."""
+
+    def test_every_type_is_caught(self):
+        def make(name, *arguments, **named):
+            return lambda module: getattr(module, name)(*arguments, **named)
+
+        def call(name, method, *arguments, **named):
+            return lambda module: getattr(self.made(module, name), method)(*arguments, **named)
+
+        calls = [make("AtariEnv", game) for game in ("nope", 3)]
+        calls += [make("AtariVectorEnv", "nope", 2)]
+        calls += [make("AtariEnv", "pong", **{name: value}) for name, value in (
+            ("mode", 99), ("mode", "x"), ("difficulty", 99), ("difficulty", 1.5), ("obs_type", "x"), ("frameskip", 0), ("frameskip", 2.0),
+            ("frameskip", (3, 2)), ("repeat_action_probability", "x"), ("max_num_frames_per_episode", "x"), ("render_mode", "x"), ("foo", 1))]
+        calls += [make("AtariVectorEnv", "pong", 2, **{name: value}) for name, value in (
+            ("batch_size", -1), ("num_threads", "x"), ("img_height", "x"), ("img_height", -3), ("stack_num", -1), ("frameskip", 0), ("frameskip", (2, 5)),
+            ("noop_max", "x"), ("autoreset_mode", "x"), ("autoreset_mode", 3), ("repeat_action_probability", "x"), ("foo", 1))]
+        calls += [call("AtariEnv", *words) for words in (("step", "x"), ("step", 99), ("step", None), ("render",), ("get_keys_to_action", 1), ("restore_state", 3))]
+        calls += [call("AtariVectorEnv", "step", actions) for actions in ([0, 0], np.zeros(3, int), np.zeros(2), np.zeros(2, np.int8), None, np.zeros((2, 1), int))]
+        calls += [call("AtariVectorEnv", "reset", seed=seed) for seed in ("x", 2**70 * 1.5, np.zeros(3, int), np.zeros((2, 1), int))]
+        calls += [call("AtariVectorEnv", "reset", options={"reset_mask": mask}) for mask in (3, [True, False], np.zeros(2, int), np.zeros(3, bool), np.zeros((2, 1), bool))]
+        calls += [lambda module: module.AtariVectorEnv("pong", 2).step(np.zeros(2, int)), lambda module: module.AtariVectorEnv("pong", 2).reset(
+            options={"reset_mask": np.array([True, False])})]
+        calls += [lambda module: self.made(module, "AtariVectorEnv").ale.reset([0, 1], [1]), lambda module: self.made(module, "AtariVectorEnv").ale.send([0, 0], [1.0])]
+        for number, refused in enumerate(calls):
+            with self.subTest(call=number):
+                raised = []
+                for module in (ale_py, drop_in):
+                    with warnings.catch_warnings(), self.assertRaises(Exception) as refusal:
+                        warnings.simplefilter("ignore")
+                        refused(module)
+                    raised.append(type(refusal.exception))
+                self.assertTrue(issubclass(raised[1], raised[0]), raised)
+
+    def made(self, module, name):
+        env = getattr(module, name)(*(["pong", 2] if name == "AtariVectorEnv" else ["pong"]))
+        env.reset(seed=1)
+        return env
+
+
 class Differences(unittest.TestCase):
     """A test for each number in the docstring."""
 
@@ -456,8 +498,9 @@ class Differences(unittest.TestCase):
         for name in INTERNAL:
             self.assertFalse(hasattr(drop_in, name) or hasattr(drop_in._ale_py, name), name)
         ours, theirs = interfaces(3)
-        self.assertRaises(RuntimeError, theirs.reset, [0], [4])
-        self.assertEqual(len(ours.reset([0], [4])[0]), 3)
+        for each in (ours, theirs):
+            self.assertRaises(RuntimeError, each.reset, [0], [4])
+        ours.reset([0, 1, 2], [4, 5, 6])
         ours.send([0, 1, 2], [1.0] * 3)
         self.assertRaises(IndexError, ours.send, [0, 99, 0], [1.0] * 3)
         ours.recv()

@@ -1,5 +1,8 @@
 """racebeam.envpool has EnvPool's arguments, results and infos. What EnvPool itself shows was measured (EnvPool 1.2.5)."""
 
+import copy
+import pickle
+import subprocess
 import sys
 import time
 import types
@@ -122,8 +125,50 @@ class Gymnasium(unittest.TestCase):
             one.reset()
         for _ in range(10):
             seen = envs.step(np.array([1, 3, 4]))[0]
-            expected = others.step({"action": np.array([4, 1, 3], np.int32), "env_id": np.array([2, 0, 1], np.int32)})[0]
-            self.assertTrue(np.array_equal(seen, expected))
+            expected, *_, info = others.step({"action": np.array([4, 1, 3], np.int32), "env_id": np.array([2, 0, 1], np.int32)})
+            self.assertEqual(info["env_id"].tolist(), [2, 0, 1])  # results are in this order, too
+            self.assertTrue(np.array_equal(seen[[2, 0, 1]], expected))
+
+    def test_a_step_of_some(self):
+        envs, others = make(episodic_life=True, frame_skip=60), make(episodic_life=True, frame_skip=60)
+        for step in range(30):
+            seen, *whole, info = envs.step(np.array([1, 3, 4]))
+            for ids in ([1], [2, 0]):
+                part, *rest, told = others.step(np.array([[1, 3, 4][env] for env in ids], np.int32), np.array(ids, np.int32))
+                self.assertTrue(np.array_equal(part, seen[ids]))
+                self.assertEqual([one.tolist() for one in rest], [one[ids].tolist() for one in whole])
+                self.assertEqual((told["env_id"].tolist(), told["players"]["env_id"].tolist()), (ids, ids))
+                for key in set(INFO) - {"env_id", "players"}:
+                    self.assertTrue(np.array_equal(told[key], info[key][ids]), key)
+        others.send(np.zeros(2, np.int32), np.array([2, 1]))
+        others.send(np.zeros(1, np.int32), np.array([0]))
+        self.assertEqual(others.recv()[4]["env_id"].tolist(), [2, 1, 0])
+        self.assertEqual(others.recv()[4]["env_id"].tolist(), [])  # none was sent
+
+    def test_the_first_step_of_each_is_its_reset(self):
+        envs, others = make(), make()
+        seen = others.reset()[0]
+        self.assertTrue(np.array_equal(envs.reset(np.array([1]))[0], seen[[1]]))
+        shown, *_, info = envs.step(np.ones(3, np.int32))
+        self.assertEqual(info["elapsed_step"].tolist(), [0, 1, 0])
+        self.assertTrue(np.array_equal(shown[[0, 2]], seen[[0, 2]]))
+
+    def test_a_reset_after_a_lost_life_is_a_new_game(self):
+        envs = make(episodic_life=True, frame_skip=60, num_envs=1)
+        _, info = envs.reset()
+        lives = info["lives"][0]
+        for _ in range(100):
+            *_, terminated, _, info = envs.step(np.ones(1, np.int32))
+            if terminated[0]:
+                break
+        self.assertEqual((info["lives"][0], info["terminated"][0]), (lives - 1, 0))
+        _, info = envs.reset()
+        self.assertEqual((info["lives"][0], info["elapsed_step"][0]), (lives, 0))
+
+    def test_negative_seeds(self):
+        seen = [make(seed=seed).reset()[0] for seed in (-1, [-1, 0, 1], [2**31 - 1, 0, 1])]
+        self.assertTrue(np.array_equal(seen[0], seen[1]))
+        self.assertTrue(np.array_equal(seen[1][1:], seen[2][1:]))
 
 
 class Others(unittest.TestCase):
@@ -134,6 +179,7 @@ class Others(unittest.TestCase):
             seen, reward, done, info = envs.step(np.zeros(3, int))
             self.assertEqual((done.tolist(), info["TimeLimit.truncated"].tolist()), ([is_done] * 3, [is_done] * 3))
         self.assertEqual(len(make("gym", gym_reset_return_info=True).reset()), 2)
+        self.assertEqual(len(envpool.make_gym("Beamfall-v5").reset()), 2)
 
     def test_spaces_are_those_of_gym_where_that_is_imported(self):
         self.assertIsInstance(make("gym").action_space, gymnasium.spaces.Discrete)
@@ -172,27 +218,153 @@ class Others(unittest.TestCase):
 
     def test_tasks(self):
         tasks = envpool.list_all_envs()
-        self.assertTrue({"Pong-v5", "SpaceInvaders-v5", "Beamfall-v5"} <= set(tasks) and "Combat-v5" not in tasks)
+        self.assertTrue({"Pong-v5", "SpaceInvaders-v5", "TicTacToe3d-v5", "Beamfall-v5"} <= set(tasks) and "Combat-v5" not in tasks)
 
     def test_bad_input(self):
         for task, env_type, config in (("Pong-v4", "gym", {}), ("Combat-v5", "dm", {}), ("Beamfall-v5", "x", {}), ("Beamfall-v5", "gym", {"noops": 3}),
-                                       ("Beamfall-v5", "gym", {"max_num_players": 2}), ("Beamfall-v5", "gym", {"use_inter_area_resize": False})):
-            with self.subTest(task=task, env_type=env_type, **config), self.assertRaises(InvalidInput):
-                envpool.make(task, env_type=env_type, **config)
+                                       ("Beamfall-v5", "gym", {"max_num_players": 2}), ("Beamfall-v5", "gym", {"use_inter_area_resize": False}),
+                                       ("Beamfall-v5", "dm", {"seed": 2**31}), ("Beamfall-v5", "gym", {"seed": [1]}), ("Beamfall-v5", "gym", {"env_seed": "xyz"}),
+                                       ("Beamfall-v5", "dm", {"batch_size": 4}), ("Beamfall-v5", "gym", {"mode": "x"}), (3, "gym", {})):
+            with self.subTest(task=task, env_type=env_type, **config), self.assertRaises(InvalidInput) as raised:
+                envpool.make(task, env_type=env_type, **{"num_envs": 3, **config})
+            for theirs in (AssertionError, TypeError, RuntimeError, ValueError):  # EnvPool raises one or the other
+                self.assertIsInstance(raised.exception, theirs)
+        self.assertRaises(RuntimeError, make, mode=99)
         envs = make()
         envs.reset()
         with self.assertRaises(IndexError):
             envs.step(np.full(3, 99))
-        with self.assertRaisesRegex(InvalidInput, "env_id"):
-            envs.step(np.zeros(1, int), env_id=np.array([1]))
-        with self.assertRaises(NotImplementedError):
-            envs.xla()
+        with self.assertRaisesRegex(InvalidInput, r"actions have the shape \(2,\); they must have \(1,\)"):
+            envs.step(np.zeros(2, int), env_id=np.array([1]))
+        with self.assertRaisesRegex(InvalidInput, "each environment is named once"):
+            envs.step(np.zeros(2, int), env_id=np.array([1, 1]))
+        envs.send(np.zeros(1, int), np.array([1]))
+        with self.assertRaisesRegex(InvalidInput, "machine 1 plays already; receive it first"):
+            envs.send(np.zeros(1, int), np.array([1]))
+        with self.assertRaisesRegex(InvalidInput, "1 machines play; receive them first"):
+            envs.step(np.zeros(3, int))
+        self.assertEqual(envs.recv()[0].shape[0], 1)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             self.assertRaises(UserWarning, envs.seed, 3)
         envs.close()
         with self.assertRaises(gymnasium.error.ClosedEnvironmentError):
             envs.step(np.zeros(3, int))
+
+
+class Modules(unittest.TestCase):
+    """What programs import from EnvPool."""
+
+    def test_in_the_place_of_envpool(self):
+        script = ("import sys, racebeam.envpool\n"
+                  "sys.modules['envpool'] = racebeam.envpool\n"
+                  "import envpool, envpool.registration, envpool.atari.registration\n"
+                  "from envpool.atari import AtariDMEnvPool, AtariEnvSpec, AtariGymnasiumEnvPool\n"
+                  "from envpool.python import protocol\n"
+                  "for name in ('EnvSpec', 'EnvPool', 'DMEnvPool', 'GymnasiumEnvPool'):\n"
+                  "    assert getattr(protocol, name) is getattr(envpool, name) and name in envpool.__all__\n"
+                  "assert envpool.registration.make is envpool.make and AtariEnvSpec is envpool.EnvSpec\n"
+                  "assert len(envpool.atari.registration.atari_game_list) == 104 and envpool.__version__\n"
+                  "envs = AtariGymnasiumEnvPool(AtariEnvSpec(AtariEnvSpec.gen_config(task='beamfall', num_envs=2)))\n"
+                  "print(envs.reset()[0].shape)")
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (0, "(2, 4, 84, 84)\n"), done.stderr)
+
+    def test_a_spec_of_settings(self):
+        config = envpool.EnvSpec.gen_config(task="beamfall", num_envs=4, batch_size=5)
+        self.assertEqual((config.batch_size, config.max_episode_steps), (5, 2**31 - 1))
+        self.assertRaisesRegex(ValueError, "batch_size is 5; it takes 0 to 4", envpool.EnvSpec, config)
+        self.assertRaisesRegex(TypeError, "there is no setting 'foo'", envpool.EnvSpec.gen_config, foo=3)
+
+    def test_the_raw_interface(self):
+        from racebeam.envpool.atari.atari_envpool import _AtariEnvPool, _AtariEnvSpec
+
+        config = {**dict(zip(_AtariEnvSpec._config_keys, _AtariEnvSpec._default_config_values)), "task": b"beamfall", "num_envs": 3}
+        raw, envs = _AtariEnvPool(_AtariEnvSpec(tuple(config.values()))), make("dm")
+        raw._reset(np.arange(3, dtype=np.int32))
+        time_step = envs.reset()
+        for step in range(20):
+            state = dict(zip(raw._state_keys, raw._recv()))
+            for name, value in (("obs", time_step.observation.obs), ("step_type", time_step.step_type), ("reward", time_step.reward),
+                                ("info:ram", time_step.observation.ram), ("discount", time_step.discount)):
+                self.assertTrue(np.array_equal(state[name], value), name)
+            actions = np.array([step % 18, 1, 2])
+            raw._send((state["info:env_id"], state["info:players.env_id"], actions))
+            time_step = envs.step(actions)
+        self.assertEqual(raw._state_keys, list(envs.spec.state_array_spec))
+
+    def test_a_pool_is_not_copied(self):
+        for copied in (pickle.dumps, copy.deepcopy):
+            self.assertRaisesRegex(TypeError, "neither pickled nor copied", copied, make())
+
+
+@unittest.skipUnless(package._is_there("jax"), "there is no jax")
+class Compiled(unittest.TestCase):
+    """xla()."""
+
+    def test_it_shows_what_the_environments_show(self):
+        import jax
+
+        for env_type in ("gymnasium", "gym", "dm"):
+            for config in ({"episodic_life": True, "frame_skip": 60, "reward_clip": True}, {"gray_scale": False, "img_height": 30, "max_episode_steps": 7},
+                           {"zero_discount_on_life_loss": True, "frame_skip": 60}):
+                with self.subTest(env_type=env_type, **config):
+                    envs, others = make(env_type, **config), make(env_type, **config)
+                    handle, recv, send, step = envs.xla()
+                    envs.async_reset()
+                    others.async_reset()
+                    handle, shown = recv(handle)
+                    self.same(shown, others.recv())
+                    compiled = jax.jit(step)
+                    for number in range(40):
+                        actions = np.array([number % 18, 1, 3], np.int32)
+                        handle, shown = compiled(handle, actions)
+                        self.same(shown, others.step(actions))
+                    ids = np.array([2, 0, 1], np.int32)
+                    handle, shown = step(handle, {"action": actions, "env_id": ids})
+                    self.same(shown, others.step(actions, ids))
+
+    def same(self, compiled, shown):
+        import jax
+
+        ours, theirs = jax.tree.flatten(compiled), jax.tree.flatten(shown)
+        self.assertEqual(ours[1], theirs[1])
+        for one, other in zip(ours[0], theirs[0]):
+            self.assertEqual((one.dtype, one.shape), (other.dtype, other.shape))
+            self.assertTrue(np.array_equal(one, other))
+
+    def test_a_loop_of_some_at_a_time(self):
+        import jax
+
+        envs = make(num_envs=6, batch_size=2)
+        handle, recv, send, _ = envs.xla()
+        envs.async_reset()
+
+        def step(_, carried):
+            handle, steps = carried
+            handle, (*_, info) = recv(handle)
+            return send(handle, jax.numpy.ones(2, np.int32), info["env_id"]), steps.at[info["env_id"]].add(1)
+
+        _, steps = jax.jit(lambda: jax.lax.fori_loop(0, 30, step, (handle, jax.numpy.zeros(6, np.int32))))()
+        self.assertEqual(int(steps.sum()), 60)
+        self.assertEqual(envs.recv()[4]["env_id"].shape, (2,))
+        with self.assertRaisesRegex(InvalidInput, "env_id is None"):
+            send(handle, np.ones(2, np.int32))
+
+    def test_bad_input(self):
+        import jax
+
+        envs = make()
+        handle, recv, send, step = envs.xla()
+        self.assertRaisesRegex(InvalidInput, r"actions have the shape \(2,\); they must have \(3,\)", send, handle, np.ones(2, np.int32))
+        self.assertRaises(TypeError, send, handle, np.ones(3))
+        for function, arguments, words in ((recv, (), "0 machines play, and a receive takes 3"), (step, (np.full(3, 99),), "out of range"),
+                                           (step, (np.ones(1, np.int32), np.array([7])), "there is no machine 7")):
+            with self.assertRaisesRegex(jax.errors.JaxRuntimeError, words):
+                jax.block_until_ready(function(handle, *arguments))
+        envs.close()
+        with self.assertRaisesRegex(jax.errors.JaxRuntimeError, "closed"):
+            jax.block_until_ready(step(handle, np.ones(3, np.int32)))
 
 
 class Rendering(unittest.TestCase):
@@ -244,7 +416,7 @@ class Found(unittest.TestCase):
     def test_arrays_for_single_values(self):
         many = np.ones(3)
         for config in ({"episodic_life": many}, {"mode": many}, {"max_num_players": many}, {"use_inter_area_resize": many}):
-            with self.subTest(**config), self.assertRaises((gymnasium.error.Error, InvalidInput)):
+            with self.subTest(**config), self.assertRaises(envpool.InvalidSetting):
                 make(**config)
         envs = make()
         envs.async_reset()
@@ -282,7 +454,7 @@ class Spec(unittest.TestCase):
             self.assertEqual((spec.observation_space.shape, spec.gymnasium_observation_space.dtype), (shape, np.uint8))
             self.assertEqual((spec.action_space.n, spec.gymnasium_action_space.n, spec.reward_threshold), (actions, actions, None))
             self.assertEqual((spec.config.num_envs, spec.config.batch_size), (config.get("num_envs", 1),) * 2)
-            self.assertEqual((spec.config.seed, spec.config.max_episode_steps, spec.config.task), (42, 27000, "Beamfall-v5"))
+            self.assertEqual((spec.config.seed, spec.config.max_episode_steps, spec.config.task), (42, 27000, "beamfall"))
             self.assertTrue(repr(spec).startswith(f"AtariEnvSpec(num_envs={spec.config.num_envs}, "))
             envs = make(**config)
             self.assertEqual((envs.observation_space, envs.action_space), (spec.observation_space, spec.action_space))

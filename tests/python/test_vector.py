@@ -590,7 +590,8 @@ class Found(unittest.TestCase):
 
     def test_arguments_of_ALEVectorInterface(self):
         envs = ale_py.ALEVectorInterface("builtin:beamfall", 2)
-        for error, call in ((TypeError, lambda: envs.send([0, 1], "ab")), (InvalidInput, lambda: envs.send([0, 1], [[1], [2, 3]])),
+        envs.reset([0, 1], [1, 2])
+        for error, call in ((TypeError, lambda: envs.send([0, 1], "ab")), (ValueError, lambda: envs.send([0, 1], [[1], [2, 3]])),
                             (TypeError, lambda: envs.reset([0, 1], ["x", None])), (TypeError, lambda: envs.reset(np.ones((2, 2)), [1, 2]))):
             self.assertRaises(error, call)
 

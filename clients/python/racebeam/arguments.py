@@ -1,4 +1,6 @@
-"""Checks of arguments. They raise gymnasium.error.Error, in a sentence with the name, the value and what is accepted."""
+"""Checks of arguments. They raise gymnasium.error.Error, in a sentence with the name, the value and what is accepted: a WrongType, which
+is also a TypeError, or a WrongValue, which is also a ValueError.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +15,14 @@ Member = TypeVar("Member", bound=enum.Enum)
 MOST = 2**31 - 1
 
 
+class WrongType(error.Error, TypeError):
+    """An argument is of no type that is accepted."""
+
+
+class WrongValue(error.Error, ValueError):
+    """An argument is none of the values that are accepted."""
+
+
 def either(given: Any, usual: Any) -> Any:
     """What was given, or else what is usual."""
     return usual if given is None else given
@@ -24,7 +34,7 @@ def listed(values: Any) -> str:
 
 def check_choice(name: str, value: object, choices: tuple[str | None, ...]) -> None:
     if not any(value is choice or (isinstance(value, str) and value == choice) for choice in choices):
-        raise error.Error(f"{name} is {value!r}; it takes {listed(choices)}")
+        raise WrongValue(f"{name} is {value!r}; it takes {listed(choices)}")
 
 
 def member(name: str, word: object, kind: type[Member]) -> Member:
@@ -39,9 +49,9 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
     try:
         number = operator.index(value)
     except TypeError:
-        raise error.Error(f"{name} is {value!r}; it takes a whole number") from None
+        raise WrongType(f"{name} is {value!r}; it takes a whole number") from None
     if not low <= number <= high:
-        raise error.Error(f"{name} is {number}; it takes {low} to {high}")
+        raise WrongValue(f"{name} is {number}; it takes {low} to {high}")
     return number
 
 
@@ -50,7 +60,7 @@ def flag(name: str, value: Any) -> bool:
     try:
         return bool(value)
     except (TypeError, ValueError):
-        raise error.Error(f"{name} is {value!r}; it takes True or False") from None
+        raise WrongType(f"{name} is {value!r}; it takes True or False") from None
 
 
 def share(name: str, value: Any) -> float:
@@ -58,9 +68,9 @@ def share(name: str, value: Any) -> float:
     try:
         number = float(value)
     except (TypeError, ValueError):
-        raise error.Error(f"{name} is {value!r}; it takes a number from 0 to 1") from None
+        raise WrongType(f"{name} is {value!r}; it takes a number from 0 to 1") from None
     if not 0 <= number <= 1:
-        raise error.Error(f"{name} is {number}; it takes 0 to 1")
+        raise WrongValue(f"{name} is {number}; it takes 0 to 1")
     return number
 
 
@@ -69,9 +79,9 @@ def real(name: str, value: Any) -> float:
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
-        number = math.nan
+        raise WrongType(f"{name} is {value!r}; it takes a number") from None
     if math.isnan(number):
-        raise error.Error(f"{name} is {value!r}; it takes a number")
+        raise WrongValue(f"{name} is {value!r}; it takes a number")
     return number
 
 
@@ -79,5 +89,5 @@ def seconds(name: str, value: Any) -> float | None:
     """A time limit, or None."""
     number = None if value is None else real(name, value)
     if number is not None and not 0 < number <= MOST:
-        raise error.Error(f"{name} is {number}; it takes None, or seconds above 0")
+        raise WrongValue(f"{name} is {number}; it takes None, or seconds above 0")
     return number

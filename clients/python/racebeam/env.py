@@ -85,6 +85,8 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     """
 
     metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 30}
+    _local_interface: type[ALEInterface] = ALEInterface
+    _check_game = staticmethod(images.check_name)
 
     def __init__(
         self,
@@ -139,13 +141,20 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         limit = _optional("max_num_frames_per_episode", either(max_num_frames_per_episode, usual.max_num_frames_per_episode))
         life_loss_ends = flag("life_loss_ends", either(life_loss_ends, usual.life_loss_ends))
         is_full = flag("full_action_space", either(full_action_space, usual.full_action_space))
-        images.check_name(game)
-        self.ale: Any = _interface(server, token, seconds("timeout", timeout))
+        self._check_game(game)
+        self.ale: Any = self._interface(server, token, seconds("timeout", timeout))
         self._set_keys(rules, sticky, limit, life_loss_ends)
         self.seed_game()
         self.load_game()
         self._set_spaces(is_full)
         self._open_window()
+
+    def _interface(self, server: object, token: str | None, timeout: float | None) -> Any:
+        if server is None:
+            return self._local_interface()
+        if not isinstance(server, str):
+            raise error.Error(f"server is {server!r}; it takes the address of one server")
+        return RemoteInterface(server, token, timeout)
 
     def _set_keys(self, rules: str, sticky: float, limit: int | None, life_loss_ends: bool) -> None:
         """The settings that take effect when the game is loaded."""
@@ -331,7 +340,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         """The index of each action by the keys that are held for it: w, a, s, d, space; e for none."""
         if self.continuous or self._two_player:
             setting = "continuous" if self.continuous else "two_player"
-            raise AttributeError(f"get_keys_to_action() has no answer where {setting} is True: keys are of one stick")
+            raise AttributeError(f"`get_keys_to_action` can't be provided for this Atari environment as `{setting}=True`: keys are of one stick")
         return {_keys_of(name): index for index, name in enumerate(self.get_action_meanings())}
 
     # What is seen and told
@@ -429,14 +438,6 @@ def _closed(what: str, game: str) -> error.ClosedEnvironmentError:
 
 def _keys_of(action: str) -> tuple[str, ...]:
     return tuple(key for part, key in KEYS if part in action) or (KEY_OF_NOOP,)
-
-
-def _interface(server: object, token: str | None, timeout: float | None) -> Any:
-    if server is None:
-        return ALEInterface()
-    if not isinstance(server, str):
-        raise error.Error(f"server is {server!r}; it takes the address of one server")
-    return RemoteInterface(server, token, timeout)
 
 
 def _check_rules(rules: object) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import struct
 import zlib
 from typing import Any
@@ -28,8 +29,9 @@ def png(rgb: np.ndarray[Any, np.dtype[np.uint8]]) -> bytes:
 class ALEInterface(_core.ALEInterface):
     """A game in this process, with the methods of ale_py.ALEInterface and some more."""
 
-    def saveScreenPNG(self, path: str) -> None:
+    def saveScreenPNG(self, path: str | os.PathLike[str]) -> None:
         """Writes the screen as a PNG file, in which each pixel is doubled in width. Raises OSError."""
+        name = os.fspath(path)  # a number would be an open file of the program
         picture = png(np.repeat(self.getScreenRGB(), 2, axis=1))
-        with open(path, "wb") as file:
+        with open(name, "wb") as file:
             file.write(picture)

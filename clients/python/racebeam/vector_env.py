@@ -14,7 +14,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from . import _core, images, xla
-from .arguments import either, flag, real, seconds, whole
+from .arguments import WrongType, either, flag, real, seconds, whole
 from .errors import InvalidInput
 from .vector_results import Bools, Numbers, Pixels, Results
 from .vector_settings import SEEDS, autoreset_of, settings_of
@@ -92,6 +92,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
     _xla_infos: tuple[str, ...] = ("env_id", "lives", "frame_number", "episode_frame_number", "raw_reward", "game_over")
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 15}
+    _check_game = staticmethod(images.check_name)
 
     def __init__(
         self,
@@ -134,7 +135,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         timeout: float | None = None,
     ) -> None:
         arguments = locals()
-        names, game_of_env = _games(game, num_envs)
+        names, game_of_env = self._games(game, num_envs)
         settings = settings_of(arguments, len(game_of_env))
         self.num_envs = len(game_of_env)
         self.batch_size: int = settings["batch_size"] or self.num_envs
@@ -149,6 +150,21 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self._make_spaces(settings)
         self._received = np.arange(self.num_envs, dtype=np.int32)
         self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
+
+    def _games(self, game: str | Sequence[str], num_envs: int | None) -> tuple[list[str], Numbers]:
+        """The names of the games, and the position among them of each environment's."""
+        if isinstance(game, str):
+            self._check_game(game)
+            return [game], np.zeros(whole("num_envs", either(num_envs, 1), 1, MOST_ENVS), np.int32)
+        if not isinstance(game, Sequence):
+            raise WrongType(f"game is {game!r}; it takes a name, or a list of names")
+        if num_envs is not None and num_envs != len(game):
+            raise error.Error(f"game has {len(game)} names, but num_envs is {num_envs!r}")
+        whole("num_envs", len(game), 1, MOST_ENVS)
+        names = list(dict.fromkeys(game))
+        for name in names:
+            self._check_game(name)
+        return names, np.array([names.index(name) for name in game], np.int32)
 
     def _make_spaces(self, settings: dict[str, Any]) -> None:
         shape: tuple[int, ...] = (RAM_SIZE,)
@@ -258,23 +274,24 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             raise InvalidInput(f"the seeds have the shape {seed.shape}; they must have {(self.num_envs,)}")
         seeds = [-1 if one is None else _seed(one, -1) for one in seed]
         if len(seeds) != self.num_envs:
-            raise InvalidInput(f"there are {len(seeds)} seeds for {self.num_envs} environments")
+            raise InvalidInput(f"there are {len(seeds)} seeds for {self.num_envs} environments; give one entry per sub-environment, or one seed")
         return np.array(seeds, np.int64)
 
     def _mask(self, mask: Any) -> Bools | None:
         if mask is None:
             return None
         if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_:
-            raise TypeError(f"reset_mask is {mask!r}; it takes an array of bools")
+            raise TypeError(f"reset_mask is {mask!r}; it must be a boolean numpy array")
         if mask.shape != (self.num_envs,):
-            raise InvalidInput(f"reset_mask has the shape {mask.shape}; it must have {(self.num_envs,)}")
+            raise InvalidInput(f"reset_mask has the shape {mask.shape}; it must have shape {(self.num_envs,)}")
         return np.ascontiguousarray(mask)
 
-    def _indices(self, actions: Any) -> npt.NDArray[np.int64]:
+    def _indices(self, actions: Any, count: int | None = None) -> npt.NDArray[np.int64]:
+        """Of so many environments; None: of a batch."""
         array = array_of(actions)
         if array.dtype.kind not in "iu":
             raise TypeError(f"actions have the type {array.dtype}; they must be integers")
-        self._check_shape(array, ())
+        self._check_shape(array, (), count)
         if array.dtype.kind == "u" and (large := array[array > np.iinfo(np.int64).max]).size:
             raise IndexError(f"action {large[0]} is out of range; there are 0 to {self._machines.numbers_of_actions()[0] - 1}")
         return np.ascontiguousarray(array, np.int64)
@@ -290,15 +307,16 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             raise InvalidInput(f"a part of the actions is {joysticks[~np.isfinite(joysticks)][0]}, which is not a finite number")
         return joysticks
 
-    def _check_shape(self, actions: npt.NDArray[Any], rest: tuple[int, ...]) -> None:
-        if actions.shape != (self.batch_size, *rest):
-            raise InvalidInput(f"actions have the shape {actions.shape}; they must have {(self.batch_size, *rest)}")
+    def _check_shape(self, actions: npt.NDArray[Any], rest: tuple[int, ...], count: int | None = None) -> None:
+        expected = (self.batch_size if count is None else count, *rest)
+        if actions.shape != expected:
+            raise InvalidInput(f"actions have the shape {actions.shape}; they must have {expected}")
 
     # What is shown
 
     def _room(self, out: Pixels | None, envs: int | None = None) -> Results:
         """Memory for what is shown next, of so many environments; None: of a batch."""
-        shape = (envs or self.batch_size, *self._shape)
+        shape = (self.batch_size if envs is None else envs, *self._shape)
         if out is None:
             out = np.empty(shape, np.uint8)
         elif not (isinstance(out, np.ndarray) and out.dtype == np.uint8 and out.shape == shape and out.flags.carray):
@@ -411,20 +429,6 @@ class _Closed:
 
 def _closed() -> error.ClosedEnvironmentError:
     return error.ClosedEnvironmentError("these environments were closed; make new ones")
-
-
-def _games(game: str | Sequence[str], num_envs: int | None) -> tuple[list[str], Numbers]:
-    """The names of the games, and the position among them of each environment's."""
-    if isinstance(game, str):
-        images.check_name(game)
-        return [game], np.zeros(whole("num_envs", either(num_envs, 1), 1, MOST_ENVS), np.int32)
-    if num_envs is not None and num_envs != len(game):
-        raise error.Error(f"game has {len(game)} names, but num_envs is {num_envs!r}")
-    whole("num_envs", len(game), 1, MOST_ENVS)
-    names = list(dict.fromkeys(game))
-    for name in names:
-        images.check_name(name)
-    return names, np.array([names.index(name) for name in game], np.int32)
 
 
 def _machines(names: list[str], game_of_env: Numbers, rom: Rom | None, settings: dict[str, Any], server: str | Sequence[str] | None,

@@ -13,7 +13,7 @@ from gymnasium import error
 from gymnasium.vector import AutoresetMode
 
 from . import _core
-from .arguments import MOST, check_choice, either, flag, member, share, whole
+from .arguments import MOST, WrongType, WrongValue, check_choice, either, flag, member, share, whole
 from .presets import vector_preset
 
 OBS_TYPES = (None, "rgb", "grayscale", "ram")
@@ -27,7 +27,7 @@ def autoreset_of(mode: object) -> AutoresetMode:
     for one in AutoresetMode:
         if mode is one or (isinstance(mode, str) and mode in (one.name, one.value)):
             return one
-    raise error.Error(f"autoreset_mode is {mode!r}; it takes {', '.join(one.value for one in AutoresetMode)}")
+    raise (WrongValue if isinstance(mode, str) else WrongType)(f"autoreset_mode is {mode!r}; it takes {', '.join(one.value for one in AutoresetMode)}")
 
 
 def settings_of(given: Mapping[str, Any], num_envs: int) -> dict[str, Any]:

@@ -7,9 +7,9 @@ and `import racebeam.ale_py` registers ale_py's ids with Gymnasium, as `import a
 infos are the same to the byte, for the same seeds and actions. What differs:
 
 1.  An image that is missing, cut or unknown is an exception of loadROM(); ale_py ends the process.
-2.  A method that needs a game raises InvalidInput, a RuntimeError, before loadROM(); in ale_py most end the process.
+2.  A method that needs a game raises a RuntimeError before loadROM(); in ale_py most end the process.
 3.  act() raises ValueError for a number that is no action; ale_py plays NOOP. AtariEnv.step() takes no negative index.
-4.  An invalid mode or difficulty is a RuntimeError, too, and its sentence names the choices.
+4.  The sentence of an invalid mode or difficulty names the choices.
 5.  States are exact: the picture, the sound and the sticky action are those of the moment of cloning. In ale_py the first
     picture after restoring has old pixels. serialize() gives other bytes, and only racebeam reads them.
 6.  Equal ALEStates have equal hashes, and comparing one with something else gives False.
@@ -21,13 +21,14 @@ infos are the same to the byte, for the same seeds and actions. What differs:
     pygame. record_screen_dir and record_sound_filename take only "".
 11. getInt(), getBool(), getFloat() and getString() each know the settings of their type alone.
 12. A closed AtariEnv raises ClosedEnvironmentError.
-13. AtariVectorEnv takes what racebeam.AtariVectorEnv takes beyond ale_py's arguments. Seeds may be any integers, or a list.
+13. AtariVectorEnv takes what racebeam.AtariVectorEnv takes beyond ale_py's arguments. Seeds may be of any
+    type of integer from 0, or a list.
     autoreset_mode may be DISABLED, and render() works. metadata is each object's own.
 14. In AtariVectorEnv, an action that is out of range is an IndexError, and a step in a child process after a fork is a
     RuntimeError; ale_py hangs. A wrong argument is an Error, an InvalidInput or an UnknownGame; ale_py takes some, and ends the
     process for others. After close(), ClosedEnvironmentError is raised; ale_py goes on.
-15. The first reset() of ALEVectorInterface may be of some environments. What is below it and xla() is not there: AutoresetMode
-    and VectorXLAReset, VectorXLAStep. xla() does not need chex. A handle of environments that were closed is an error.
+15. What is below ALEVectorInterface and xla() is not there: AutoresetMode and VectorXLAReset, VectorXLAStep. xla() does not need
+    chex. A handle of environments that were closed is an error.
 16. A paddle's strength, or a part of a continuous action, that is infinite or NaN is an InvalidInput; ale_py plays it.
 17. AtariEnv refuses a repeat_action_probability that is not in 0 to 1, a negative max_num_frames_per_episode, a
     continuous_action_threshold that is no number, and a frameskip above 2,147,483,647. It takes integers of NumPy.
@@ -40,14 +41,14 @@ import importlib.util
 from typing import TYPE_CHECKING, Any
 
 from .._core import Action, ALEState, LoggerMode
-from ..interface import ALEInterface
+from .interface import ALEInterface
 from .vector_interface import ALEVectorInterface
 
 if TYPE_CHECKING:
-    from ..env import AtariEnv as AtariEnv
     from ..env import AtariEnvStepMetadata as AtariEnvStepMetadata
     from ..registration import register_v0_v4_envs as register_v0_v4_envs
     from ..registration import register_v5_envs as register_v5_envs
+    from .single import AtariEnv as AtariEnv
     from .vectors import AtariVectorEnv as AtariVectorEnv
 
 __version__ = "0.12.1"
@@ -57,7 +58,7 @@ __all__ = ["ALEInterface", "ALEState", "ALEVectorInterface", "Action", "LoggerMo
 
 _HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
 _NEED_GYMNASIUM = {
-    "AtariEnv": "racebeam.env",
+    "AtariEnv": "racebeam.ale_py.single",
     "AtariEnvStepMetadata": "racebeam.env",
     "AtariVectorEnv": "racebeam.ale_py.vectors",
     "register_v0_v4_envs": "racebeam.registration",

@@ -1,8 +1,8 @@
 """The names of ale_py's compiled module."""
 
 from racebeam._core import Action, ALEState, LoggerMode
+from racebeam.ale_py.interface import ALEInterface
 from racebeam.ale_py.vector_interface import ALEVectorInterface
-from racebeam.interface import ALEInterface
 
 SDL_SUPPORT = False
 __all__ = ["ALEInterface", "ALEState", "ALEVectorInterface", "Action", "LoggerMode", "SDL_SUPPORT"]

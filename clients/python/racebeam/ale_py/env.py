@@ -1,5 +1,10 @@
 """The names of ale_py.env."""
 
-from racebeam.env import AtariEnv, AtariEnvStepMetadata
+from racebeam import registration
+from racebeam.ale_py.single import AtariEnv
+from racebeam.env import AtariEnvStepMetadata
 
 __all__ = ["AtariEnv", "AtariEnvStepMetadata"]
+
+if __name__ == "ale_py.env":  # this package stands in the place of ale_py, and so it does in the ids
+    registration.register_ale_ids("ale_py")

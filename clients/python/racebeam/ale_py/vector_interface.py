@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from .. import _core, xla
 from ..errors import InvalidInput
+from .interface import plain_errors
 
 if TYPE_CHECKING:
     from .vectors import AtariVectorEnv
@@ -22,7 +23,7 @@ __all__ = ["ALEVectorInterface"]
 class ALEVectorInterface:
     """The arguments are those of AtariVectorEnv, but for rom_path, an image. max_episode_steps counts frames, as ale_py's does.
 
-    Raises InvalidInput, a RuntimeError and a ValueError; IndexError for an environment or an action that is not there.
+    Raises ValueError; IndexError for an environment or an action that is not there.
     """
 
     def __init__(self, rom_path: str | os.PathLike[str], num_envs: int, frame_skip: int = 4, stack_num: int = 4, img_height: int = 84,
@@ -56,12 +57,12 @@ class ALEVectorInterface:
         """New episodes of these environments; a seed of -1 is none. Returns what all of them show, or the first batch_size."""
         count, ids = self._envs.num_envs, [operator.index(env) for env in env_ids]
         if len(ids) != len(seeds):
-            raise InvalidInput(f"there are {len(seeds)} seeds for {len(ids)} environments")
+            raise ValueError(f"there are {len(seeds)} seeds for {len(ids)} environments")
         for env in ids:
             if not 0 <= env < count:
-                raise IndexError(f"there is no environment {env}; there are 0 to {count - 1}")
+                raise IndexError(f"environment {env} is out of range; there are 0 to {count - 1}")
         if len(set(ids)) < len(ids):
-            raise InvalidInput(f"there is a duplicate env_id in {ids}; each is reset once")
+            raise ValueError(f"there is a duplicate env_id in {ids}; each is reset once")
         every = np.full(count, -1, np.int64)
         every[ids] = [operator.index(seed) for seed in seeds]
         chosen = np.isin(np.arange(count), ids)
@@ -69,7 +70,7 @@ class ALEVectorInterface:
 
     def send(self, action_ids: Sequence[int], paddle_strengths: Sequence[float], /) -> None:
         """Begins a step of the environments that were received last. An action is a place in get_action_set()."""
-        self._envs.send_strengths(action_ids, paddle_strengths)
+        plain_errors(self._envs.send_strengths, ValueError)(action_ids, paddle_strengths)
 
     def recv(self) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
         """What those show that have finished: observations, rewards, terminated, truncated and the info."""

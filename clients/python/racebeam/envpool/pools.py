@@ -1,19 +1,11 @@
-"""EnvPool's interface: make("Pong-v5", env_type="gymnasium", num_envs=8), with its arguments and the keys of its infos.
-
-What differs from EnvPool 1.2.5: the games are those of ALE 0.12, and not 0.7.5. env_type="gym" has the interface of Gym 0.21,
-as EnvPool 0.6 had it: reset() returns observations, and step() four values; gym_reset_return_info=True undoes that. All
-environments are stepped, or as many as recv() returned; reset() alone takes some. Resizing is by area. An action that is out
-of range is an IndexError. There is no xla(); racebeam.AtariVectorEnv has one. A spec's least reward is negative. render() returns the
-pictures with render_mode=None, too, in the size of the game; there is neither another size nor a window.
-"""
+"""Many environments with EnvPool's interface, of the kinds of Gymnasium, Gym 0.21 and dm_env."""
 
 from __future__ import annotations
 
-import re
 import sys
 import warnings
-from collections.abc import Mapping
-from typing import Any, Literal, NamedTuple, overload
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
 
 import gymnasium
 import numpy as np
@@ -21,120 +13,46 @@ import numpy.typing as npt
 from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 
-from . import ale_games, images
-from .arguments import flag, whole
-from .envpool_spec import EnvSpec, dm_specs, rendered_env, whole_config
-from .errors import InvalidInput, UnknownGame
-from .interface import ALEInterface
-from .registration import rom_id_to_name
-from .vector_env import MOST_ENVS, AtariVectorEnv, Info
-from .vector_results import Bools, Numbers, Pixels, Results
+from ..arguments import flag, whole
+from ..errors import InvalidInput
+from ..vector_env import Info
+from ..vector_results import Numbers, Pixels
+from . import xla
+from .envs import Envs, Shown
+from .spec import EnvSpec, InvalidSetting, checked, dm_specs
 
-__all__ = ["DmEnvPool", "GymEnvPool", "GymnasiumEnvPool", "TimeStep", "list_all_envs", "make", "make_dm", "make_gym", "make_gymnasium",
-           "make_spec"]
-
-COUNTS = {"num_envs": MOST_ENVS, "max_episode_steps": 2**31 - 1, "frame_skip": 1000}
+__all__ = ["DMEnvPool", "EnvPool", "GymEnvPool", "GymnasiumEnvPool", "State", "TimeStep"]
 
 
-def _games() -> dict[str, str]:
-    """The game of each task."""
-    return {f"{rom_id_to_name(game)}-v5": game for game in images.titles() if game not in ale_games.FOR_TWO}
+class EnvPool:
+    """What all kinds have. A kind says in shown_as() what its results look like."""
 
-
-def list_all_envs() -> list[str]:
-    """Pong-v5 and so on."""
-    return list(_games())
-
-
-def _game(task_id: str) -> str:
-    if task_id not in _games():
-        raise UnknownGame(f"there is no task {task_id!r}; list_all_envs() lists them")
-    return _games()[task_id]
-
-
-class _Envs(AtariVectorEnv):
-    """Infos have EnvPool's keys."""
-
-    def __init__(self, game: str, config: dict[str, Any]) -> None:
-        count, limit, skip = (whole(name, config[name], 1, most) for name, most in COUNTS.items())
-        self._elapsed = np.zeros(count, np.int32)
-        self._begins = np.ones(count, np.bool_)  # the next result of an environment begins an episode
-        self._is_over = np.ones(count, np.bool_)  # and a game
-        self._stays = np.zeros(count, np.bool_)  # or shows an environment as it was
-        self.began: Bools = self._begins  # the last results did
-        self._lives = np.zeros(count, np.int32)
-        self.lost: Bools = self._begins  # by the last results, a life
-        super().__init__(
-            game, count, batch_size=config["batch_size"], num_threads=config["num_threads"],
-            thread_affinity_offset=config["thread_affinity_offset"], stack_num=config["stack_num"],
-            max_num_frames_per_episode=min(limit * skip, 2**31 - 1), frameskip=skip,
-            noop_max=config["noop_max"], use_fire_reset=config["use_fire_reset"], reward_clipping=config["reward_clip"],
-            img_height=config["img_height"], img_width=config["img_width"], grayscale=config["gray_scale"],
-            mode=_optional(config["mode"]), difficulty=_optional(config["difficulty"]),
-            full_action_space=config["full_action_space"], repeat_action_probability=config["repeat_action_probability"],
-            lives="end" if config["episodic_life"] else "ignored", start="noops-fire", stack_start="repeats",
-            render_mode="rgb_array")
-
-    def begin(self, mask: Bools) -> None:
-        """Those of the mask are reset next."""
-        self._begins |= mask
-        self._is_over |= mask
-        self._stays[:] = ~mask
-
-    def send_resets(self, seed: Any) -> None:
-        self._check_open()
-        self._machines.send_resets(self._seeds(seed))
-
-    @property
-    def received(self) -> Numbers:
-        """The environments of the last results."""
-        return self._received
-
-    def _room(self, out: Pixels | None, envs: int | None = None) -> Results:
-        return super()._room(out, envs)._replace(ram=np.empty((envs or self.batch_size, 128), np.uint8))
-
-    def _info(self, results: Results) -> Info:
-        ids = results.env_id
-        stays = self._stays[ids]
-        self._stays[ids] = False
-        self.began = self._begins[ids] & ~stays
-        elapsed = np.where(self.began & self._is_over[ids], 0, self._elapsed[ids] + ~(self.began | stays)).astype(np.int32)
-        self._elapsed[ids] = elapsed
-        self.lost = results.lives < self._lives[ids]
-        self._lives[ids] = results.lives
-        self._begins[ids] = results.terminated | results.truncated
-        self._is_over[ids] = results.game_over | results.truncated
-        return {
-            "env_id": ids,
-            "players": {"env_id": ids},
-            "lives": results.lives,
-            "reward": results.raw_rewards.astype(np.float32),
-            "terminated": results.game_over.astype(np.int32),
-            "ram": results.ram,
-            "elapsed_step": elapsed,
-        }
-
-
-def _optional(number: int) -> int | None:
-    return None if np.array_equal(number, -1) else number
-
-
-class _Pool:
-    """What all kinds have. Results are a batch of observations, rewards, terminations, truncations and the info."""
-
-    def __init__(self, task_id: str, config: dict[str, Any]) -> None:
-        game, self.config = _game(task_id), whole_config(task_id, config)
-        self._envs = _Envs(game, self.config)
+    def __init__(self, spec: EnvSpec, render_env_id: Any = 0) -> None:
+        self._envs = Envs(spec)
+        self.spec: Any = spec
+        self.config: dict[str, Any] = spec.config._asdict()
         self.num_envs, self.batch_size = self._envs.num_envs, self._envs.batch_size
-        self._seeds: Any = self.config["env_seed"] if np.size(self.config["env_seed"]) else self.config["seed"]
-        self._is_new, self._shown_by_render = True, rendered_env(config, self.num_envs)
-        self.action_space = self.single_action_space = self._envs.single_action_space
-        actions = self._envs.machines().numbers_of_actions()[0]
-        self.spec: Any = EnvSpec(self.config, actions, _observations(self.config))
-        self.observation_space = self.single_observation_space = self.spec.observation_space
+        self._shown_by_render = checked(whole, "render_env_id", render_env_id, 0, self.num_envs - 1)
+        self._check_size()
+        self.action_space = self.single_action_space = spec.action_space
+        self.observation_space = self.single_observation_space = spec.observation_space
+
+    def _check_size(self) -> None:
+        """Without another size, all ways to resize are the same."""
+        shape, height = (self.config["img_height"], self.config["img_width"]), self._envs.machines().height()
+        if not self.config["use_inter_area_resize"] and shape != (height, 160):
+            raise InvalidSetting(f"use_inter_area_resize is False; racebeam takes that where img_height and img_width are {height} and 160")
 
     def __len__(self) -> int:
         return self.num_envs
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}<{self.spec.id}>({', '.join(f'{name}={value!r}' for name, value in self.config.items())})"
+
+    __str__ = __repr__
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError(f"{type(self).__name__} has threads, and can be neither pickled nor copied; make another one with the same settings")
 
     @property
     def is_async(self) -> bool:
@@ -163,81 +81,80 @@ class _Pool:
             raise InvalidInput("env_ids is empty; it takes one environment or more")
         return np.stack([pictures[env] for env in chosen])
 
-    def xla(self) -> Any:
-        raise NotImplementedError("racebeam.envpool has no xla()")
+    def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
+        """For programs that JAX compiles: a handle, recv(handle), send(handle, action, env_id=None) and step(handle, action, env_id=None).
+
+        recv returns the handle for the next call and what recv() returns, send the handle, and step does both. Results are of batch_size
+        environments. Errors of a compiled program are jax.errors.JaxRuntimeError. Raises ImportError without JAX.
+        """
+        return xla.functions(self._envs, self.shown_as)
 
     def close(self) -> None:
         self._envs.close()
 
     def async_reset(self) -> None:
-        """Begins new episodes of all environments; recv() returns the first."""
-        self._envs.begin(np.ones(self.num_envs, np.bool_))
-        self._envs.send_resets(self._first_seeds())
+        """Begins new games of all environments; recv() returns the first."""
+        self.send_resets(self._envs.every)
 
     def send(self, action: Any, env_id: Any = None) -> None:
-        """Begins a step of the environments that were received last."""
-        self._envs.send(self._meant(action, env_id))
+        """Begins a step of these environments; None: of all, or with batch_size, of those that were received last."""
+        envs, actions = self._meant(action, env_id)
+        self._envs.send_to(envs, actions)
 
-    def _first_seeds(self) -> Any:
-        seeds, self._seeds, self._is_new = self._seeds, None, False
-        return seeds
+    def send_resets(self, env_id: Any) -> None:
+        self._envs.send_resets_of(self._envs.numbers_of(env_id))
 
-    def _reset(self, env_id: Any, options: dict[str, Any] | None) -> tuple[Any, Any, Any, Any, Info]:
+    def receive(self) -> Shown:
+        return self._envs.receive()
+
+    def _reset(self, env_id: Any, options: Any = None) -> Any:
         if not isinstance(options, (Mapping, type(None))):
             raise InvalidInput(f"options is {options!r}; it takes a dictionary, or None")
         mask = (options or {}).get("reset_mask")
-        if env_id is not None:
-            mask = np.isin(self.all_env_ids, self._ids(env_id))
-        self._envs.begin(np.ones(self.num_envs, np.bool_) if mask is None else mask)
-        observations, info = self._envs.reset(seed=self._first_seeds(), options=None if mask is None else {"reset_mask": mask})
-        nothing = np.zeros(len(observations), np.bool_)
-        return self._shown((observations, nothing.astype(np.int32), nothing, nothing, info), mask)
+        self._envs.send_resets_of(self._envs.chosen(mask) if env_id is None else self._envs.numbers_of(env_id))
+        return self.shown_as(self.receive())
 
-    def _step(self, action: Any, env_id: Any) -> tuple[Any, Any, Any, Any, Info]:
-        if self._is_new:
-            return self._reset(None, None)
-        return self._shown(self._envs.step(self._meant(action, env_id)))
+    def _step(self, action: Any, env_id: Any) -> Any:
+        envs, actions = self._meant(action, env_id)
+        if not self.is_async and np.array_equal(envs, self._envs.every):
+            return self.shown_as(self._envs.step_every(actions))
+        self._envs.send_to(envs, actions)
+        return self.shown_as(self.receive())
 
-    def _recv(self) -> tuple[Any, Any, Any, Any, Info]:
-        return self._shown(self._envs.recv())
-
-    def _meant(self, action: Any, env_id: Any) -> Any:
+    def _meant(self, action: Any, env_id: Any) -> tuple[Numbers, Any]:
         if isinstance(action, dict):
             _check_parts(action)
             action, env_id = action["action"], action.get("env_id", action.get("players.env_id", env_id))
         if isinstance(action, np.ndarray) and action.dtype.kind == "f" and np.array_equal(action, np.floor(action)):
             action = action.astype(np.int64)
         if env_id is None:
-            return action
-        received, ids = self._envs.received, self._ids(env_id)
-        order = np.argsort(ids)
-        if not np.array_equal(ids[order], np.sort(received)):
-            raise InvalidInput(f"env_id is {env_id!r}; it takes the environments that were received last: {received.tolist()}")
-        return np.asarray(action)[order][np.searchsorted(ids[order], received)]
+            return (self._envs.received if self.is_async else self._envs.every), action
+        return self._envs.numbers_of(env_id), action
 
-    def _ids(self, env_id: Any) -> npt.NDArray[np.integer[Any]]:
-        """Numbers of environments, checked."""
-        try:
-            ids = np.atleast_1d(env_id)
-        except ValueError:  # of rows of several lengths
-            ids = np.empty(0)
-        if ids.ndim != 1 or ids.dtype.kind not in "iu" or not np.isin(ids, self.all_env_ids).all():
-            raise InvalidInput(f"env_id is {env_id!r}; it takes whole numbers from 0 to {self.num_envs - 1}, in one row")
-        return ids
+    def shown_as(self, shown: Shown) -> Any:
+        raise NotImplementedError
 
-    def _shown(self, shown: tuple[Any, ...], mask: Any = None) -> tuple[Any, Any, Any, Any, Info]:
-        observations, rewards, terminated, truncated, info = shown
-        if observations.ndim == 5:
-            observations = np.moveaxis(observations, -1, 2).reshape(len(observations), *self.observation_space.shape)
-        chosen = slice(None) if mask is None else mask
-        told = {key: {"env_id": info["env_id"][chosen]} if key == "players" else value[chosen] for key, value in info.items()}
-        return (observations[chosen], rewards[chosen].astype(np.float32), (terminated & ~truncated)[chosen], truncated[chosen], told)
+    def told_by_name(self, shown: Shown) -> dict[str, Any]:
+        """Under the names of spec.state_array_spec."""
+        observations, done = shown.observations, shown.terminated | shown.truncated
+        if observations.ndim == 5:  # colours become channels
+            observations = observations.transpose(0, 1, 4, 2, 3).reshape(len(observations), *self.spec.observation_space.shape)
+        skip = self.config["frame_skip"]
+        ends = done | (shown.lives_lost > 0) if self.config["zero_discount_on_life_loss"] else done
+        return {
+            "info:env_id": shown.env_id, "info:players.env_id": shown.env_id, "elapsed_step": (shown.elapsed + skip - 1) // skip, "done": done,
+            "reward": shown.rewards.astype(np.float32), "discount": (~ends).astype(np.float32),
+            "step_type": ((shown.acts > 0) * (1 + done)).astype(np.int32), "trunc": shown.truncated, "obs": observations,
+            "info:lives": shown.lives, "info:reward": shown.raw_rewards.astype(np.float32),
+            "info:terminated": shown.game_over.astype(np.int32), "info:ram": shown.ram,
+        }
 
-
-def _observations(config: dict[str, Any]) -> spaces.Box:
-    """Of one environment. Colours are channels."""
-    channels = config["stack_num"] * (1 if config["gray_scale"] else 3)
-    return spaces.Box(0, 255, (channels, config["img_height"], config["img_width"]), np.uint8)
+    def _shown_with_info(self, shown: Shown) -> tuple[Any, Any, Any, Any, Info]:
+        """Observations, rewards, done, truncated and the info."""
+        told = self.told_by_name(shown)
+        info = {name: told[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
+        info |= {"players": {"env_id": told["info:players.env_id"]}, "elapsed_step": told["elapsed_step"]}
+        return told["obs"], told["reward"], told["done"], told["trunc"], info
 
 
 def _check_parts(action: dict[str, Any]) -> None:
@@ -248,7 +165,7 @@ def _check_parts(action: dict[str, Any]) -> None:
             raise InvalidInput(f"{name} of the action has the type {np.asarray(part).dtype}; it must be int32")
 
 
-class GymnasiumEnvPool(_Pool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any]):  # type: ignore[misc]
+class GymnasiumEnvPool(EnvPool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any]):  # type: ignore[misc]
     """env_type="gymnasium"."""
 
     metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP, "render_modes": ["rgb_array"]}
@@ -260,20 +177,25 @@ class GymnasiumEnvPool(_Pool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any])
         return observations, info
 
     def step(self, action: Any, env_id: Any = None) -> tuple[Any, Any, Any, Any, Info]:
-        return self._step(action, env_id)
+        shown: tuple[Any, Any, Any, Any, Info] = self._step(action, env_id)
+        return shown
 
     def recv(self, reset: bool = False, return_info: bool = True) -> Any:
-        observations, *rest, info = self._recv()
+        observations, *rest, info = self.shown_as(self.receive())
         return (observations, info) if flag("reset", reset) else (observations, *rest, info)
 
+    def shown_as(self, shown: Shown) -> tuple[Any, Any, Any, Any, Info]:
+        observations, rewards, done, truncated, info = self._shown_with_info(shown)
+        return observations, rewards, done & ~truncated, truncated, info
 
-class GymEnvPool(_Pool):
-    """env_type="gym": reset() returns observations, and a step has one end, `done`.
+
+class GymEnvPool(EnvPool):
+    """make(env_type="gym"): reset() returns observations, and a step has one end, `done`.
 
     To a program that has imported gym, the spaces are those of that package."""
 
-    def __init__(self, task_id: str, config: dict[str, Any]) -> None:
-        super().__init__(task_id, config)
+    def __init__(self, spec: EnvSpec, render_env_id: Any = 0) -> None:
+        super().__init__(spec, render_env_id)
         if "gym" in sys.modules:
             theirs, box, actions = sys.modules["gym"].spaces, self.single_observation_space, self.single_action_space
             assert isinstance(actions, spaces.Discrete)
@@ -281,19 +203,19 @@ class GymEnvPool(_Pool):
             self.action_space = self.single_action_space = theirs.Discrete(actions.n)
 
     def reset(self, env_id: Any = None) -> Any:
-        return self._reset(env_id, None)[0]
+        return self._reset(env_id)[0]
 
     def step(self, action: Any, env_id: Any = None) -> tuple[Any, Any, Any, Info]:
-        return self._joined(self._step(action, env_id))
+        shown: tuple[Any, Any, Any, Info] = self._step(action, env_id)
+        return shown
 
     def recv(self, reset: bool = False, return_info: bool = True) -> Any:
-        shown = self._recv()
-        return shown[0] if flag("reset", reset) else self._joined(shown)
+        shown = self.shown_as(self.receive())
+        return shown[0] if flag("reset", reset) else shown
 
-    @staticmethod
-    def _joined(shown: tuple[Any, Any, Any, Any, Info]) -> tuple[Any, Any, Any, Info]:
-        observations, rewards, terminated, truncated, info = shown
-        return observations, rewards, terminated | truncated, {**info, "TimeLimit.truncated": truncated}
+    def shown_as(self, shown: Shown) -> tuple[Any, Any, Any, Info]:
+        observations, rewards, done, truncated, info = self._shown_with_info(shown)
+        return observations, rewards, done, {**info, "TimeLimit.truncated": truncated}
 
 
 class State(NamedTuple):
@@ -331,17 +253,24 @@ class Players(NamedTuple):
     env_id: Any
 
 
-class DmEnvPool(_Pool):
-    """env_type="dm"."""
+class DMEnvPool(EnvPool):
+    """env_type="dm". It is a dm_env.Environment to a program that has imported dm_env."""
+
+    def __init__(self, spec: EnvSpec, render_env_id: Any = 0) -> None:
+        super().__init__(spec, render_env_id)
+        if "dm_env" in sys.modules:
+            sys.modules["dm_env"].Environment.register(DMEnvPool)
 
     def reset(self, env_id: Any = None) -> TimeStep:
-        return self._time_step(self._reset(env_id, None))
+        time_step: TimeStep = self._reset(env_id)
+        return time_step
 
     def step(self, action: Any, env_id: Any = None) -> TimeStep:
-        return self._time_step(self._step(action, env_id))
+        time_step: TimeStep = self._step(action, env_id)
+        return time_step
 
     def recv(self, reset: bool = False, return_info: bool = True) -> TimeStep:
-        return self._time_step(self._recv())
+        return self.shown_as(self.receive())
 
     def reward_spec(self) -> Any:
         """As dm_env has it, and EnvPool."""
@@ -351,58 +280,8 @@ class DmEnvPool(_Pool):
         """As dm_env has it, and EnvPool."""
         return dm_specs().BoundedArray((), float, 0.0, 1.0, "discount")
 
-    def _time_step(self, shown: tuple[Any, Any, Any, Any, Info]) -> TimeStep:
-        observations, rewards, terminated, truncated, info = shown
-        done = terminated | truncated
-        kinds = np.where(self._envs.began, 0, np.where(done, 2, 1)).astype(np.int32)
-        ends = done | self._envs.lost if self.config["zero_discount_on_life_loss"] else done
-        state = State(info["env_id"], Players(info["env_id"]), observations, info["lives"], info["reward"], info["terminated"], info["ram"])
-        return TimeStep(kinds, rewards, (~ends).astype(np.float32), state)
-
-
-def make_gymnasium(task_id: str, **config: Any) -> GymnasiumEnvPool:
-    _check_info_wanted("gymnasium", config)
-    return GymnasiumEnvPool(task_id, config)
-
-
-def make_gym(task_id: str, **config: Any) -> GymEnvPool | GymnasiumEnvPool:
-    return (GymnasiumEnvPool if flag("gym_reset_return_info", config.get("gym_reset_return_info")) else GymEnvPool)(task_id, config)
-
-
-def make_dm(task_id: str, **config: Any) -> DmEnvPool:
-    """It is a dm_env.Environment to a program that has imported dm_env."""
-    if "dm_env" in sys.modules:
-        sys.modules["dm_env"].Environment.register(DmEnvPool)
-    _check_info_wanted("dm", config)
-    return DmEnvPool(task_id, config)
-
-
-def _check_info_wanted(env_type: str, config: Mapping[str, Any]) -> None:
-    wanted = config.get("gym_reset_return_info")
-    if wanted is not None and not flag("gym_reset_return_info", wanted):
-        raise InvalidInput(f'gym_reset_return_info is {wanted!r}; with env_type="{env_type}" it takes True, and "gym" takes both')
-
-
-MAKERS = {"gymnasium": make_gymnasium, "gym": make_gym, "dm": make_dm}
-
-
-@overload
-def make(task_id: str, env_type: Literal["gymnasium"], **config: Any) -> GymnasiumEnvPool: ...
-@overload
-def make(task_id: str, env_type: Literal["dm"], **config: Any) -> DmEnvPool: ...
-@overload
-def make(task_id: str, env_type: str, **config: Any) -> Any: ...
-def make(task_id: str, env_type: str, **config: Any) -> Any:
-    """Environments of the task, such as "Pong-v5". config: the settings of envpool_spec.CONFIG."""
-    if env_type not in MAKERS:
-        raise InvalidInput(f"env_type is {env_type!r}; it takes {', '.join(MAKERS)}")
-    return MAKERS[env_type](task_id, **config)
-
-
-def make_spec(task_id: str, **config: Any) -> EnvSpec:
-    """The settings and the spaces of a task. Its image is needed for the number of actions."""
-    whole = whole_config(task_id, config)
-    game = ALEInterface()
-    game.loadROM(images.find(_game(task_id)))
-    actions = game.getLegalActionSet() if whole["full_action_space"] else game.getMinimalActionSet()
-    return EnvSpec(whole, len(actions), _observations(whole))
+    def shown_as(self, shown: Shown) -> TimeStep:
+        told = self.told_by_name(shown)
+        info = {name: told[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
+        state = State(players=Players(told["info:players.env_id"]), obs=told["obs"], **info)
+        return TimeStep(told["step_type"], told["reward"], told["discount"], state)
