@@ -20,13 +20,16 @@ int checked(int size, int least, int most, const std::string& what) {
 }  // namespace
 
 ScreenStack::ScreenStack(const StackSettings& settings, const Environment& environment)
-    : settings_(settings), resize_(nullptr), plane_size_(environment.screen().size()) {
+    : settings_(settings), resize_(nullptr) {
+  const bool is_cut = settings.rows > 0 && settings.rows < environment.height();
+  const int rows = is_cut ? settings.rows : environment.height();
   const int width = checked(settings.width, 1, kScreenWidth, "width");
-  const int height = checked(settings.height, kLeastHeight, environment.height(), "height");
+  const int height = checked(settings.height, kLeastHeight, rows, "height");
   settings_.width = width;
   settings_.height = height;
-  if (width != kScreenWidth || height != environment.height())
-    resize_ = &screen_resize(environment.height(), width, height);
+  if (!is_cut) settings_.rows = 0;
+  if (width != kScreenWidth || height != rows) resize_ = &screen_resize(rows, width, height);
+  plane_size_ = static_cast<std::size_t>(rows) * kScreenWidth;
   if (settings.rgb) {
     tables_ = colour_tables(environment.format());
   } else {
@@ -42,10 +45,11 @@ ScreenStack::ScreenStack(const StackSettings& settings, const Environment& envir
 void ScreenStack::clear() { std::ranges::fill(screens_, std::uint8_t{0}); }
 
 void ScreenStack::look(const Environment& environment, bool pooled) {
-  const auto screen = environment.screen();
+  const auto screen = environment.screen().first(plane_size_);
   for (std::size_t channel = 0; channel < tables_.size(); ++channel) {
     if (pooled) {
-      make_brighter_plane(screen, environment.previous_screen(), tables_[channel], plane(channel));
+      make_brighter_plane(screen, environment.previous_screen().first(plane_size_), tables_[channel],
+                          plane(channel));
     } else {
       make_plane(screen, tables_[channel], plane(channel));
     }

@@ -18,6 +18,7 @@ struct StackSettings {
   int depth = 4;                                // screens; 0: none are made
   int width = kSmallSide, height = kSmallSide;  // of each, at most the machine's; 0: the machine's
   bool rgb = false;  // red, green and blue of each pixel, in this order, instead of one grey
+  int rows = 0;      // how many of the machine's are seen, from the top; 0: all
 
   int channels() const { return rgb ? 3 : 1; }
   bool operator==(const StackSettings&) const = default;
@@ -29,7 +30,8 @@ class ScreenStack {
   // For the screens of `environment`. Throws InvalidInput for a size that can't be made of them.
   ScreenStack(const StackSettings& settings, const Environment& environment);
 
-  const StackSettings& settings() const { return settings_; }  // without 0 for the screen's own size
+  // Without 0 for the screen's own size, and with 0 rows where all are seen.
+  const StackSettings& settings() const { return settings_; }
   int depth() const { return settings_.depth; }
   std::size_t screen_size() const { return screen_size_; }  // bytes: height x width x channels
   std::size_t size() const { return screens_.size(); }      // of all screens

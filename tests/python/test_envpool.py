@@ -377,6 +377,14 @@ class Rendering(unittest.TestCase):
             with self.subTest(**arguments), self.assertRaisesRegex(racebeam.InvalidInput, "racebeam has"):
                 make("gymnasium", **arguments)
 
+    @unittest.skipUnless("air_raid" in package.roms(), "there is no image of air_raid")
+    def test_the_upper_210_rows_of_higher_screens_are_seen(self):
+        envs = envpool.make_gymnasium("AirRaid-v5", gray_scale=False, stack_num=1, img_height=210, img_width=160, use_inter_area_resize=False)
+        seen = envs.reset()[0]
+        self.assertEqual(envs.render().shape, (1, 210, 160, 3))
+        self.assertTrue(np.array_equal(seen[0].transpose(1, 2, 0), envs.render()[0]))
+        self.assertEqual(racebeam.AtariVectorEnv("air_raid", 1, obs_type="rgb").reset()[0].shape, (1, 4, 250, 160, 3))
+
     def test_the_environment_that_is_shown(self):
         first, second = (make("gymnasium", num_envs=2, env_seed=[1, 9], render_env_id=env) for env in (0, 1))
         for envs in (first, second):

@@ -74,6 +74,7 @@ void bind_vector_settings(nb::module_& module) {
   bind(settings, "width", stack, &StackSettings::width);
   bind(settings, "height", stack, &StackSettings::height);
   bind(settings, "rgb", stack, &StackSettings::rgb);
+  bind(settings, "rows", stack, &StackSettings::rows);
   bind(settings, "screens", &BatchSettings::screens);
   bind(settings, "batch_size", &BatchSettings::batch_size);
   bind(settings, "threads", &BatchSettings::threads);

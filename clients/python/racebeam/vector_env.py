@@ -136,7 +136,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     ) -> None:
         arguments = locals()
         names, game_of_env = self._games(game, num_envs)
-        settings = settings_of(arguments, len(game_of_env))
+        settings = self._settings(arguments, len(game_of_env))
         self.num_envs = len(game_of_env)
         self.batch_size: int = settings["batch_size"] or self.num_envs
         self.autoreset_mode = autoreset_of(autoreset_mode)
@@ -150,6 +150,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self._make_spaces(settings)
         self._received = np.arange(self.num_envs, dtype=np.int32)
         self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
+
+    def _settings(self, arguments: dict[str, Any], num_envs: int) -> dict[str, Any]:
+        return settings_of(arguments, num_envs)
 
     def _games(self, game: str | Sequence[str], num_envs: int | None) -> tuple[list[str], Numbers]:
         """The names of the games, and the position among them of each environment's."""

@@ -128,6 +128,25 @@ TEST_CASE("A stack in colour has red, green and blue of each pixel, and may be a
   }
 }
 
+TEST_CASE("A stack that sees the upper rows alone is that of a screen without the others") {
+  Environment environment = steered(plain());
+  environment.act(0);
+  environment.act(1);
+  const bool pooled = GENERATE(false, true);
+  ScreenStack upper({.depth = 1, .width = 0, .height = 0, .rgb = true, .rows = 50}, environment);
+  ScreenStack small({.depth = 1, .width = 40, .height = 25, .rows = 50}, environment);
+  ScreenStack all({.depth = 1, .width = 0, .height = 0, .rgb = true}, environment);
+  ScreenStack grey({.depth = 1, .width = 0, .height = 0}, environment);
+  for (ScreenStack* stack : {&upper, &small, &all, &grey}) push(*stack, environment, pooled);
+  CHECK(upper.settings().height == 50);
+  const Bytes whole = all.bytes(), plane = grey.bytes();
+  CHECK(std::ranges::equal(upper.bytes(), std::span(whole).first(50 * 160 * 3)));
+  Bytes reduced(40 * 25);
+  AreaResize(160, 50, 40, 25)(std::span(plane).first(50 * 160), reduced);
+  CHECK(small.bytes() == reduced);
+  CHECK(ScreenStack({.depth = 1, .rows = 5000}, environment).settings().rows == 0);
+}
+
 TEST_CASE("A stack can be filled with its newest screen, and refuses sizes that can't be made") {
   Environment environment = steered(plain());
   environment.act(0);

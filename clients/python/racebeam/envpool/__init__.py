@@ -14,9 +14,9 @@ runs code that was written for EnvPool 1.2.5 and Atari. What differs:
 5.  recv() raises InvalidInput where EnvPool waits for ever: fewer than batch_size environments play. close() ends the threads, and
     what is called after it raises ClosedEnvironmentError. Actions may be lists.
 6.  With batch_size below num_envs, actions without env_id are of the environments that were received last; xla() needs env_id.
-7.  Resizing is by area: use_inter_area_resize=False is taken where the screens keep their size. max_num_players is 1.
-8.  A spec's least reward is negative. render() returns the pictures with render_mode=None, too, in the size of the game; there is
-    neither another size nor a window.
+7.  Resizing is by area: use_inter_area_resize=False is taken where the screens keep their size, 210 x 160. max_num_players is 1.
+8.  A spec's least reward is negative. render() returns the pictures with render_mode=None, too; there is neither another size nor a
+    window.
 9.  register() is not there: the tasks are the games of racebeam. What is below the classes of racebeam.envpool.atari is EnvPool's
     own, but for the raw interface, _AtariEnvPool with _reset(), _send() and _recv().
 """

@@ -12,9 +12,10 @@ from ..vector_env import AtariVectorEnv
 from ..vector_results import Numbers, Pixels, Results
 from .spec import EnvSpec
 
-__all__ = ["Envs", "Shown"]
+__all__ = ["ROWS", "Envs", "Shown"]
 
 MOST_FRAMES = 2**31 - 1
+ROWS = 210  # EnvPool sees no more, of games that have them, too
 
 
 class Shown(NamedTuple):
@@ -51,6 +52,9 @@ class Envs(AtariVectorEnv):
             render_mode="rgb_array")
         self.every: Numbers = np.arange(config.num_envs, dtype=np.int32)
         self._machines.end_episodes(self.every, spec.seeds)
+
+    def _settings(self, arguments: dict[str, Any], num_envs: int) -> dict[str, Any]:
+        return {**super()._settings(arguments, num_envs), "rows": ROWS}
 
     @property
     def received(self) -> Numbers:

@@ -18,7 +18,7 @@ from ..errors import InvalidInput
 from ..vector_env import Info
 from ..vector_results import Numbers, Pixels
 from . import xla
-from .envs import Envs, Shown
+from .envs import ROWS, Envs, Shown
 from .spec import EnvSpec, InvalidSetting, checked, dm_specs
 
 __all__ = ["DMEnvPool", "EnvPool", "GymEnvPool", "GymnasiumEnvPool", "State", "TimeStep"]
@@ -28,20 +28,19 @@ class EnvPool:
     """What all kinds have. A kind says in shown_as() what its results look like."""
 
     def __init__(self, spec: EnvSpec, render_env_id: Any = 0) -> None:
-        self._envs = Envs(spec)
         self.spec: Any = spec
         self.config: dict[str, Any] = spec.config._asdict()
+        self._check_size()
+        self._envs = Envs(spec)
         self.num_envs, self.batch_size = self._envs.num_envs, self._envs.batch_size
         self._shown_by_render = checked(whole, "render_env_id", render_env_id, 0, self.num_envs - 1)
-        self._check_size()
         self.action_space = self.single_action_space = spec.action_space
         self.observation_space = self.single_observation_space = spec.observation_space
 
     def _check_size(self) -> None:
         """Without another size, all ways to resize are the same."""
-        shape, height = (self.config["img_height"], self.config["img_width"]), self._envs.machines().height()
-        if not self.config["use_inter_area_resize"] and shape != (height, 160):
-            raise InvalidSetting(f"use_inter_area_resize is False; racebeam takes that where img_height and img_width are {height} and 160")
+        if not self.config["use_inter_area_resize"] and (self.config["img_height"], self.config["img_width"]) != (ROWS, 160):
+            raise InvalidSetting(f"use_inter_area_resize is False; racebeam takes that where img_height and img_width are {ROWS} and 160")
 
     def __len__(self) -> int:
         return self.num_envs
@@ -79,7 +78,7 @@ class EnvPool:
         chosen = np.atleast_1d(self._shown_by_render if env_ids is None else env_ids)
         if chosen.size == 0:
             raise InvalidInput("env_ids is empty; it takes one environment or more")
-        return np.stack([pictures[env] for env in chosen])
+        return np.stack([pictures[env][:ROWS] for env in chosen])
 
     def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
         """For programs that JAX compiles: a handle, recv(handle), send(handle, action, env_id=None) and step(handle, action, env_id=None).
