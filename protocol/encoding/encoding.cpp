@@ -23,6 +23,11 @@ constexpr std::array kEncodings = {
     EncodingRow{Encoding::kRaw, "raw", "how many bytes; they follow the line of the reply, as they are"},
 };
 
+using Bytes = std::span<const std::uint8_t>;
+
+// A piece of a long value takes a millisecond at most. It holds any screen, and whole groups of base64.
+constexpr std::size_t kPiece = std::size_t{48} << 10;
+
 constexpr std::size_t kMostSkipped = 0xFFFF, kMostRuns = 0xFF, kMostInRun = 0xFF;
 constexpr std::size_t kWorthSkipping = 16;  // a record takes as much text as one and a half runs
 
@@ -85,6 +90,36 @@ std::size_t append_runs(std::string& out, std::size_t skipped, std::span<const s
   return at;
 }
 
+// The length of the next piece. Between pieces, the text of runs is only the same where a run ends.
+std::size_t any_piece(Bytes bytes) { return std::min(kPiece, bytes.size()); }
+std::size_t piece_of_runs(Bytes bytes) {
+  std::size_t end = any_piece(bytes);
+  while (end < bytes.size() && bytes[end] == bytes[end - 1]) ++end;
+  return end;
+}
+
+// Calls write(piece, is_last) for one piece after the other, and `pause` between two.
+template <typename Write>
+void in_pieces(Bytes bytes, const BetweenPieces& pause, std::size_t (*next)(Bytes), Write write) {
+  for (bool last = false; !last;) {
+    const Bytes piece = bytes.first(next(bytes));
+    bytes = bytes.subspan(piece.size());
+    last = bytes.empty();
+    write(piece, last);
+    if (!last && pause) pause();
+  }
+}
+
+// A string that grows piece by piece would take up to twice the memory. There is room for what follows, too.
+void make_room(std::string& out, std::size_t more) {
+  if (more > kPiece) out.reserve(out.size() + more + kPiece);
+}
+
+void append_base64_in_pieces(std::string& out, Bytes bytes, const BetweenPieces& pause) {
+  make_room(out, text_size(Encoding::kBase64, bytes.size()));
+  in_pieces(bytes, pause, any_piece, [&out](Bytes piece, bool) { append_base64(out, piece); });
+}
+
 }  // namespace
 
 std::span<const EncodingRow> encodings() { return kEncodings; }
@@ -95,13 +130,22 @@ std::optional<Encoding> encoding_of(std::string_view name) {
 }
 
 std::size_t text_size(Encoding encoding, std::size_t bytes) {
-  if (encoding == Encoding::kRaw) return bytes;
-  const bool in_base64 = encoding == Encoding::kBase64 || encoding == Encoding::kZlib;
-  return in_base64 ? (bytes + 2) / 3 * 4 : 2 * bytes;
+  constexpr std::size_t kRun = 4, kHeader = 6;  // digits
+  const auto in_base64 = [](std::size_t count) { return (count + 2) / 3 * 4; };
+  switch (encoding) {
+    case Encoding::kHex: return 2 * bytes;
+    case Encoding::kRunLength: return kRun * bytes;
+    case Encoding::kDelta: return kRun * bytes + kHeader * (bytes / kMostRuns + 1);
+    case Encoding::kBase64: return in_base64(bytes);
+    case Encoding::kZlib: return in_base64(compressBound(bytes));
+    case Encoding::kRaw: return bytes;
+  }
+  return 0;
 }
 
-void append_delta(std::string& out, std::span<const std::uint8_t> bytes, std::span<std::uint8_t> before) {
-  std::size_t told = 0;  // the reader knows the bytes before it
+void append_delta(std::string& out, Bytes bytes, std::span<std::uint8_t> before, const BetweenPieces& pause) {
+  std::size_t told = 0;             // the reader knows the bytes before it
+  std::size_t written = out.size();  // at the last pause
   for (;;) {
     std::size_t begin = next_difference(bytes, before, told);
     if (begin == bytes.size()) break;
@@ -111,6 +155,9 @@ void append_delta(std::string& out, std::span<const std::uint8_t> bytes, std::sp
       const std::size_t stop = append_runs(out, begin - told, bytes, begin, end);
       std::copy_n(bytes.data() + begin, stop - begin, before.data() + begin);
       told = begin = stop;
+      if (!pause || out.size() - written < kPiece) continue;
+      pause();
+      written = out.size();
     }
   }
 }
@@ -125,14 +172,16 @@ class Encoder::Deflater {
   Deflater(const Deflater&) = delete;
   Deflater& operator=(const Deflater&) = delete;
 
-  std::span<const std::uint8_t> deflated(std::span<const std::uint8_t> bytes) {
+  Bytes deflated(Bytes bytes, const BetweenPieces& pause) {
     deflateReset(&stream_);
     packed_.resize(deflateBound(&stream_, bytes.size()));
-    stream_.next_in = const_cast<Bytef*>(bytes.data());
-    stream_.avail_in = static_cast<uInt>(bytes.size());
     stream_.next_out = packed_.data();
     stream_.avail_out = static_cast<uInt>(packed_.size());
-    deflate(&stream_, Z_FINISH);
+    in_pieces(bytes, pause, any_piece, [this](Bytes piece, bool last) {
+      stream_.next_in = const_cast<Bytef*>(piece.data());
+      stream_.avail_in = static_cast<uInt>(piece.size());
+      deflate(&stream_, last ? Z_FINISH : Z_NO_FLUSH);
+    });
     return std::span(packed_).first(stream_.total_out);
   }
 
@@ -146,19 +195,25 @@ Encoder::~Encoder() = default;
 Encoder::Encoder(Encoder&&) noexcept = default;
 Encoder& Encoder::operator=(Encoder&&) noexcept = default;
 
-void Encoder::append(std::string& out, std::span<const std::uint8_t> bytes, std::string& raw) {
+void Encoder::append(std::string& out, Bytes bytes, std::string& raw, const BetweenPieces& pause) {
   switch (encoding_) {
-    case Encoding::kHex: return append_hex(out, bytes);
-    case Encoding::kRunLength: return append_run_length(out, bytes);
-    case Encoding::kBase64: return append_base64(out, bytes);
-    case Encoding::kDelta: before_.resize(bytes.size()); return append_delta(out, bytes, before_);
+    case Encoding::kHex:
+      make_room(out, text_size(Encoding::kHex, bytes.size()));
+      return in_pieces(bytes, pause, any_piece, [&out](Bytes piece, bool) { append_hex(out, piece); });
+    case Encoding::kRunLength:
+      return in_pieces(bytes, pause, piece_of_runs,
+                       [&out](Bytes piece, bool) { append_run_length(out, piece); });
+    case Encoding::kBase64: return append_base64_in_pieces(out, bytes, pause);
+    case Encoding::kDelta: before_.resize(bytes.size()); return append_delta(out, bytes, before_, pause);
     case Encoding::kZlib:
       if (!deflater_) deflater_ = std::make_unique<Deflater>();
-      return append_base64(out, deflater_->deflated(bytes));
+      return append_base64_in_pieces(out, deflater_->deflated(bytes, pause), pause);
     case Encoding::kRaw:
-      raw.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
       out += std::to_string(bytes.size());
-      return;
+      make_room(raw, bytes.size());
+      return in_pieces(bytes, pause, any_piece, [&raw](Bytes piece, bool) {
+        raw.append(reinterpret_cast<const char*>(piece.data()), piece.size());
+      });
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,12 +22,16 @@ struct EncodingRow {
 std::span<const EncodingRow> encodings();  // in the order of Encoding
 std::optional<Encoding> encoding_of(std::string_view name);
 
-// The length of `bytes` bytes in a reply. Encodings of variable length count as the fixed ones: runs and
-// delta as hex, zlib as base64. Runs and delta exceed hex only where hardly any two neighbours are equal.
+// The greatest length of `bytes` bytes in a reply. Runs and delta reach it where no two neighbours are equal, as
+// in the red, green and blue of a colour; mostly they are far shorter.
 std::size_t text_size(Encoding encoding, std::size_t bytes);
 
+// Called between two pieces of a long value; may suspend its caller, or throw. Empty: nothing is called.
+using BetweenPieces = std::function<void()>;
+
 // Writes what has changed since `before`, and makes `before` equal to `bytes`. Both have the same size.
-void append_delta(std::string& out, std::span<const std::uint8_t> bytes, std::span<std::uint8_t> before);
+void append_delta(std::string& out, std::span<const std::uint8_t> bytes, std::span<std::uint8_t> before,
+                  const BetweenPieces& pause = {});
 
 // Writes one field of reply after reply, and holds what its encodings must remember. After each encoding has
 // been used once, it allocates nothing.
@@ -38,8 +43,10 @@ class Encoder {
   Encoder& operator=(Encoder&&) noexcept;
 
   Encoding encoding() const { return encoding_; }
-  // Writes a value into the line `out`. `raw` gets the bytes that follow the line, with kRaw.
-  void append(std::string& out, std::span<const std::uint8_t> bytes, std::string& raw);
+  // Writes a value into the line `out`. `raw` gets the bytes that follow the line, with kRaw. Only a stack of
+  // screens is so long that it is written in several pieces.
+  void append(std::string& out, std::span<const std::uint8_t> bytes, std::string& raw,
+              const BetweenPieces& pause = {});
 
  private:
   class Deflater;

@@ -118,6 +118,16 @@ std::size_t bytes_of(const StackSettings& stack) {
          static_cast<std::size_t>(pictures);
 }
 
+constexpr std::size_t kTallScreen = 250 * std::size_t{kScreenWidth}, kRgbScreen = 3 * kTallScreen;
+
+// Of a field of bytes, on whatever machine.
+std::size_t most_bytes(const Field& field) {
+  constexpr std::size_t kNoScreen = 1024;
+  if (field.stack) return bytes_of(*field.stack);
+  if (field.row->looks_at == Drawing::kNone) return kNoScreen;
+  return field.row->name == "rgb" ? kRgbScreen : kTallScreen;
+}
+
 Field parse_field(std::string_view word) {
   std::string_view name = word;
   const std::string_view encoding = cut_behind(name, ':');
@@ -195,21 +205,31 @@ std::size_t text_size(const std::vector<Field>& fields, const Environment& machi
   return size;
 }
 
-View::View(std::vector<Field> fields) : fields_(std::move(fields)) {
+View::View(std::vector<Field> fields, BetweenPieces pause)
+    : fields_(std::move(fields)), pause_(std::move(pause)) {
   for (const Field& field : fields_) encoders_.emplace_back(field.encoding);
 }
 
 std::size_t View::footprint(const std::vector<Field>& fields) {
-  constexpr std::size_t kDeflater = std::size_t{300} << 10, kTallScreen = 250 * std::size_t{kScreenWidth};
+  constexpr std::size_t kDeflater = std::size_t{300} << 10;
   std::size_t bytes = 0;
   for (const Field& field : fields) {
     if (field.row->number) continue;
-    const std::size_t stack = field.stack ? 2 * bytes_of(*field.stack) : 0;  // with a copy
-    bytes += 3 * kTallScreen + stack;                                        // for scratch_, at most
-    if (field.encoding == Encoding::kZlib) bytes += kDeflater;
-    if (field.encoding == Encoding::kDelta) bytes += 3 * kTallScreen + stack;
+    bytes += most_bytes(field) + kRgbScreen;           // for scratch_
+    if (field.stack) bytes += bytes_of(*field.stack);  // itself
+    if (field.encoding == Encoding::kZlib) bytes += kDeflater + most_bytes(field);
+    if (field.encoding == Encoding::kDelta) bytes += most_bytes(field);
   }
   return bytes;
+}
+
+std::size_t View::longest_text(const std::vector<Field>& fields) {
+  std::size_t size = 0;
+  for (const Field& field : fields) {
+    const std::size_t copies = field.encoding == Encoding::kRaw ? 2 : 1;  // beside the line, and behind it
+    if (!field.row->number) size += copies * text_size(field.encoding, most_bytes(field));
+  }
+  return size;
 }
 
 void View::append(std::string& out, std::string& raw, const Shown& shown) {
@@ -231,10 +251,11 @@ void View::append_final(std::string& out, std::string& raw, const Slot& slot) {
 void View::append_value(std::string& out, std::string& raw, std::size_t field, const Shown& shown) {
   const FieldRow& row = *fields_[field].row;
   if (row.number) return append_number(out, row.number(shown.machine, shown.outcome));
-  if (!fields_[field].stack) return encoders_[field].append(out, row.bytes(shown.machine, scratch_), raw);
+  if (!fields_[field].stack)
+    return encoders_[field].append(out, row.bytes(shown.machine, scratch_), raw, pause_);
   scratch_.resize(shown.stack->size());
   shown.stack->copy_to(scratch_);
-  encoders_[field].append(out, scratch_, raw);
+  encoders_[field].append(out, scratch_, raw, pause_);
 }
 
 }  // namespace racebeam

@@ -43,16 +43,19 @@ std::vector<Field> parse_fields(Words words);
 // Which screens of an act the fields need, on a machine with colour averaging or without.
 Drawing drawing_of(const std::vector<Field>& fields, bool averaging);
 
-// Estimates the length of the fields in a reply about `machine`. Numbers count with a typical length.
+// The greatest length of the fields in a reply about `machine`. Numbers count with a typical length.
 std::size_t text_size(const std::vector<Field>& fields, const Environment& machine);
 
 // Writes the selected fields of one machine into its replies. It has state: the delta encoding needs the last
 // reply.
 class View {
  public:
-  explicit View(std::vector<Field> fields);
+  // `pause` is called in the middle of long values.
+  explicit View(std::vector<Field> fields, BetweenPieces pause = {});
 
   static std::size_t footprint(const std::vector<Field>& fields);  // estimated bytes of memory
+  // Bytes of memory for the fields in the longest reply, about whatever machine.
+  static std::size_t longest_text(const std::vector<Field>& fields);
 
   // The sources of values. `stack` is null if no field is a stack.
   struct Shown {
@@ -74,6 +77,7 @@ class View {
   void append_value(std::string& out, std::string& raw, std::size_t field, const Shown& shown);
 
   std::vector<Field> fields_;
+  BetweenPieces pause_;
   std::vector<Encoder> encoders_;  // one for each field
   std::vector<std::uint8_t> scratch_;
 };

@@ -21,7 +21,7 @@ class Recorder;
 struct LineLimits {
   std::size_t line = 1 << 20;               // bytes of a request; an image of the largest size fits as base64
   std::size_t output = 1 << 18;             // bytes that wait to be sent; above them, no request is begun
-  std::size_t reply = 1 << 26;              // bytes of a reply, as protocol/PROTOCOL.md counts them
+  std::size_t reply = 96 << 20;             // bytes of a reply, as protocol/PROTOCOL.md counts them
   int machines = 256;                       // of `open`
   int states = 256;                         // saved at the same time
   std::int64_t request_frames = 2'000'000;  // of one request

@@ -38,7 +38,7 @@ std::size_t LoadedMachine::footprint(const std::vector<Field>& fields) {
 
 void LoadedMachine::observe(std::vector<Field> fields) {
   racebeam::observe(slot_, fields);
-  view_ = View(std::move(fields));
+  view_ = View(std::move(fields), [&pacer = pacer_] { pacer.breathe(); });
 }
 
 }  // namespace racebeam

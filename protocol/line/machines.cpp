@@ -33,14 +33,16 @@ class Machines::Host final : public VectorHost {
   }
 
   Seat& seat(std::size_t number) { return *seats_[number]; }
+  void observe(std::size_t number, const std::vector<Field>& fields);  // begins a view of them
   std::span<const std::unique_ptr<Seat>> seats() const { return seats_; }
+  std::size_t held() const;  // bytes of memory of the machines' parts of replies
 
   void run_all(std::size_t count, const std::function<void(std::size_t)>& task) override;
   Pace* pace(std::size_t number) override { return &seats_[number]->pacer; }
 
   void opened(std::size_t number, Slot& slot) override {
     racebeam::observe(slot, session_.fields);
-    seats_[number]->view.emplace(session_.fields);
+    observe(number, session_.fields);
   }
   void ended(std::size_t number, const Slot& slot) override {
     seats_[number]->view->append_final(seats_[number]->text, seats_[number]->raw, slot);
@@ -92,7 +94,8 @@ void Machines::observe(const std::vector<Field>& fields) {
   opened_->reply_bytes = check(fields, size(), opened_->vector.autoreset());
   for (std::size_t number = 0; number < size(); ++number) {
     racebeam::observe(opened_->vector.slot(number), fields);
-    opened_->host.seat(number).view.emplace(fields);
+    opened_->host.observe(number, fields);
+    session_.pacer.breathe();
   }
 }
 
@@ -118,8 +121,13 @@ std::size_t Machines::check(const std::vector<Field>& fields, std::size_t count,
 std::size_t Machines::footprint(const std::vector<Field>& fields) const {
   if (empty()) return 0;
   std::size_t bytes = size() * (sizeof(Seat) + LoadedMachine::footprint(fields));
-  for (const auto& seat : opened_->host.seats()) bytes += seat->text.capacity() + seat->raw.capacity();
-  return bytes;
+  return bytes + opened_->host.held();
+}
+
+// A reply is put together from the machines' parts of it, which may have kept their memory.
+void Machines::check_reply_memory() const {
+  const std::size_t reply = opened_->reply_bytes;
+  session_.memory.check(2 * reply - std::min(reply, opened_->host.held()), "the reply");
 }
 
 void Machines::open(std::size_t count, const SlotSettings& settings, Autoreset autoreset) {
@@ -137,7 +145,7 @@ void Machines::open(std::size_t count, const SlotSettings& settings, Autoreset a
 void Machines::step(std::span<const Act> acts) {
   const std::vector<std::uint8_t> resets(size(), opened_->vector.autoreset() != Autoreset::kDisabled);
   check_frames(static_cast<std::int64_t>(size()), resets);
-  session_.memory.check(opened_->reply_bytes, "the reply");
+  check_reply_memory();
   opened_->vector.step(acts);
   session_.out += "ok";
   append_pair(session_.out, "machines", static_cast<std::int64_t>(size()));
@@ -149,7 +157,7 @@ void Machines::step(std::span<const Act> acts) {
 
 void Machines::restart(std::span<const std::uint8_t> chosen, std::span<const std::int64_t> seeds) {
   check_frames(0, chosen);
-  session_.memory.check(opened_->reply_bytes, "the reply");
+  check_reply_memory();
   opened_->vector.reset(chosen, seeds);
   session_.out += "ok";
   append_pair(session_.out, "machines", static_cast<std::int64_t>(size()));
@@ -167,11 +175,31 @@ void Machines::check_frames(std::int64_t acts, std::span<const std::uint8_t> res
 }
 
 void Machines::append_texts() {
+  std::size_t text = session_.out.size(), raw = session_.raw.size();
+  for (const auto& seat : opened_->host.seats()) {
+    text += 2 + seat->text.size();
+    raw += seat->raw.size();
+  }
+  session_.out.reserve(text);  // at once: a long reply that grows by doubling is copied in one piece
+  session_.raw.reserve(raw);
   for (const auto& seat : opened_->host.seats()) {
     (session_.out += " |") += seat->text;
     session_.raw += seat->raw;
     session_.pacer.breathe();
   }
+}
+
+// Long values are written in the machine's own work, or in that of a request about this machine alone.
+void Machines::Host::observe(std::size_t number, const std::vector<Field>& fields) {
+  seats_[number]->view.emplace(fields, [this, &own = seats_[number]->pacer] {
+    (own.in_progress() ? own : session_.pacer).breathe();
+  });
+}
+
+std::size_t Machines::Host::held() const {
+  std::size_t bytes = 0;
+  for (const auto& seat : seats_) bytes += seat->text.capacity() + seat->raw.capacity();
+  return bytes;
 }
 
 std::int64_t Machines::Host::frames() const {

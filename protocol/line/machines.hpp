@@ -51,6 +51,7 @@ class Machines {
 
   std::size_t check(const std::vector<Field>& fields, std::size_t count, Autoreset autoreset);
   void check_frames(std::int64_t acts, std::span<const std::uint8_t> resets) const;
+  void check_reply_memory() const;
   void append_texts();
 
   Session& session_;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "protocol/encoding/base64.hpp"
+#include "protocol/encoding/text.hpp"
 #include "protocol/line/words.hpp"
 
 using namespace racebeam;
@@ -121,6 +122,52 @@ TEST_CASE("raw writes a length, and the bytes elsewhere") {
   CHECK(text == "a=3");
   CHECK(raw == std::string("x\0\n\xFF", 4));
   CHECK(text_size(Encoding::kRaw, 3) == 3);
+}
+
+TEST_CASE("A value in pieces is the same text") {
+  std::mt19937 random(3);
+  Bytes value(300'000);
+  for (std::size_t at = 0; at < value.size();) {  // noise, short runs, and runs longer than a piece
+    const std::size_t length = std::min<std::size_t>(value.size() - at, random() % 50 == 0 ? 70'000 : 1 + random() % 300);
+    const bool noise = random() % 2 == 0;
+    for (const std::size_t end = at + length; at < end; ++at)
+      value[at] = static_cast<std::uint8_t>(noise ? random() : length);
+  }
+  for (const EncodingRow& row : encodings()) {
+    INFO(row.name);
+    int pauses = 0;
+    std::string whole, pieces, whole_raw, pieces_raw;
+    Encoder(row.encoding).append(whole, value, whole_raw);
+    Encoder(row.encoding).append(pieces, value, pieces_raw, [&pauses] { ++pauses; });
+    CHECK(pauses >= 3);  // runs are longer than a piece here
+    CHECK(whole == pieces);
+    CHECK(whole_raw == pieces_raw);
+  }
+  std::string runs, raw, at_once;
+  append_run_length(at_once, value);
+  Encoder(Encoding::kRunLength).append(runs, value, raw);
+  CHECK(runs == at_once);
+}
+
+TEST_CASE("No text is longer than its greatest length, which can be reached") {
+  std::mt19937 random(4);
+  Bytes noise(50'000), ramp(50'000), flat(50'000, 7);
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    noise[i] = static_cast<std::uint8_t>(random());
+    ramp[i] = static_cast<std::uint8_t>(i + 1);
+  }
+  for (const EncodingRow& row : encodings()) {
+    std::size_t longest = 0;
+    for (const Bytes& value : {noise, ramp, flat}) {
+      std::string text, raw;
+      Encoder(row.encoding).append(text, value, raw);
+      const std::size_t size = row.encoding == Encoding::kRaw ? raw.size() : text.size();
+      longest = std::max(longest, size);
+      CHECK(size <= text_size(row.encoding, value.size()));
+    }
+    INFO(row.name);
+    CHECK(100 * longest > 99 * text_size(row.encoding, noise.size()));
+  }
 }
 
 TEST_CASE("zlib gives back what went in, reply after reply") {

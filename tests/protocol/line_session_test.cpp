@@ -239,7 +239,8 @@ TEST_CASE("A reply that would be too long is refused before anything is done") {
   CHECK(code(client.ask("observe screen:hex grey:hex")) == "limit");
   CHECK(client.ask("observe") == "ok fields=screen");
   CHECK(client.ask("step NOOP").size() > 15 * 67200);
-  CHECK(code(client.ask("observe screen:rle reward")) == "");
+  CHECK(code(client.ask("observe rgb:rle")) == "limit");  // nearly as long, where the screen is not black
+  CHECK(code(client.ask("observe screen:base64 reward")) == "");
   CHECK(code(client.ask("open 15")) == "");
   CHECK(code(client.ask("open 15 autoreset=same-step")) == "limit");
   client.ask("save a");

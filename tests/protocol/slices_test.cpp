@@ -1,6 +1,7 @@
 // All work with frames is done in slices, can be cancelled, and counts against the limit.
 #include <catch2/catch.hpp>
 
+#include "protocol/encoding/encoding.hpp"
 #include "tests/protocol/line_client.hpp"
 
 using namespace racebeam;
@@ -61,7 +62,8 @@ TEST_CASE("Slices change nothing") {
   for (const std::string request :
        {"load beamfall seed=5 noop_max=30 frame_skip=7", "observe reward ends lives frame ram screen:rle",
         "act FIRE*40 LEFT", "save a random=1", "branch a keep=b UP*20 FIRE*30,LEFT", "restore b1",
-        "open 5 autoreset=same-step", "step FIRE", "step UP", "restart 01010", "reset", "act RIGHT*100"}) {
+        "open 5 autoreset=same-step", "step FIRE", "step UP", "restart 01010", "reset", "act RIGHT*100",
+        "observe rgb160x210x4:rle rgb:zlib grey:delta", "act FIRE", "step UP", "act LEFT*30"}) {
     std::string reply;
     slices_of(sliced, request, reply);
     CHECK(whole.ask(request) + "\n" == reply);
@@ -112,6 +114,26 @@ TEST_CASE("Commands with very many words work on them in slices") {
     CHECK(code(reply) == refusal);
     CHECK(slices >= least);
   }
+}
+
+TEST_CASE("Long values are written in slices") {
+  for (const EncodingRow& row : encodings()) {
+    INFO(row.name);
+    const std::string stack = " rgb160x210x16:" + std::string(row.name);
+    // A stack has 1.6 million bytes. Of 15 pictures that are still black, runs and delta write little.
+    const int least = row.encoding == Encoding::kDelta || row.encoding == Encoding::kRunLength ? 3 : 30;
+    CHECK(slices_after({kLoad, "observe" + stack}, "act NOOP") > least);
+    CHECK(slices_after({kLoad, "observe" + stack, "open 2"}, "step NOOP") > least);
+    if (least > 3)
+      CHECK(slices_after({kLoad, "observe" + stack, "open 1", "save a machine=0"}, "restore a machine=0") > least);
+  }
+  CHECK(slices_after({kLoad}, "look rgb") > 2);
+}
+
+TEST_CASE("Many lists of a branch that end at once are played in slices") {
+  std::string lists;
+  for (int n = 0; n < 20'000; ++n) lists += " 0";
+  CHECK(slices_after({kLoad + " max_episode_frames=1", "act NOOP", "save over"}, "branch over" + lists) > 39'000);
 }
 
 TEST_CASE("What is there twice is refused before the words that follow it are read") {

@@ -37,9 +37,13 @@ class RewardRuns {  // the rewards of one act after the other, runs of equal one
     }
   }
 
-  void append(std::string& out, std::string_view key) const {  // " key=R,R*TIMES,..."
+  // Appends " key=R,R*TIMES,...".
+  void append(std::string& out, std::string_view key, Pacer& pacer) const {
+    constexpr std::size_t kBetweenLooks = 4096;
     append_pair(out, key, "");
+    std::size_t appended = 0;
     for (const Run& run : runs_) {
+      if (++appended % kBetweenLooks == 0) pacer.breathe();
       if (&run != runs_.data()) out += ',';
       append_number(out, run.reward);
       if (run.times == 1) continue;
@@ -60,7 +64,7 @@ struct Rewards {
   RewardRuns a, b;
 };
 
-Rewards play(Branching& branching, const Environment& machine, const std::vector<Action>& actions) {
+Rewards play(Branching& branching, const Environment& machine, std::span<const Action> actions) {
   Rewards rewards;
   for (const Action& action : actions) {
     for (int n = 0; n < action.times && !branching.over(); ++n) {
@@ -71,7 +75,7 @@ Rewards play(Branching& branching, const Environment& machine, const std::vector
   return rewards;
 }
 
-void append_end(std::string& out, const BranchEnd& end, const Rewards& rewards, bool for_two) {
+void append_end(std::string& out, const BranchEnd& end, const Rewards& rewards, bool for_two, Pacer& pacer) {
   out += " |";
   append_pair(out, "reward", end.reward);
   if (for_two) append_pair(out, "reward_b", end.reward_b);
@@ -79,8 +83,8 @@ void append_end(std::string& out, const BranchEnd& end, const Rewards& rewards, 
   append_pair(out, "terminated", end.terminated);
   append_pair(out, "truncated", end.truncated);
   append_pair(out, "lives", end.lives);
-  rewards.a.append(out, "rewards");
-  if (for_two) rewards.b.append(out, "rewards_b");
+  rewards.a.append(out, "rewards", pacer);
+  if (for_two) rewards.b.append(out, "rewards_b", pacer);
 }
 
 }  // namespace
@@ -96,8 +100,9 @@ void play_branches(Session& session, const BranchRequest& request) {
       branching.enter(*request.root.machine);
       const Rewards rewards = play(branching, machine, request.lists[i]);
       const BranchEnd& end = branching.end();
-      append_end(session.out, end, rewards, machine.game().has_second_reward());
+      append_end(session.out, end, rewards, machine.game().has_second_reward(), session.pacer);
       session.count({.reward = end.reward, .reward_b = end.reward_b, .acts = end.acts, .frames = end.frames});
+      session.pacer.breathe();  // a list that ends at once runs no frame
       if (request.keep.empty()) continue;
       const std::string name = request.keep + std::to_string(i);
       append_pair(session.out, "state", name);

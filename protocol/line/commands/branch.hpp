@@ -1,6 +1,8 @@
 // `branch`: from one state, several lists of actions; what planners do all day.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,9 +12,21 @@ namespace racebeam {
 
 class Session;
 
+// Lists of actions, one after the other in one piece of memory: there may be half a million.
+struct ActionLists {
+  std::vector<Action> actions;
+  std::vector<std::size_t> ends;  // of each list, in `actions`
+
+  std::size_t size() const { return ends.size(); }
+  std::span<const Action> operator[](std::size_t list) const {
+    const std::size_t begin = list == 0 ? 0 : ends[list - 1];
+    return std::span(actions).subspan(begin, ends[list] - begin);
+  }
+};
+
 struct BranchRequest {
   Slot::Saved root;
-  std::vector<std::vector<Action>> lists;
+  ActionLists lists;
   std::string keep;  // the ends are saved as this name with 0, 1, 2 ... behind it; empty: they are not
 };
 

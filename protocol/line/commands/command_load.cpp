@@ -180,7 +180,8 @@ void run_load(Session& session, Words arguments) {
   std::unique_ptr<LoadedMachine> loaded;
   try {
     session.allow_resets(1);
-    session.memory.check(LoadedMachine::footprint(session.fields) + (arguments[0] == kInline ? kOwnImage : 0),
+    session.memory.check(LoadedMachine::footprint(session.fields) + View::longest_text(session.fields) +
+                             (arguments[0] == kInline ? kOwnImage : 0),
                          "a machine");
     loaded = std::make_unique<LoadedMachine>(cartridge, settings, session.fields, session.pacer);
   } catch (const InvalidInput& error) {

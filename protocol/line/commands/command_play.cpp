@@ -65,7 +65,7 @@ void run_observe(Session& session, Words arguments) {
   if (!arguments.empty()) {
     std::vector<Field> fields = parse_fields(arguments);
     check_sound(session, fields);
-    session.memory.check(View::footprint(fields), "a view of these fields");
+    session.memory.check(View::footprint(fields) + View::longest_text(fields), "a view of these fields");
     if (session.loaded) stack_of(fields, session.loaded->slot());  // it can be made
     session.machines.observe(fields);
     session.fields = std::move(fields);
@@ -91,7 +91,7 @@ void run_look(Session& session, Words arguments) {
                        "a look at these fields");
   const auto stack = stack_of(fields, loaded.slot());
   session.out += "ok";
-  View(std::move(fields))
+  View(std::move(fields), [&session] { session.pacer.breathe(); })
       .append(session.out, session.raw,
               {loaded.machine(), loaded.slot().outcome(), stack ? &*stack : nullptr});
 }

@@ -94,17 +94,20 @@ SaveOptions read_save_options(const Session& session, Words words) {
   return options;
 }
 
-// A,B,C
-std::vector<Action> parse_list(std::string_view word, Session& session) {
-  std::vector<Action> list;
-  for (;;) {
+// Adds the list A,B,C. Returns how many acts it has.
+std::int64_t add_list(ActionLists& lists, std::string_view word, Session& session) {
+  std::int64_t acts = 0;
+  for (bool last = false; !last;) {
     std::string_view action = word;
     const std::string_view rest = cut_behind(action, ',');
-    list.push_back(parse_action(action, session.loaded->allowed()));
-    if (action.size() == word.size()) return list;
-    if (list.size() % kBetweenLooks == 0) session.pacer.breathe();
+    last = action.size() == word.size();
     word = rest;
+    lists.actions.push_back(parse_action(action, session.loaded->allowed()));
+    acts += lists.actions.back().times;
+    if (lists.actions.size() % kBetweenLooks == 0) session.pacer.breathe();
   }
+  lists.ends.push_back(lists.actions.size());
+  return acts;
 }
 
 // One of `open`. A stack that would begin anew is refused, since an agent would not notice.
@@ -138,16 +141,10 @@ Slot::Saved imported(std::span<const std::uint8_t> bytes, const Environment& mac
 // What lists of so many characters take, at most: a character and a comma are an action, and a vector that
 // grows has a copy for a moment.
 void check_memory(Session& session, Words lists) {
-  constexpr std::size_t kList = 64;
-  std::size_t bytes = 0;
-  for (const std::string_view list : lists) bytes += kList + 2 * sizeof(Action) * list.size();
-  session.memory.check(bytes, "lists of actions");
-}
-
-std::int64_t acts_of(const std::vector<Action>& list) {
-  std::int64_t acts = 0;
-  for (const Action& action : list) acts += action.times;
-  return acts;
+  std::size_t actions = 0;
+  for (const std::string_view list : lists) actions += list.size() / 2 + 1;
+  session.memory.check(3 * (sizeof(Action) * actions + sizeof(std::size_t) * lists.size()),
+                       "lists of actions");
 }
 
 }  // namespace
@@ -242,8 +239,7 @@ void run_branch(Session& session, Words arguments) {
   std::int64_t acts = 0;
   check_memory(session, sequences);
   for (const std::string_view word : sequences) {
-    branch.lists.push_back(parse_list(word, session));
-    acts += acts_of(branch.lists.back());
+    acts += add_list(branch.lists, word, session);
     session.pacer.breathe();
   }
   session.check_frames(acts);

@@ -108,6 +108,26 @@ TEST_CASE("A branch is refused where there is no memory for its lists, or for it
   CHECK(code(client.ask("branch a 0*20,1 2*30")) == "");
 }
 
+TEST_CASE("The reply of one act is counted before there is one") {
+  const LineService service = service_with(32 * kMiB);
+  LineClient client(service);
+  for (const std::string encoding : {"hex", "rle", "delta", "base64", "zlib", "raw"}) {
+    INFO(encoding);
+    client.ask("load beamfall seed=1 sticky=0");
+    CHECK(code(client.ask("observe rgb160x210x16:" + encoding)) == "");
+    const std::uint64_t observed = service.memory->taken();
+    client.hand_in("act NOOP*20\n");
+    while (client.session.output().empty()) client.session.run();
+    // The reply is there, and the client has not read it. A text of unknown length grows by doubling.
+    const bool doubles = encoding == "rle" || encoding == "delta";
+    CHECK(service.memory->taken() < observed * (doubles ? 2 : 1) + kMiB / 4);
+    client.listen();
+    CHECK(code(client.ask("observe none")) == "");
+    client.session.rest();
+    CHECK(service.memory->taken() < kMiB);
+  }
+}
+
 TEST_CASE("All memory comes back") {
   const LineService service = service_with(64 * kMiB);
   {
