@@ -1,6 +1,5 @@
 #include "server/server.hpp"
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -26,14 +25,6 @@ using namespace std::chrono_literals;
 // Times after the grace period: to say farewell, to send pending bytes, to finish recordings. With the
 // Recorder's own limit, no more than a second in total.
 constexpr auto kFarewell = 700ms, kLastBytes = 100ms, kLastFrames = 50ms;
-
-// A session takes a descriptor, so the limit is raised as far as permitted.
-void raise_descriptor_limit() {
-  rlimit limit{};
-  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-  limit.rlim_cur = limit.rlim_max;
-  ::setrlimit(RLIMIT_NOFILE, &limit);
-}
 
 net::awaitable<void> pause() {
   net::steady_timer timer(co_await net::this_coro::executor, 5ms);
@@ -104,6 +95,11 @@ Server::Server(const ServerSettings& settings, const Services& services)
 void Server::tell_limits() const {
   log("threads: " + std::to_string(settings_.threads) + ", limited by " + settings_.threads_limited_by,
       {{"event", "threads"}});
+  if (!settings_.sessions_limited_by.empty()) {
+    log("sessions: " + std::to_string(settings_.max_sessions) + ", limited by " +
+            settings_.sessions_limited_by,
+        {{"event", "sessions"}});
+  }
   if (settings_.max_memory == 0) return;
   log("memory: " + std::to_string(settings_.max_memory) + " bytes, limited by " + settings_.memory_limited_by,
       {{"event", "memory"}});
@@ -247,7 +243,6 @@ int Server::status() const {
 int serve(const ServerSettings& settings, const Services& services) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer
-  raise_descriptor_limit();
   const int status = Server(settings, services).run();
   // Sessions that did not end in time are gone. Their recordings are finished here.
   if (const auto recorder = recorder_of(services)) recorder->end(kLastFrames);

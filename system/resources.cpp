@@ -165,6 +165,13 @@ Allowance usable_memory(const std::string& root) {
   return allowance;
 }
 
+std::uint64_t usable_files() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return system_value(_SC_OPEN_MAX);
+  const rlimit highest{limit.rlim_max, limit.rlim_max};
+  return ::setrlimit(RLIMIT_NOFILE, &highest) == 0 ? highest.rlim_cur : limit.rlim_cur;
+}
+
 std::uint64_t resident_memory() {
   std::ifstream file("/proc/self/statm");
   std::uint64_t all = 0, resident = 0;

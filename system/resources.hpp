@@ -25,6 +25,9 @@ Allowance usable_processors(const std::string& root = "");
 // Bytes: the least of the physical memory, the control groups' limits and that of the address space.
 Allowance usable_memory(const std::string& root = "");
 
+// Raises the limit of open files as far as the system allows. Returns how many the process may have open.
+std::uint64_t usable_files();
+
 // Bytes of memory that the process uses now.
 std::uint64_t resident_memory();
 

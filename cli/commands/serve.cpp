@@ -152,6 +152,18 @@ void limit_memory(Services& services, std::uint64_t most, const SharedCaches& ca
   if (services.line) std::get<LineService>(*services.line).memory = budget;
 }
 
+// A session on a socket takes a file, and so does a connection that is being closed. Others are for the server
+// itself, for --http and for recordings.
+void limit_connections(ServerSettings& server) {
+  constexpr std::uint64_t kMostFiles = 1 << 20, kMostOthers = 128;
+  const std::uint64_t files = std::min(usable_files(), kMostFiles), others = std::min(kMostOthers, files / 4);
+  server.max_connections = static_cast<int>(files - others);
+  const auto sessions = static_cast<int>(files - 2 * others);
+  if (server.max_sessions <= sessions) return;
+  server.max_sessions = sessions;
+  server.sessions_limited_by = "the open files (ulimit -n)";
+}
+
 int serve(const ServeOptions& options, const SharedCaches& caches) {
   ThreadPool pool(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1,
                   options.server.busy_poll);
@@ -187,6 +199,7 @@ int run_server(ServeOptions& options, const std::vector<Setting>& settings) {
   try {
     set_up_log(options.log_level, options.log_format);
     options.server.threads_limited_by = limit_of(settings, "threads", usable_processors().limited_by);
+    limit_connections(options.server);
     options.server.memory_limited_by = limit_of(settings, "max_memory", usable_memory().limited_by);
     const SharedCaches caches = shared_caches_for(options.server.max_memory);
     options.server.caches = text_of(caches);

@@ -4,8 +4,10 @@ namespace racebeam {
 
 using namespace std::chrono_literals;
 
-Client::Client(Socket connection, Loop& home, std::string who)
-    : socket(std::move(connection)), loop(home), name(std::move(who)) {
+Client::Client(Socket connection, Loop& home, std::string who, const std::shared_ptr<MemoryBudget>& budget,
+               std::size_t bytes)
+    : socket(std::move(connection)), loop(home), name(std::move(who)), memory_(budget) {
+  memory_.set(bytes);
   ++loop.sessions;
 }
 

@@ -10,6 +10,7 @@
 #include <boost/asio.hpp>
 
 #include "protocol/request_error.hpp"
+#include "protocol/running/memory_budget.hpp"
 #include "server/access/wrong_tokens.hpp"
 #include "server/connections/lobby.hpp"
 #include "server/scheduling/loops.hpp"
@@ -24,7 +25,9 @@ using Clock = std::chrono::steady_clock;
 // thread only.
 class Client {
  public:
-  Client(Socket connection, Loop& home, std::string who);
+  // The budget is charged with `bytes` for what carries the session: a socket, TLS, HTTP.
+  Client(Socket connection, Loop& home, std::string who, const std::shared_ptr<MemoryBudget>& budget,
+         std::size_t bytes);
   ~Client();
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
@@ -66,6 +69,7 @@ class Client {
   Usage usage{};                      // of the event loop
 
  private:
+  MemoryShare memory_;
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};
   bool rests_ = false;
   bool quick_ = false;  // its next request came at once

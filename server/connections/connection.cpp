@@ -360,10 +360,10 @@ net::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Serv
   co_await close_gently(client);
 }
 
-net::awaitable<void> turn_away(std::shared_ptr<Client> client, std::string text) {
+net::awaitable<void> turn_away(std::shared_ptr<Client> client, std::string text, bool gently) {
   error_code ignored;
   if (!text.empty()) client->socket.write_some(net::buffer(text), ignored);
-  co_await close_gently(client);
+  if (gently) co_await close_gently(client);
 }
 
 }  // namespace racebeam

@@ -32,9 +32,16 @@ net::awaitable<void> pause() {
 
 bool has_memory_for_one_more(const Service& service) {
   constexpr std::uint64_t kSession = 1 << 20;
-  const auto& memory = std::visit(
-      [](const auto& kind) -> const auto& { return kind.memory; }, service);
+  const auto& memory = memory_of(service);
   return !memory || memory->has(kSession);
+}
+
+// What carries a session takes this much, measured, from the first byte of a handshake on. Its own memory is
+// counted by the session.
+std::size_t carrier_bytes(const Endpoint& endpoint) {
+  constexpr std::size_t kSocket = std::size_t{4} << 10, kTls = std::size_t{96} << 10,
+                        kHttp = std::size_t{16} << 10;
+  return kSocket + (endpoint.tls ? kTls : 0) + (endpoint.web ? kHttp : 0);
 }
 
 // The longest delay of a token: it must be checked before the handshake's timeout.
@@ -178,6 +185,7 @@ void ConnectionAcceptor::read_again() {
 }
 
 net::awaitable<void> ConnectionAcceptor::welcome(Listener& listener) {
+  bool failed = false;  // and the log says so
   for (int number = 1; !closed_; ++number) {
     Loop& loop = loops_.idlest();
     error_code error;
@@ -185,10 +193,12 @@ net::awaitable<void> ConnectionAcceptor::welcome(Listener& listener) {
         co_await listener.acceptor().async_accept(loop.context, net::redirect_error(use_awaitable, error));
     if (closed_) break;
     if (error) {  // most likely out of descriptors, which may pass
-      log_warning("cannot take a client on " + listener.name() + ": " + error.message());
+      if (!std::exchange(failed, true))
+        log_warning("cannot take a client on " + listener.name() + ": " + error.message());
       co_await pause();
       continue;
     }
+    failed = false;
     set_options(socket);
     admit(std::move(socket), loop, listener, number);
   }
@@ -198,6 +208,7 @@ net::awaitable<void> ConnectionAcceptor::welcome(Listener& listener) {
 // handles that.
 std::optional<std::string> ConnectionAcceptor::obstacle(const Service& service) {
   if (!has_memory_for_one_more(service)) return "the server's sessions hold all the memory that they may";
+  if (loops_.sessions() > settings_.max_connections) return "the server may open no more files";
   if (metrics_.sessions_open < settings_.max_sessions) return std::nullopt;
   const std::string full =
       "there are " + std::to_string(settings_.max_sessions) + " sessions, the limit of this server";
@@ -212,8 +223,10 @@ void ConnectionAcceptor::admit(Socket socket, Loop& loop, const Listener& listen
   Carrier carrier;
   if (endpoint.tls) carrier.tls = tls_->context();
   if (endpoint.web) carrier.site = &site_;
-  admit(std::make_shared<Client>(std::move(socket), loop, std::move(name)), service_of(listener),
-        std::move(carrier), endpoint);
+  const Service& service = service_of(listener);
+  admit(std::make_shared<Client>(std::move(socket), loop, std::move(name), memory_of(service),
+                                 carrier_bytes(endpoint)),
+        service, std::move(carrier), endpoint);
 }
 
 void ConnectionAcceptor::admit_over_http(int descriptor, HttpRequest request, const std::string& address) {
@@ -226,8 +239,11 @@ void ConnectionAcceptor::admit_over_http(int descriptor, HttpRequest request, co
   socket.assign(Protocol(here.ss_family, SOCK_STREAM), descriptor, error);
   set_options(socket);
   std::string name = address + " client " + std::to_string(++from_http_);
-  admit(std::make_shared<Client>(std::move(socket), loop, std::move(name)), guarded_service(),
-        Carrier{nullptr, &site_, std::move(request)}, Endpoint{TcpAddress(), false, false, true});
+  const Endpoint endpoint{TcpAddress(), false, false, true};
+  const Service& service = guarded_service();
+  admit(std::make_shared<Client>(std::move(socket), loop, std::move(name), memory_of(service),
+                                 carrier_bytes(endpoint)),
+        service, Carrier{nullptr, &site_, std::move(request)}, endpoint);
 }
 
 void ConnectionAcceptor::admit(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
@@ -238,7 +254,8 @@ void ConnectionAcceptor::admit(std::shared_ptr<Client> client, const Service& se
     log_warning(client->name + ": refused, " + *why);
     client->end(ErrorCode::kBusy, *why + "; try again later");
     std::string text = refusal(endpoint, *client);
-    net::co_spawn(context, turn_away(std::move(client), std::move(text)), net::detached);
+    const bool gently = loops_.sessions() <= settings_.max_connections;
+    net::co_spawn(context, turn_away(std::move(client), std::move(text), gently), net::detached);
     return;
   }
   ++metrics_.sessions_open;

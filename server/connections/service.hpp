@@ -1,6 +1,7 @@
 // The services of a server: machines, and the protocols for them.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -17,6 +18,12 @@ using Service = std::variant<ClassicService, LineService>;
 struct Services {
   std::optional<Service> classic, line;
 };
+
+// Of the sessions of a service; null: there is no limit.
+inline const std::shared_ptr<MemoryBudget>& memory_of(const Service& service) {
+  return std::visit(
+      [](const auto& kind) -> const auto& { return kind.memory; }, service);
+}
 
 // For the log: with its seed, a session can be repeated.
 inline std::string describe(const Environment& machine) {

@@ -25,6 +25,8 @@ struct ServerSettings {
   std::string memory_limited_by;             // what limits them, for the log
   std::string caches;                        // the sizes of what sessions share, for the log
   int max_sessions = 4096;                   // sessions at the same time
+  std::string sessions_limited_by;           // what limits them, for the log; empty: only their option
+  int max_connections = 1 << 20;             // on sockets, those included that are being closed
   int idle_seconds = 86400;                  // timeout without a byte to or from a client; 0: never
   int handshake_seconds = 10;                // timeout for TLS and the token
   int grace_seconds = 5;                     // until sessions end after the server was told to stop

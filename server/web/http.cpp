@@ -1,8 +1,12 @@
 #include "server/web/http.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
+#include <utility>
 
 #include <boost/asio.hpp>
 
@@ -22,9 +26,11 @@ using namespace std::chrono_literals;
 constexpr std::size_t kMostConnections = 64;
 constexpr auto kTimeout = 30s;  // for a request and its response
 
+int open_spare() { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }
+
 }  // namespace
 
-Http::Http(net::io_context& loop, const TcpAddress& address) : acceptor_(loop) {
+Http::Http(net::io_context& loop, const TcpAddress& address) : acceptor_(loop), spare_(open_spare()) {
   const tcp::endpoint endpoint = resolve(address);
   error_code error;
   acceptor_.open(endpoint.protocol());
@@ -36,6 +42,10 @@ Http::Http(net::io_context& loop, const TcpAddress& address) : acceptor_(loop) {
   name_ = named({address.host, acceptor_.local_endpoint().port()});
   if (!endpoint.address().is_loopback())
     log_warning(name_ + " can be reached from other machines, which can then read the metrics");
+}
+
+Http::~Http() {
+  if (spare_ >= 0) ::close(spare_);
 }
 
 bool Http::is_loopback() const { return acceptor_.local_endpoint().address().is_loopback(); }
@@ -50,6 +60,7 @@ net::awaitable<void> Http::welcome() {
   for (;;) {
     error_code error;
     tcp::socket socket = co_await acceptor_.async_accept(net::redirect_error(use_awaitable, error));
+    if (error == net::error::no_descriptors && make_file_room()) continue;
     if (error) {
       net::steady_timer pause(acceptor_.get_executor(), 100ms);
       co_await pause.async_wait(use_awaitable);
@@ -59,13 +70,34 @@ net::awaitable<void> Http::welcome() {
     const auto connection = std::make_shared<OpenConnection>(std::move(socket));
     connections_.push_back(connection);
     net::co_spawn(acceptor_.get_executor(), serve(connection),
-                  [this, connection](const std::exception_ptr&) { connections_.remove(connection); });
+                  [this, connection](const std::exception_ptr&) { ended(connection); });
   }
 }
 
 // Closes the oldest connection, so that idle ones do not keep out others.
 void Http::make_room() {
-  if (connections_.size() < kMostConnections) return;
+  if (connections_.size() >= kMostConnections) close_oldest();
+}
+
+// The server's sessions may have all other files. An operator learns from /healthz that it runs.
+bool Http::make_file_room() {
+  if (spare_ < 0 && connections_.empty()) return false;
+  if (spare_ < 0) {
+    close_oldest();
+  } else {
+    ::close(std::exchange(spare_, -1));
+  }
+  return true;
+}
+
+void Http::ended(const Connection& connection) {
+  connections_.remove(connection);
+  error_code ignored;
+  connection->socket.close(ignored);
+  if (spare_ < 0) spare_ = open_spare();
+}
+
+void Http::close_oldest() {
   error_code ignored;
   connections_.front()->socket.close(ignored);  // cancels what it waits for
   connections_.pop_front();

@@ -26,6 +26,9 @@ class Http {
 
   // Listens from now on. Throws std::runtime_error if the address cannot be used.
   Http(boost::asio::io_context& loop, const TcpAddress& address);
+  ~Http();
+  Http(const Http&) = delete;
+  Http& operator=(const Http&) = delete;
 
   // Serves while the loop runs.
   void open(Site site, OnSession on_session);
@@ -44,7 +47,10 @@ class Http {
   using Connection = std::shared_ptr<OpenConnection>;
 
   boost::asio::awaitable<void> welcome();
-  void make_room();  // for one more connection
+  void make_room();       // for one more connection
+  bool make_file_room();  // for the file of one more connection; returns false if that is impossible
+  void close_oldest();
+  void ended(const Connection& connection);
   static void close_after(std::chrono::seconds limit, const Connection& connection);
   boost::asio::awaitable<void> serve(Connection connection);
 
@@ -54,6 +60,7 @@ class Http {
   std::string name_;
   // Ordered by the latest request, or else the connection; the oldest is first.
   std::list<Connection> connections_;
+  int spare_ = -1;  // a file that is given up for a connection when there is no other
 };
 
 }  // namespace racebeam

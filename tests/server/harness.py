@@ -54,15 +54,16 @@ def run(*words, data=b"", cwd=None):
 
 class Server:
     """A racebeam process. It works in a temporary folder, or in the given one. Its standard error is the
-    log, or the given descriptor. `environment`: variables besides those of the test."""
+    log, or the given descriptor. `before`: called in the new process. `environment`: variables besides those of
+    the test."""
 
-    def __init__(self, *words, streams=False, folder=None, errors=None, **environment):
+    def __init__(self, *words, streams=False, folder=None, errors=None, before=None, **environment):
         self.own_folder = tempfile.TemporaryDirectory()
         self.folder = folder or self.own_folder.name
         self.errors = open(os.path.join(self.own_folder.name, "stderr"), "w+b")
         pipe = subprocess.PIPE if streams else subprocess.DEVNULL
         self.process = subprocess.Popen(
-            [BINARY, *words], stdin=pipe, stdout=pipe, stderr=errors or self.errors, cwd=self.folder, bufsize=0,
+            [BINARY, *words], stdin=pipe, stdout=pipe, stderr=errors or self.errors, cwd=self.folder, bufsize=0, preexec_fn=before,
             env={name: value for name, value in os.environ.items() if name != "RACEBEAM_ROMS"} | environment)
 
     def __enter__(self):

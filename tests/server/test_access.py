@@ -12,7 +12,7 @@ import time
 import unittest
 import urllib.request
 
-from harness import GAME, PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, run
+from harness import GAME, PATIENCE, Server, Wire, ask, connect_tcp, connect_unix, main, run, sanitized
 
 TOKEN, OTHER = "0123456789abcdef", "fedcba9876543210"
 
@@ -364,6 +364,18 @@ class Tls(Folder):
                 plain = connect_tcp(self.port(server))
                 self.assertEqual(plain.rest(), b"")
                 plain.close()
+
+    @unittest.skipIf(sanitized(), "a sanitizer needs more memory")
+    def test_handshakes_that_stall_count_as_memory(self):
+        most = 48  # MiB
+        with self.serve("--max-memory", f"{most}M", "--handshake", "60") as server, contextlib.ExitStack() as stack:
+            port = self.port(server)
+            for _ in range(800):
+                stack.callback(connect_tcp(port).close)
+            server.wait_for("refused, the server's sessions hold all the memory that they may")
+            with open(f"/proc/{server.process.pid}/status") as status:
+                resident = next(int(line.split()[1]) for line in status if line.startswith("VmRSS"))
+            self.assertLess(resident / 1024, most)
 
     def test_a_session_ends_in_time_when_its_client_does_not_close(self):
         with self.serve() as server:

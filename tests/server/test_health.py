@@ -181,7 +181,7 @@ class Log(unittest.TestCase):
             while True:
                 os.write(writing, b"x" * 4096)
         os.set_blocking(writing, True)
-        with serve("--ready-file", "ready", "--grace", "0", errors=writing) as server:
+        with serve("--max-sessions", "100", "--ready-file", "ready", "--grace", "0", errors=writing) as server:
             wire = connect_tcp(int(server.addresses("ready")[0].rsplit(":", 1)[1]))
             self.assertEqual(ask(wire, b"quit"), b"ok\n")
             self.assertEqual(server.stop(), 0)

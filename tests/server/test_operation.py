@@ -1,6 +1,7 @@
 """Operation of a server: limits, its end, the ready file, systemd's sockets."""
 
 import os
+import resource
 import signal
 import socket
 import subprocess
@@ -330,13 +331,12 @@ class UntilIdle(unittest.TestCase):
             self.assertGreater(time.monotonic() - ended, 1.5)
 
 
-class Limits(unittest.TestCase):
+class Memory(unittest.TestCase):
     def test_the_log_says_how_much_memory_and_what_limits_it(self):
         with serve("--max-memory", "512M") as server:
             server.wait_for(f"memory: {512 << 20} bytes, limited by --max-memory$")
         with serve() as server:
             server.wait_for("memory: [0-9]+ bytes, limited by the (machine|control group)$")
-
 
     def test_a_server_with_little_memory_has_small_caches(self):
         for memory, caches in (("64M", "28 resets, 699050 bytes"), ("512M", "128 resets, 4194304 bytes"),
@@ -346,6 +346,51 @@ class Limits(unittest.TestCase):
                 wire = connect_tcp(server.port())
                 self.assertTrue(ask(wire, b"load beamfall").startswith(b"ok "))
                 wire.close()
+
+
+@unittest.skipIf(sanitized(), "the sanitizer's own checks fail when there are no descriptors left")
+class Files(unittest.TestCase):
+    """A server that may open few files, all of which its clients take."""
+
+    FILES = 80
+
+    def setUp(self):
+        self.server = Server("serve", "--listen", "tcp://127.0.0.1:0", "--http", "127.0.0.1:0", "--grace", "0",
+                             before=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (self.FILES, self.FILES)))
+        self.addCleanup(self.server.__exit__)
+        self.port = self.server.port()
+        self.http = int(self.server.wait_for(r"health and metrics on http://127\.0\.0\.1:(\d+)$").group(1))
+
+    def connect(self, port):
+        wire = connect_tcp(port)
+        self.addCleanup(wire.close)
+        return wire
+
+    def check_health(self):
+        wire = self.connect(self.http)
+        wire.send(b"GET /healthz HTTP/1.0\r\n\r\n")
+        self.assertTrue(wire.rest().endswith(b"\r\n\r\nok\n"))
+
+    def test_there_are_no_more_sessions_than_files_and_others_are_told(self):
+        most = int(self.server.wait_for(r"sessions: (\d+), limited by the open files \(ulimit -n\)$").group(1))
+        self.assertEqual(most, self.FILES // 2)
+        wires = [self.connect(self.port) for _ in range(most)]
+        for wire in wires:
+            self.assertTrue(ask(wire, b"hello").startswith(b"ok "))
+        self.assertTrue(self.connect(self.port).rest().startswith(b"error busy there are 40 sessions"))
+        self.check_health()
+        self.assertTrue(ask(wires[0], b"load beamfall").startswith(b"ok "))
+
+    def test_health_is_told_where_no_file_is_left(self):
+        for _ in range(2 * self.FILES):
+            self.connect(self.port)
+        for _ in range(3):
+            self.check_health()
+        silent = [self.connect(self.http) for _ in range(70)]
+        for _ in range(3):
+            self.check_health()
+        self.assertLess(sum("cannot take a client" in line for line in self.server.log()), 20)
+        self.assertEqual(silent[0].rest(), b"")
 
 
 class Threads(unittest.TestCase):
