@@ -152,8 +152,8 @@ void limit_memory(Services& services, std::uint64_t most, const SharedCaches& ca
   if (services.line) std::get<LineService>(*services.line).memory = budget;
 }
 
-// A session on a socket takes a file, and so does a connection that is being closed. Others are for the server
-// itself, for --http and for recordings.
+// A session on a socket takes a file, and so does a connection that is being closed. Others are for the
+// server itself, for --http and for recordings.
 void limit_connections(ServerSettings& server) {
   constexpr std::uint64_t kMostFiles = 1 << 20, kMostOthers = 128;
   const std::uint64_t files = std::min(usable_files(), kMostFiles), others = std::min(kMostOthers, files / 4);

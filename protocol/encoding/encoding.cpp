@@ -144,7 +144,7 @@ std::size_t text_size(Encoding encoding, std::size_t bytes) {
 }
 
 void append_delta(std::string& out, Bytes bytes, std::span<std::uint8_t> before, const BetweenPieces& pause) {
-  std::size_t told = 0;             // the reader knows the bytes before it
+  std::size_t told = 0;              // the reader knows the bytes before it
   std::size_t written = out.size();  // at the last pause
   for (;;) {
     std::size_t begin = next_difference(bytes, before, told);

@@ -22,8 +22,8 @@ struct EncodingRow {
 std::span<const EncodingRow> encodings();  // in the order of Encoding
 std::optional<Encoding> encoding_of(std::string_view name);
 
-// The greatest length of `bytes` bytes in a reply. Runs and delta reach it where no two neighbours are equal, as
-// in the red, green and blue of a colour; mostly they are far shorter.
+// The greatest length of `bytes` bytes in a reply. Runs and delta reach it where no two neighbours are equal,
+// as in the red, green and blue of a colour; mostly they are far shorter.
 std::size_t text_size(Encoding encoding, std::size_t bytes);
 
 // Called between two pieces of a long value; may suspend its caller, or throw. Empty: nothing is called.

@@ -191,9 +191,8 @@ void Machines::append_texts() {
 
 // Long values are written in the machine's own work, or in that of a request about this machine alone.
 void Machines::Host::observe(std::size_t number, const std::vector<Field>& fields) {
-  seats_[number]->view.emplace(fields, [this, &own = seats_[number]->pacer] {
-    (own.in_progress() ? own : session_.pacer).breathe();
-  });
+  seats_[number]->view.emplace(
+      fields, [this, &own = seats_[number]->pacer] { (own.in_progress() ? own : session_.pacer).breathe(); });
 }
 
 std::size_t Machines::Host::held() const {

@@ -281,8 +281,8 @@ void Session::measure() {
 
 // Estimates the bytes of memory that the session holds. A request checks large allocations by itself.
 std::size_t Session::footprint() const {
-  constexpr std::size_t kSession = std::size_t{44} << 10;  // with fiber and buffers
-  constexpr std::size_t kShare = std::size_t{80} << 10;    // two copies of a screen
+  constexpr std::size_t kSession = std::size_t{44} << 10;             // with fiber and buffers
+  constexpr std::size_t kShare = std::size_t{80} << 10;               // two copies of a screen
   const std::size_t reply = loaded ? View::longest_text(fields) : 0;  // of one that may come
   std::size_t bytes = kSession + std::max(reply, out.capacity() + raw.capacity()) + input.capacity() +
                       states.footprint() + machines.footprint(fields) + actions.capacity() * sizeof(Action) +

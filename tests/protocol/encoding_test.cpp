@@ -128,7 +128,8 @@ TEST_CASE("A value in pieces is the same text") {
   std::mt19937 random(3);
   Bytes value(300'000);
   for (std::size_t at = 0; at < value.size();) {  // noise, short runs, and runs longer than a piece
-    const std::size_t length = std::min<std::size_t>(value.size() - at, random() % 50 == 0 ? 70'000 : 1 + random() % 300);
+    const std::size_t length =
+        std::min<std::size_t>(value.size() - at, random() % 50 == 0 ? 70'000 : 1 + random() % 300);
     const bool noise = random() % 2 == 0;
     for (const std::size_t end = at + length; at < end; ++at)
       value[at] = static_cast<std::uint8_t>(noise ? random() : length);

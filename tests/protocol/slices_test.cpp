@@ -125,7 +125,8 @@ TEST_CASE("Long values are written in slices") {
     CHECK(slices_after({kLoad, "observe" + stack}, "act NOOP") > least);
     CHECK(slices_after({kLoad, "observe" + stack, "open 2"}, "step NOOP") > least);
     if (least > 3)
-      CHECK(slices_after({kLoad, "observe" + stack, "open 1", "save a machine=0"}, "restore a machine=0") > least);
+      CHECK(slices_after({kLoad, "observe" + stack, "open 1", "save a machine=0"}, "restore a machine=0") >
+            least);
   }
   CHECK(slices_after({kLoad}, "look rgb") > 2);
 }
@@ -133,7 +134,8 @@ TEST_CASE("Long values are written in slices") {
 TEST_CASE("Many lists of a branch that end at once are played in slices") {
   std::string lists;
   for (int n = 0; n < 20'000; ++n) lists += " 0";
-  CHECK(slices_after({kLoad + " max_episode_frames=1", "act NOOP", "save over"}, "branch over" + lists) > 39'000);
+  CHECK(slices_after({kLoad + " max_episode_frames=1", "act NOOP", "save over"}, "branch over" + lists) >
+        39'000);
 }
 
 TEST_CASE("What is there twice is refused before the words that follow it are read") {

@@ -91,9 +91,9 @@ void run_look(Session& session, Words arguments) {
                        "a look at these fields");
   const auto stack = stack_of(fields, loaded.slot());
   session.out += "ok";
-  View(std::move(fields), [&session] { session.pacer.breathe(); })
-      .append(session.out, session.raw,
-              {loaded.machine(), loaded.slot().outcome(), stack ? &*stack : nullptr});
+  View(std::move(fields), [&session] {
+    session.pacer.breathe();
+  }).append(session.out, session.raw, {loaded.machine(), loaded.slot().outcome(), stack ? &*stack : nullptr});
 }
 
 void run_reset(Session& session, Words arguments) {

@@ -1,0 +1,29 @@
+"""In a Python file, a later class or method of the same name would hide an earlier one, tests included."""
+
+import ast
+import collections
+import sys
+
+from tree import ROOT, files
+
+
+def hidden(path):
+    """A line for each name that a module or a class defines twice. Properties have setters of their name."""
+    tree = ast.parse((ROOT / path).read_text())
+    for scope in [tree, *(node for node in ast.walk(tree) if isinstance(node, ast.ClassDef))]:
+        kinds = ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
+        plain = [node for node in scope.body if isinstance(node, kinds) and not node.decorator_list]
+        counts = collections.Counter(node.name for node in plain)
+        yield from (f"{path}: {name} is defined {count} times, and the last hides the others"
+                    for name, count in counts.items() if count > 1)
+
+
+def main():
+    sources = [path for path in files() if path.suffix == ".py"]
+    found = [line for path in sources for line in hidden(path)]
+    print("\n".join(found or [f"{len(sources)} files, no name is hidden"]))
+    return int(bool(found) or not sources)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
