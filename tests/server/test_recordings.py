@@ -270,8 +270,10 @@ class HangingDisk(unittest.TestCase):
     """fsync never returns."""
 
     def serve(self, *options):
+        hanging_disk = os.environ["RACEBEAM_HANGING_DISK"]
+        self.assertTrue(os.path.exists(hanging_disk), hanging_disk)  # else the loader ignores it
         return Server("serve", "--threads", "1", "--listen", "unix:s", "--record-dir", ".", "--grace", "1", *options,
-                      LD_PRELOAD=os.environ["RACEBEAM_HANGING_DISK"])
+                      LD_PRELOAD=hanging_disk)
 
     def begin(self, server, kind):
         wire = connect_unix(server.path("s"))
