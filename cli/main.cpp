@@ -89,10 +89,8 @@ void take_standard_descriptors() {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  take_standard_descriptors();
+// Returns the exit status.
+int run(int argc, char** argv) {
   CLI::App app{kAbout, "racebeam"};
   app.set_version_flag("--version", "racebeam " RACEBEAM_VERSION);
   app.footer(kFooter);
@@ -129,4 +127,18 @@ int main(int argc, char** argv) {
     std::cerr << "racebeam: " << racebeam::printable(error.what()) << "\n";
     return racebeam::kExitFailure;
   }
+}
+
+// Output that a full disk has not taken is a failure, also of a command that has succeeded.
+int after_output(int status) {
+  if (std::cout.flush() || status != 0) return status;
+  std::cerr << "racebeam: cannot write to standard output: its disk is full, or its reader is gone\n";
+  return racebeam::kExitFailure;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  take_standard_descriptors();
+  return after_output(run(argc, argv));
 }

@@ -219,6 +219,13 @@ class Help(unittest.TestCase):
             self.assertEqual((status, errors), (0, []))
             self.assertIn(hint, output)
 
+    def test_output_that_is_lost_is_a_failure(self):
+        for words in (["--help"], ["--version"], ["serve", "--help"], ["config"], ["roms", "."], ["games"]):
+            with self.subTest(words), open("/dev/full", "wb") as full:
+                done = subprocess.run([BINARY, *words], stdout=full, stderr=subprocess.PIPE, timeout=PATIENCE)
+                self.assertEqual(done.returncode, 1)
+                self.assertRegex(done.stderr, b"^racebeam: cannot write to standard output: .*\n$")
+
     def test_the_help_names_every_exit_status(self):
         for words in (["--help"], ["serve", "--help"]):
             text = b" ".join(run(*words)[1].split())
