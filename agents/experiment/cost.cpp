@@ -1,6 +1,7 @@
 #include "agents/experiment/cost.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "system/invalid_input.hpp"
@@ -10,7 +11,9 @@ namespace {
 
 constexpr double kReplayFramesPerSecond = 120000;  // of one core, measured
 constexpr double kLogBytesPerDecision = 0.55;      // a random action has log2(18) bits
-constexpr double kMachineMegabytes = 2;            // of a trial, whatever its settings; measured
+// A file takes whole blocks. Rows are in a table of their unit, and in one of all units.
+constexpr double kBlockBytes = 4096, kFilesOfUnit = 4, kResultBytes = 2 * 200, kCurveBytes = 2 * 60;
+constexpr double kMachineMegabytes = 2;  // of a trial, whatever its settings; measured
 
 Effort effort_of(const PlanAgent& agent) {
   return agent.kind->effort ? agent.kind->effort(agent.values) : Effort{};
@@ -18,6 +21,13 @@ Effort effort_of(const PlanAgent& agent) {
 
 double megabytes_of(const PlanAgent& agent) {
   return std::max(agent.kind->megabytes * effort_of(agent).memory, kMachineMegabytes);
+}
+
+double disk_bytes_of_trial(const Plan& plan, const PlanAgent& agent) {
+  const double frames = plan.play.machine.max_episode_frames;
+  const double log = std::ceil(frames / agent.frame_skip * kLogBytesPerDecision / kBlockBytes) * kBlockBytes;
+  return kFilesOfUnit * kBlockBytes + agent.length.evaluation_episodes * (log + kResultBytes) +
+         frames_of_trial(agent.length, plan.play.machine.max_episode_frames).training / frames * kCurveBytes;
 }
 
 std::string whole_number(double number) {
@@ -57,7 +67,7 @@ Cost cost_of(const Plan& plan) {
     cost.core_hours += own.core_hours;
     cost.verification_core_hours += evaluation / kReplayFramesPerSecond / 3600;
     cost.megabytes = std::max(cost.megabytes, megabytes_of(agent));
-    cost.disk_megabytes += evaluation / agent.frame_skip * kLogBytesPerDecision / 1e6;
+    cost.disk_megabytes += units * disk_bytes_of_trial(plan, agent) / 1e6;
     cost.agents.push_back(own);
   }
   return cost;

@@ -23,7 +23,7 @@ struct Cost {
   std::size_t units = 0;
   double decisions = 0, core_hours = 0, verification_core_hours = 0;
   double megabytes = 0;       // the most that a unit takes, beside the program
-  double disk_megabytes = 0;  // of logs
+  double disk_megabytes = 0;  // of logs and tables
 };
 
 // Frames of one trial, if each episode is as long as it may be.

@@ -95,7 +95,7 @@ class PlanReader {
     plan_.name = top_.text("name").value_or("experiment");
     if (top_.node("name"))
       top_.guard(*top_.node("name"), "name",
-                 [&] { as_invalid_input([&] { checked_name(plan_.name, "name"); }); });
+                 [&] { as_invalid_input([&] { checked_name(plan_.name, "plan"); }); });
     if (top_.node("seed")) plan_.seed = static_cast<std::uint32_t>(*top_.number("seed", 0, kMostPlanNumber));
     for (const ScreensKey& key : kScreensKeys)
       if (top_.node(key.name)) plan_.*key.member = *top_.number(key.name, 1, kMostScreens);

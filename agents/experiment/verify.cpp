@@ -192,9 +192,15 @@ void find_surplus_logs(const ResultsFolder& folder, const std::vector<ResultRow>
   for (const ResultRow& row : rows) wanted.insert(folder.log(row[0], field(row, "episode")));
   std::set<std::string> surplus;
   std::error_code none;
-  for (const auto& entry : fs::recursive_directory_iterator(folder.logs(), none))
-    if (!entry.is_directory() && !wanted.contains(entry.path().string()))
-      surplus.insert(entry.path().string());
+  const auto holds_logs = [&](const fs::directory_entry& entry) {
+    const std::string inside = entry.path().string() + '/';
+    const auto first = wanted.lower_bound(inside);
+    return first != wanted.end() && first->starts_with(inside);
+  };
+  for (const auto& entry : fs::recursive_directory_iterator(folder.logs(), none)) {
+    const bool is_folder = entry.is_directory() && !(entry.is_symlink() && !holds_logs(entry));
+    if (!is_folder && !wanted.contains(entry.path().string())) surplus.insert(entry.path().string());
+  }
   for (const std::string& path : surplus) {
     ++verdict.wrong;
     finding(path + ": no row of results.csv has this log");

@@ -116,9 +116,10 @@ Background GameFacts::discovered_background() const {
 }
 
 void GameFacts::check() {
-  if (std::filesystem::exists(path(".background"))) {
+  std::error_code none;  // a folder that cannot be searched holds no files
+  if (std::filesystem::exists(path(".background"), none)) {
     background();
-    if (std::filesystem::exists(path(".classes"))) classes();
+    if (std::filesystem::exists(path(".classes"), none)) classes();
   } else if (!settings_.background_csv.empty()) {
     discovered_background();
   }

@@ -34,6 +34,16 @@ TEST_CASE("Time and memory follow the settings that change them") {
   CHECK(cost_with("uct", "simulations = 1\n").megabytes == 2);  // of the machine
 }
 
+TEST_CASE("Disk counts blocks of logs, and rows of all tables") {
+  const auto disk = [](const std::string& settings) {
+    return cost_with("basic", "trials = 1\n" + settings).disk_megabytes;
+  };
+  const double least = disk("training_episodes = 0\nevaluation_episodes = 1\n");
+  CHECK(disk("training_episodes = 0\nevaluation_episodes = 1001\n") - least ==
+        Approx(1000 * (4096 + 400) / 1e6));
+  CHECK(disk("training_episodes = 1000\nevaluation_episodes = 1\n") - least == Approx(1000 * 120 / 1e6));
+}
+
 TEST_CASE("A plan that takes more memory than there is is refused") {
   const Plan plan = parse_plan("games = [\"beamfall\"]\nagents = [\"random\", \"bass\"]\n", "");
   const Allowance gigabyte{1000000000, "the control group"};

@@ -175,6 +175,9 @@ TEST_CASE("A folder that cannot be made is named") {
   write(place.path("file"), "");
   CHECK_THROWS_WITH(run(bound_plan(kPlan), ResultsFolder(place.path("file"))),
                     "cannot make the folder " + place.path("file") + ": Not a directory");
+  fs::create_symlink("loop", place.path("loop"));
+  CHECK_THROWS_WITH(run(bound_plan(kPlan), ResultsFolder(place.path("loop"))),
+                    Catch::StartsWith("cannot make the folder " + place.path("loop") + ": "));
 }
 
 TEST_CASE("A unit that another process finishes meanwhile is no failure") {

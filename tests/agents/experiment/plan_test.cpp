@@ -57,6 +57,7 @@ TEST_CASE("Mistakes in a plan are named with their line") {
     CHECK_THAT(refusal_of(kStart + more), Catch::StartsWith(expected));
   };
   check("trails = 1\n", "test.toml:3: trails: unknown key; accepted are name, preset");
+  check("name = \"../x\"\n", "test.toml:3: name: '../x' is not a name for a plan; it takes 1 to 64 letters");
   check("trials = 0\n", "test.toml:3: trials: 0 is out of range; accepted are 1 to 1000000");
   check("preset = \"dqn\"\n",
         "test.toml:3: preset: 'dqn' is not known; accepted are paper2013, machado2018, atari100k");

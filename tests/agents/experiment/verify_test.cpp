@@ -72,6 +72,15 @@ TEST_CASE("An experiment's results are confirmed, and every alteration is named"
     CHECK_THAT(verified(folder).findings, Catch::Contains("its checksum is wrong"));
     write(folder.log("beamfall-random-1", "3"), contents(second));
     CHECK_THAT(verified(folder).findings, Catch::Contains("3.episode: no row of results.csv has this log"));
+    fs::create_directory_symlink("/usr", folder.logs() + "/usr");
+    CHECK_THAT(verified(folder).findings, Catch::Contains("/usr: no row of results.csv has this log"));
+  }
+  SECTION("a unit's logs that are elsewhere") {
+    const std::string logs = folder.logs("beamfall-random-1");
+    fs::rename(logs, place.path("elsewhere"));
+    fs::create_directory_symlink(place.path("elsewhere"), logs);
+    CHECK(verified(folder).verdict.confirmed == 40);
+    CHECK(verified(folder).verdict.wrong == 0);
   }
   SECTION("rows that are missing, doubled and too many") {
     const std::size_t last = table.rfind('\n', table.size() - 2) + 1;
