@@ -167,6 +167,8 @@ TEST_CASE("open refuses keys that it does not have, and those of frames with act
   CHECK(code(client.ask("open 2 steps=frames")).empty());
   CHECK(code(client.ask("restart 10 seed=-1")) == "bad-value");
   CHECK(code(client.ask("restart seeds=1")) == "bad-arguments");
+  CHECK(client.ask("restart 10 01") == "error bad-arguments MASK is given twice");
+  CHECK(client.ask("restart seed=1 seed=2") == "error bad-arguments seed is given twice");
   CHECK(code(client.ask("reset seed=x")) == "bad-value");
 }
 

@@ -128,17 +128,20 @@ void run_step(Session& session, Words arguments) {
 }
 
 void run_restart(Session& session, Words arguments) {
-  std::vector<std::uint8_t> chosen(session.machines.size(), 1);
+  std::vector<std::uint8_t> chosen;
   std::vector<std::int64_t> seeds;
   for (const std::string_view word : arguments) {
     if (word.find('=') == std::string_view::npos) {
+      if (!chosen.empty()) refuse_twice("MASK");
       chosen = read_mask(session, word);
       continue;
     }
+    if (!seeds.empty()) refuse_twice("seed");
     seeds.resize(session.machines.size());
     const std::uint32_t first = parse_seed(value_of(word, "seed", "restart"));
     for (std::size_t i = 0; i < seeds.size(); ++i) seeds[i] = first + static_cast<std::uint32_t>(i);
   }
+  chosen.resize(session.machines.size(), 1);
   session.machines.restart(chosen, seeds);
 }
 
