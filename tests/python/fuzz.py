@@ -36,7 +36,9 @@ from racebeam import _core
 PATIENCE = 120  # seconds
 LONGEST = 200  # frames of an act
 DOCUMENTED = (TypeError, IndexError, racebeam.InvalidInput, Error, ClosedEnvironmentError, *fuzz_servers.DOCUMENTED)
-DELIBERATE = re.compile("has no answer where|each must be -1, 0 or 1|has no xla|must be a float32 array|"  # of other types
+DELIBERATE = re.compile("can't be provided for|each must be -1, 0 or 1|not reset yet|must reset every|seeds? (for|is)|seeds have the shape|must have shape|"
+                        "duplicate env_id|needs batch_size|is given for one array|receive (it|them) first|send some first|must be a float32 array|"
+                        "must be an array of|actions have the shape|"  # of other types
                         + fuzz_servers.DELIBERATE)
 KEYS = ("random_seed", "reward_min", "sound_obs", "rules", "max_num_frames_per_episode", "repeat_action_probability", "color_averaging")
 
@@ -65,7 +67,7 @@ def value():
 def results(count, size=4 * 84 * 84):
     """As VectorMachines fills them; one in ten is something else."""
     parts = [array(count * size), None, array(6, count, kind=np.int32), array(4, count, kind=np.bool_), array(count * size),
-             array(3, count, kind=np.int32)]
+             array(3, count, kind=np.int32), chance.choice([None, array(3, count, kind=np.int32)])]
     if chance.random() < 0.1:
         parts[chance.randrange(len(parts))] = value()
     return tuple(parts)
@@ -115,7 +117,8 @@ MAKERS = {
     "AtariEnv": lambda: racebeam.AtariEnv(game(), **arguments_of(ENV)),
     "AtariVectorEnv": lambda: racebeam.AtariVectorEnv(game(), **arguments_of(VECTOR)),
     "ALEVectorInterface": lambda: racebeam.ale_py.ALEVectorInterface(f"builtin:{game()}", 2),
-    "envpool": lambda: racebeam.envpool.make("Beamfall-v5", **{"env_type": "gymnasium", **arguments_of(POOL)}),
+    "ale_py.AtariVectorEnv": lambda: racebeam.ale_py.AtariVectorEnv(game(), **arguments_of(VECTOR)),
+    "envpool": lambda: racebeam.envpool.make("Beamfall-v5", **{"env_type": chance.choice(["gymnasium", "gym", "dm"]), **arguments_of(POOL)}),
     "VectorMachines": machines,
 }
 SERVERS = fuzz_servers.Servers(chance, game, lambda: arguments_of(ENV), lambda: arguments_of(VECTOR))
@@ -129,11 +132,14 @@ def sensible(thing, method):
         return [chance.randrange(18), 1.0, chance.choice([1, 4, LONGEST]), chance.choice(list(_core.View))][:4 if method == "step" else 1]
     if method == "loadROM":
         return [f"builtin:{game()}"]
+    if method in ("step", "send") and isinstance(thing, racebeam.envpool.EnvPool):
+        some = chance.sample(range(len(thing)), chance.randint(0, min(len(thing), 5)))
+        return chance.choice([[np.zeros(len(thing), int)], [np.ones(len(some), int), np.array(some, int)]])
     if method in ("step", "send") and hasattr(thing, "action_space"):
         return [thing.action_space.sample()]
     if isinstance(thing, _core.VectorMachines):
         one = {"step": [array(2, kind=np.int64), results(2)], "send": [array(2, kind=np.int64), np.arange(2, dtype=np.int32)],
-               "receive": [results(2)], "reset": [None, None, results(2)], "show": [results(2)], "send_resets": [None], "save": [0, True]}
+               "receive": [results(chance.randrange(3))], "end_episodes": [np.array(chance.sample(range(2), chance.randrange(3)), np.int32), None], "reset": [None, None, results(2)], "show": [results(2)], "send_resets": [None], "save": [0, True]}
         return one.get(method, [])
     return []
 

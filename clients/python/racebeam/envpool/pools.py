@@ -25,7 +25,7 @@ __all__ = ["DMEnvPool", "EnvPool", "GymEnvPool", "GymnasiumEnvPool", "State", "T
 
 
 class EnvPool:
-    """What all kinds have. A kind says in shown_as() what its results look like."""
+    """What all kinds have. A kind says in _shown_as() what its results look like."""
 
     def __init__(self, spec: EnvSpec, render_env_id: Any = 0) -> None:
         self.spec: Any = spec
@@ -86,24 +86,24 @@ class EnvPool:
         recv returns the handle for the next call and what recv() returns, send the handle, and step does both. Results are of batch_size
         environments. Errors of a compiled program are jax.errors.JaxRuntimeError. Raises ImportError without JAX.
         """
-        return xla.functions(self._envs, self.shown_as)
+        return xla.functions(self._envs, self._shown_as)
 
     def close(self) -> None:
         self._envs.close()
 
     def async_reset(self) -> None:
         """Begins new games of all environments; recv() returns the first."""
-        self.send_resets(self._envs.every)
+        self._send_resets(self._envs.every)
 
     def send(self, action: Any, env_id: Any = None) -> None:
         """Begins a step of these environments; None: of all, or with batch_size, of those that were received last."""
         envs, actions = self._meant(action, env_id)
         self._envs.send_to(envs, actions)
 
-    def send_resets(self, env_id: Any) -> None:
+    def _send_resets(self, env_id: Any) -> None:
         self._envs.send_resets_of(self._envs.numbers_of(env_id))
 
-    def receive(self) -> Shown:
+    def _receive(self) -> Shown:
         return self._envs.receive()
 
     def _reset(self, env_id: Any, options: Any = None) -> Any:
@@ -111,14 +111,14 @@ class EnvPool:
             raise InvalidInput(f"options is {options!r}; it takes a dictionary, or None")
         mask = (options or {}).get("reset_mask")
         self._envs.send_resets_of(self._envs.chosen(mask) if env_id is None else self._envs.numbers_of(env_id))
-        return self.shown_as(self.receive())
+        return self._shown_as(self._receive())
 
     def _step(self, action: Any, env_id: Any) -> Any:
         envs, actions = self._meant(action, env_id)
         if not self.is_async and np.array_equal(envs, self._envs.every):
-            return self.shown_as(self._envs.step_every(actions))
+            return self._shown_as(self._envs.step_every(actions))
         self._envs.send_to(envs, actions)
-        return self.shown_as(self.receive())
+        return self._shown_as(self._receive())
 
     def _meant(self, action: Any, env_id: Any) -> tuple[Numbers, Any]:
         if isinstance(action, dict):
@@ -130,10 +130,10 @@ class EnvPool:
             return (self._envs.received if self.is_async else self._envs.every), action
         return self._envs.numbers_of(env_id), action
 
-    def shown_as(self, shown: Shown) -> Any:
+    def _shown_as(self, shown: Shown) -> Any:
         raise NotImplementedError
 
-    def told_by_name(self, shown: Shown) -> dict[str, Any]:
+    def _told_by_name(self, shown: Shown) -> dict[str, Any]:
         """Under the names of spec.state_array_spec."""
         observations, done = shown.observations, shown.terminated | shown.truncated
         if observations.ndim == 5:  # colours become channels
@@ -150,7 +150,7 @@ class EnvPool:
 
     def _shown_with_info(self, shown: Shown) -> tuple[Any, Any, Any, Any, Info]:
         """Observations, rewards, done, truncated and the info."""
-        told = self.told_by_name(shown)
+        told = self._told_by_name(shown)
         info = {name: told[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
         info |= {"players": {"env_id": told["info:players.env_id"]}, "elapsed_step": told["elapsed_step"]}
         return told["obs"], told["reward"], told["done"], told["trunc"], info
@@ -180,10 +180,10 @@ class GymnasiumEnvPool(EnvPool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any
         return shown
 
     def recv(self, reset: bool = False, return_info: bool = True) -> Any:
-        observations, *rest, info = self.shown_as(self.receive())
+        observations, *rest, info = self._shown_as(self._receive())
         return (observations, info) if flag("reset", reset) else (observations, *rest, info)
 
-    def shown_as(self, shown: Shown) -> tuple[Any, Any, Any, Any, Info]:
+    def _shown_as(self, shown: Shown) -> tuple[Any, Any, Any, Any, Info]:
         observations, rewards, done, truncated, info = self._shown_with_info(shown)
         return observations, rewards, done & ~truncated, truncated, info
 
@@ -209,10 +209,10 @@ class GymEnvPool(EnvPool):
         return shown
 
     def recv(self, reset: bool = False, return_info: bool = True) -> Any:
-        shown = self.shown_as(self.receive())
+        shown = self._shown_as(self._receive())
         return shown[0] if flag("reset", reset) else shown
 
-    def shown_as(self, shown: Shown) -> tuple[Any, Any, Any, Info]:
+    def _shown_as(self, shown: Shown) -> tuple[Any, Any, Any, Info]:
         observations, rewards, done, truncated, info = self._shown_with_info(shown)
         return observations, rewards, done, {**info, "TimeLimit.truncated": truncated}
 
@@ -269,7 +269,7 @@ class DMEnvPool(EnvPool):
         return time_step
 
     def recv(self, reset: bool = False, return_info: bool = True) -> TimeStep:
-        return self.shown_as(self.receive())
+        return self._shown_as(self._receive())
 
     def reward_spec(self) -> Any:
         """As dm_env has it, and EnvPool."""
@@ -279,8 +279,8 @@ class DMEnvPool(EnvPool):
         """As dm_env has it, and EnvPool."""
         return dm_specs().BoundedArray((), float, 0.0, 1.0, "discount")
 
-    def shown_as(self, shown: Shown) -> TimeStep:
-        told = self.told_by_name(shown)
+    def _shown_as(self, shown: Shown) -> TimeStep:
+        told = self._told_by_name(shown)
         info = {name: told[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
         state = State(players=Players(told["info:players.env_id"]), obs=told["obs"], **info)
         return TimeStep(told["step_type"], told["reward"], told["discount"], state)

@@ -41,12 +41,12 @@ class RawPool:
         self._state_keys, self._action_keys = list(spec.state_array_spec), list(spec.action_array_spec)
 
     def _reset(self, env_ids: Any) -> None:
-        self._pool.send_resets(env_ids)
+        self._pool._send_resets(env_ids)
 
     def _send(self, action: Iterable[Any]) -> None:
         parts = dict(zip(self._action_keys, action))
         self._pool.send(parts["action"], parts["env_id"])
 
     def _recv(self) -> tuple[Any, ...]:
-        told = self._pool.told_by_name(self._pool.receive())
+        told = self._pool._told_by_name(self._pool._receive())
         return tuple(np.asarray(told[key]) for key in self._state_keys)

@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from .. import images
 from .._core import Action, ALEState, View
+from ..arguments import flag
 from ..errors import InvalidInput, MissingImage, UnknownGame
 from ..interface import ALEInterface, png
 from .client import Refused, Session, connect
@@ -288,7 +289,7 @@ class RemoteInterface:
 
     def cloneState(self, include_rng: bool = False) -> ALEState:
         """The state comes here; it can be restored in this process, too."""
-        self.ask(self.session.save, STATE, random=int(include_rng))
+        self.ask(self.session.save, STATE, random=int(flag("include_rng", include_rng)))
         data = self.ask(self.session.export_state, STATE)
         self.ask(self.session.drop, STATE)
         now = self._look("frame", "episode_frame")
