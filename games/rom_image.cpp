@@ -32,6 +32,7 @@ std::string stem_of(std::filesystem::path path) {
 }
 
 std::shared_ptr<const Image> image_of(std::vector<std::uint8_t> bytes, std::string stem) {
+  bytes.shrink_to_fit();  // it was read into space for the largest image
   std::string md5 = md5_of(bytes);
   return std::make_shared<const Image>(Image{
       std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes)), std::move(md5), std::move(stem)});
