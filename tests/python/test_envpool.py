@@ -275,6 +275,10 @@ class Modules(unittest.TestCase):
         self.assertEqual((config.batch_size, config.max_episode_steps), (5, 2**31 - 1))
         self.assertRaisesRegex(ValueError, "batch_size is 5; it takes 0 to 4", envpool.EnvSpec, config)
         self.assertRaisesRegex(TypeError, "there is no setting 'foo'", envpool.EnvSpec.gen_config, foo=3)
+        self.assertRaisesRegex(InvalidInput, "there are 2 values; there must be 26", envpool.EnvSpec, (1, 2))
+        for task in ("nope", ["x"], ""):
+            self.assertRaisesRegex(racebeam.UnknownGame, "there is no task of a game", envpool.EnvSpec, envpool.EnvSpec.gen_config(task=task))
+        self.assertRaisesRegex(InvalidInput, "the spec is 3", envpool.GymnasiumEnvPool, 3)
 
     def test_the_raw_interface(self):
         from racebeam.envpool.atari.atari_envpool import _AtariEnvPool, _AtariEnvSpec
@@ -292,6 +296,7 @@ class Modules(unittest.TestCase):
             raw._send((state["info:env_id"], state["info:players.env_id"], actions))
             time_step = envs.step(actions)
         self.assertEqual(raw._state_keys, list(envs.spec.state_array_spec))
+        self.assertRaisesRegex(InvalidInput, "the action has 1 arrays", raw._send, (actions,))
 
     def test_a_pool_is_not_copied(self):
         for copied in (pickle.dumps, copy.deepcopy):

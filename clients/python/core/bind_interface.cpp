@@ -11,6 +11,7 @@
 #include "clients/python/core/ale_interface.hpp"
 #include "clients/python/core/arrays.hpp"
 #include "clients/python/core/bindings.hpp"
+#include "clients/python/core/gil.hpp"
 #include "clients/python/core/image_argument.hpp"
 #include "clients/python/core/python_action.hpp"
 #include "system/invalid_input.hpp"
@@ -266,7 +267,7 @@ void bind_game(nb::class_<AleInterface>& interface) {
                 nb::sig("def loadROM(self, rom: str | os.PathLike[str] | bytes, game: str | None = None) -> None"),
                 "Powers the machine on. rom: a path, builtin:NAME, or the bytes of an image. game: whose rule it has; "
                 "None: the image decides.")
-      .def_static("isSupportedROM", supported, "rom"_a, nb::call_guard<nb::gil_scoped_release>(),
+      .def_static("isSupportedROM", supported, "rom"_a, nb::call_guard<WithoutGil>(),
                   nb::sig("def isSupportedROM(rom: str | os.PathLike[str] | bytes) -> str | None"),
                   "The name of the image's game, or None.")
       .def_static("setLoggerMode", [](LoggerMode) {}, "mode"_a)

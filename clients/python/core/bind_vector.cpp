@@ -12,6 +12,7 @@
 
 #include "clients/python/core/arrays.hpp"
 #include "clients/python/core/bindings.hpp"
+#include "clients/python/core/gil.hpp"
 #include "clients/python/core/image_argument.hpp"
 #include "clients/python/core/saved_machine.hpp"
 #include "clients/python/core/vector_acts.hpp"
@@ -191,7 +192,7 @@ void restore(VectorMachines& self, std::int64_t machine, const SavedMachine& sta
 nb::bytes bytes_of_state(const SavedMachine& state) {
   std::string bytes;
   {
-    const nb::gil_scoped_release other_threads_run;
+    const WithoutGil other_threads_run;
     bytes = state.serialize();
   }
   return nb::bytes(bytes.data(), bytes.size());
@@ -223,7 +224,7 @@ Cartridge cartridge_of(const GivenImage& given) {
 
 void make(VectorMachines* self, const std::vector<GivenImage>& images, const Given<std::int32_t>& of_machines,
           const BatchSettings& settings) {
-  const nb::gil_scoped_release other_threads_run;
+  const WithoutGil other_threads_run;
   check_memory(of_machines.size());
   std::vector<Cartridge> games;
   std::ranges::transform(images, std::back_inserter(games), cartridge_of);

@@ -3,11 +3,11 @@
 // it. So is one that this thread holds: a handler of signals uses the object in the midst of a call.
 #pragma once
 
-#include <nanobind/nanobind.h>
-
 #include <atomic>
 #include <mutex>
 #include <thread>
+
+#include "clients/python/core/gil.hpp"
 
 namespace racebeam::python {
 
@@ -33,7 +33,7 @@ class Turn {
   explicit Turn(Lock& lock) : held_(lock) {}
 
  private:
-  nanobind::gil_scoped_release other_threads_run_;
+  WithoutGil other_threads_run_;
   std::scoped_lock<Lock> held_;
 };
 

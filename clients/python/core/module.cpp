@@ -20,6 +20,7 @@ void bind_errors(nb::module_& m) {
 
 NB_MODULE(_core, m) {
   m.doc() = "racebeam's machine in this process. Use the package racebeam, which is built on it.";
+  nb::set_leak_warnings(false);  // what threads hold when Python ends is no leak
   bind_errors(m);
   racebeam::python::bind_enumerations(m);
   racebeam::python::bind_catalogue(m);

@@ -3,12 +3,14 @@
 
 #include <nanobind/nanobind.h>
 
+#include "clients/python/core/gil.hpp"
+
 namespace racebeam::python {
 
 // Without the GIL. Runs Python's handlers, and throws what they raise, such as KeyboardInterrupt. Does
 // nothing on another thread than the main one.
 inline void look_for_signals() {
-  const nanobind::gil_scoped_acquire python;
+  const WithGil python;
   if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
 }
 

@@ -28,6 +28,8 @@ class EnvPool:
     """What all kinds have. A kind says in _shown_as() what its results look like."""
 
     def __init__(self, spec: EnvSpec, render_env_id: Any = 0) -> None:
+        if not isinstance(spec, EnvSpec):
+            raise InvalidSetting(f"the spec is {spec!r}; it takes what make_spec() returns")
         self.spec: Any = spec
         self.config: dict[str, Any] = spec.config._asdict()
         self._check_size()

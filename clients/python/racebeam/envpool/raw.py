@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import InvalidInput
 from .pools import EnvPool
 from .spec import CONFIG, EnvSpec
 
@@ -36,8 +37,7 @@ class RawPool:
     """Environments that are sent and received as tuples of arrays."""
 
     def __init__(self, spec: EnvSpec) -> None:
-        self._pool = EnvPool(spec)
-        self._spec = spec
+        self._pool, self._spec = EnvPool(spec), spec
         self._state_keys, self._action_keys = list(spec.state_array_spec), list(spec.action_array_spec)
 
     def _reset(self, env_ids: Any) -> None:
@@ -45,6 +45,8 @@ class RawPool:
 
     def _send(self, action: Iterable[Any]) -> None:
         parts = dict(zip(self._action_keys, action))
+        if len(parts) < len(self._action_keys):
+            raise InvalidInput(f"the action has {len(parts)} arrays; it must have {', '.join(self._action_keys)}")
         self._pool.send(parts["action"], parts["env_id"])
 
     def _recv(self) -> tuple[Any, ...]:

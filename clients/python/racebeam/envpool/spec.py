@@ -11,7 +11,7 @@ import numpy as np
 from gymnasium import error, spaces
 
 from .. import ale_games, images
-from ..arguments import MOST, flag, listed, whole
+from ..arguments import MOST, flag, listed, share, whole
 from ..errors import InvalidInput, UnknownGame
 from ..interface import ALEInterface
 
@@ -109,7 +109,12 @@ def _is(value: Any, wanted: Any) -> bool:
 
 def _checked_config(given: Iterable[Any]) -> Any:
     """A Config. Raises InvalidSetting."""
-    values = dict(zip(CONFIG, given))
+    told = tuple(given)
+    if len(told) != len(CONFIG):
+        raise InvalidSetting(f"there are {len(told)} values; there must be {len(CONFIG)}: {', '.join(CONFIG)}")
+    values = dict(zip(CONFIG, told))
+    if values["task"] not in games().values():
+        raise UnknownTask(f"there is no task of a game {values['task']!r}; list_all_envs() lists the tasks")
     for name, value in FIXED.items():
         if not _is(values[name], value):
             raise InvalidSetting(f"{name} is {values[name]!r}; racebeam has {value!r} alone")
@@ -118,6 +123,7 @@ def _checked_config(given: Iterable[Any]) -> Any:
     for name, value in CONFIG.items():
         if isinstance(value, bool):
             values[name] = checked(flag, name, values[name])
+    values["repeat_action_probability"] = checked(share, "repeat_action_probability", values["repeat_action_probability"])
     values["batch_size"] = checked(whole, "batch_size", values["batch_size"], 0, values["num_envs"]) or values["num_envs"]
     return Config(**values)
 
