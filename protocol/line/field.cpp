@@ -215,8 +215,9 @@ std::size_t View::footprint(const std::vector<Field>& fields) {
   std::size_t bytes = 0;
   for (const Field& field : fields) {
     if (field.row->number) continue;
-    bytes += most_bytes(field) + kRgbScreen;           // for scratch_
-    if (field.stack) bytes += bytes_of(*field.stack);  // itself
+    bytes += most_bytes(field);  // for scratch_
+    if (field.stack)
+      bytes += bytes_of(*field.stack) + kRgbScreen;  // itself, and the picture that it takes in
     if (field.encoding == Encoding::kZlib) bytes += kDeflater + most_bytes(field);
     if (field.encoding == Encoding::kDelta) bytes += most_bytes(field);
   }
