@@ -141,6 +141,8 @@ class Document:
             others used. Games that draw nothing from their seed give a policy without chance the same episode each time.""",
             """Rewards: some rules differ. Skiing's rewards were near 0 then, and add up to about -17,000 for random play now.
             Its row cannot be compared.""",
+            """Single episodes: searches play one, so that an early death costs all that would follow. IW(1) lost its last life on
+            Asterix at decision 2,407 of at most 3,600; its published score is a mean of others' episodes.""",
             """Choices: the paper leaves much open ([paper-notes.md](paper-notes.md)).""")))
 
     def baselines(self):

@@ -15,7 +15,8 @@ std::string tables_of(const std::string& agent, const std::string& environment, 
   const ResultsFolder folder(place.path("results"));
   run(bound_plan("games = [\"beamfall\"]\nagents = [\"" + agent +
                  "\"]\nbackground_screens = 100\nclass_screens = 300\nenvironment = \"max_episode_frames=" +
-                 (find_agent_kind(agent)->role == Role::kPlanner ? "300 " : "1000 ") + environment + "\"\n[agent." + agent + "]\ntrials = 1\n" + settings),
+                 (find_agent_kind(agent)->role == Role::kPlanner ? "300 " : "1000 ") + environment +
+                 "\"\n[agent." + agent + "]\ntrials = 1\n" + settings),
       folder);
   return contents(folder.results()) + contents(folder.curves());
 }
