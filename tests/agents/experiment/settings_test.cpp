@@ -40,13 +40,15 @@ const std::vector<Case> kCases = {
       {"epsilon", "0.3"},
       {"evaluation_epsilon", "0"},
       {"least_trace", "0.9"},
-      {"clear_other_traces", "0"},
+      {"clear_other_traces", "1"},
       {"reward_scale", "\"sign\""},
       {"grid_width", "8"},
       {"grid_height", "7"}}},
     {"disco", kLength, {{"tilings", "2"}, {"grid", "3"}}},
     {"lsh", kLength, {{"vectors", "2"}, {"ones", "2000"}, {"buckets", "7"}}},
-    {"blob_prost", kLength, {{"blob_distance", "210"}, {"most_features", "50"}}},
+    {"blob_prost",
+     std::string(kLength) + "clear_other_traces = 1\n",
+     {{"blob_distance", "210"}, {"most_features", "50"}}},
     {"full_tree", "frames = 400\n", {{"frames", "2000"}}},
     {"iw1", "frames = 1500\n", {{"frames", "300"}, {"gamma", "0.1"}}},
     {"uct",
@@ -74,9 +76,9 @@ TEST_CASE("Every setting of an agent makes a difference") {
   }
 }
 
-TEST_CASE("Averaged colours make a difference, with traces that are kept, too") {
-  const std::string kept = std::string(kLength) + "clear_other_traces = 0\n";
-  for (const std::string& settings : {std::string(kLength), kept})
+TEST_CASE("Averaged colours make a difference, with traces that are cleared, too") {
+  const std::string cleared = std::string(kLength) + "clear_other_traces = 1\n";
+  for (const std::string& settings : {std::string(kLength), cleared})
     CHECK(tables_of("basic", "color_averaging=1", settings) != tables_of("basic", "", settings));
 }
 

@@ -4,7 +4,6 @@ import contextlib
 import linecache
 import os
 import pathlib
-import signal
 import socket
 import sys
 import threading
@@ -18,7 +17,7 @@ import package
 package.require("gymnasium", "numpy")
 
 import numpy as np
-from vector_servers import server
+from vector_servers import halt, server
 
 import racebeam
 from racebeam import AtariEnv, AtariVectorEnv
@@ -172,7 +171,7 @@ class Blocked(unittest.TestCase):
         with server() as (address, process):
             env, failures = AtariEnv("beamfall", server=address), []
             env.reset(seed=1)
-            process.send_signal(signal.SIGSTOP)
+            halt(process)
 
             def step():
                 try:
@@ -195,7 +194,7 @@ class Blocked(unittest.TestCase):
         with server() as (address, process):
             env = AtariEnv("beamfall", server=address, timeout=0.3)
             env.reset(seed=1)
-            process.send_signal(signal.SIGSTOP)
+            halt(process)
             self.assertRaises(TimeoutError, env.step, 1)
             self.assertRaises(ConnectionError, env.step, 1)
 

@@ -16,7 +16,7 @@ import package
 package.require("gymnasium", "numpy")
 
 import numpy as np
-from vector_servers import Compared, server
+from vector_servers import Compared, halt, server
 
 from racebeam import AtariEnv, AtariVectorEnv, InvalidInput, connect
 
@@ -52,16 +52,6 @@ class Servers(Compared):
     def kill(process):
         process.kill()
         process.wait()
-
-
-    @staticmethod
-    def halt(process):
-        """Stops all threads of a process: the signal returns before they have."""
-        process.send_signal(signal.SIGSTOP)
-        until = time.monotonic() + 60
-        threads = [thread / "stat" for thread in pathlib.Path(f"/proc/{process.pid}/task").iterdir()]
-        while any(stat.read_text().rpartition(")")[2].split()[0] != "T" for stat in threads) and time.monotonic() < until:
-            time.sleep(0.001)
 
 
 class Same(Servers):
@@ -127,7 +117,7 @@ class Halves(Servers):
         here, there = self.both(noop_max=0, use_fire_reset=False)
         before = there.step([1] * COUNT)[0]
         here.step([1] * COUNT)
-        self.halt(self.second)
+        halt(self.second)
         for envs in (here, there):
             envs.send([0] * COUNT)
         self.kill(self.second)
@@ -224,7 +214,7 @@ class Lost(Servers):
 
     def test_a_server_that_does_not_answer_in_time_is_lost(self):
         _, there = self.both(timeout=5)  # within which the first answers, though the machine is busy
-        self.halt(self.second)
+        halt(self.second)
         self.assertEqual(there.step([0] * COUNT)[-1]["lost"].tolist(), SECOND.tolist())
         self.assertFalse(there.step([0] * COUNT)[-1]["lost"].any())
 

@@ -2,6 +2,7 @@
 
 import contextlib
 import pathlib
+import signal
 import subprocess
 import tempfile
 import time
@@ -26,6 +27,15 @@ def server(*options):
         finally:
             process.kill()
             process.wait()
+
+
+def halt(process):
+    """Stops all threads of a process: the signal returns before they have."""
+    process.send_signal(signal.SIGSTOP)
+    until = time.monotonic() + 60
+    threads = [thread / "stat" for thread in pathlib.Path(f"/proc/{process.pid}/task").iterdir()]
+    while any(stat.read_text().rpartition(")")[2].split()[0] != "T" for stat in threads) and time.monotonic() < until:
+        time.sleep(0.001)
 
 
 class Compared(unittest.TestCase):
