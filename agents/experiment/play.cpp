@@ -1,5 +1,7 @@
 #include "agents/experiment/play.hpp"
 
+#include <algorithm>
+
 #include "agents/base/episode_start.hpp"
 #include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
@@ -61,6 +63,13 @@ void Stage::begin(std::uint32_t seed) {
   begin_episode(machine_, settings_, seed);
 }
 
+bool Stage::is_of(const Cartridge& cartridge, const PlaySettings& settings) const {
+  PlaySettings other = settings;
+  other.machine.random_seed = settings_.machine.random_seed;
+  return settings_ == other && &machine_.game() == cartridge.game.get() &&
+         &machine_.image() == cartridge.image.get();
+}
+
 Episode play(Agent& agent, Stage& stage, std::int64_t most_frames, const Watch& watch) {
   Environment& machine = stage.machine();
   Account account(machine);
@@ -94,12 +103,29 @@ PlaySettings settings_of(const EpisodeLog& log) {
   return settings;
 }
 
-Replay replay(const EpisodeLog& log, const Cartridge& cartridge, CpuKind cpu) {
+std::unique_ptr<Stage> Replayer::take(const Cartridge& cartridge, const PlaySettings& settings) {
+  const std::scoped_lock lock(mutex_);
+  const auto found =
+      std::ranges::find_if(idle_, [&](const auto& stage) { return stage->is_of(cartridge, settings); });
+  if (found == idle_.end()) return nullptr;
+  std::unique_ptr<Stage> stage = std::move(*found);
+  idle_.erase(found);
+  return stage;
+}
+
+void Replayer::give_back(std::unique_ptr<Stage> stage) {
+  const std::scoped_lock lock(mutex_);
+  idle_.push_back(std::move(stage));
+  if (idle_.size() > most_kept_) idle_.pop_front();
+}
+
+Replay Replayer::play(const EpisodeLog& log, const Cartridge& cartridge) {
   PlaySettings settings = settings_of(log);
-  settings.machine.cpu = cpu;
-  Stage stage(cartridge, settings, Drawing::kNone);
-  stage.begin(settings.machine.random_seed);
-  Account account(stage.machine());
+  settings.machine.cpu = cpu_;
+  std::unique_ptr<Stage> stage = take(cartridge, settings);
+  if (!stage) stage = std::make_unique<Stage>(cartridge, settings, Drawing::kNone);
+  stage->begin(settings.machine.random_seed);
+  Account account(stage->machine());
   for (const int action : log.actions) {
     if (account.over()) break;
     account.act(action);
@@ -108,6 +134,7 @@ Replay replay(const EpisodeLog& log, const Cartridge& cartridge, CpuKind cpu) {
   result.end = account.finish();
   result.hashes = std::move(account.hashes());
   result.over = account.over();
+  give_back(std::move(stage));
   return result;
 }
 

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +28,9 @@ class Stage {
   Stage(const Cartridge& cartridge, const PlaySettings& settings, Drawing drawing);
 
   void begin(std::uint32_t seed);  // powers the machine on anew
+
+  // Whether an episode of this image with these settings, but for the seed, can be played on it.
+  bool is_of(const Cartridge& cartridge, const PlaySettings& settings) const;
 
   Environment& machine() { return machine_; }
   const PlaySettings& settings() const { return settings_; }  // with the episode's seed
@@ -54,7 +60,26 @@ struct Replay {
   std::vector<std::uint64_t> hashes;
   bool over = false;  // the last action ended the episode; no actions are played after its end
 };
-Replay replay(const EpisodeLog& log, const Cartridge& cartridge, CpuKind cpu);
+
+// Plays logs, from several threads at once. Machines are kept for the next logs of the same image and settings:
+// a new one interprets code for a while before it translates it.
+class Replayer {
+ public:
+  // Keeps as many machines as there are threads.
+  Replayer(unsigned threads, CpuKind cpu) : most_kept_(threads), cpu_(cpu) {}
+
+  // Throws InvalidInput for settings that the game cannot have.
+  Replay play(const EpisodeLog& log, const Cartridge& cartridge);
+
+ private:
+  std::unique_ptr<Stage> take(const Cartridge& cartridge, const PlaySettings& settings);
+  void give_back(std::unique_ptr<Stage> stage);
+
+  const std::size_t most_kept_;
+  const CpuKind cpu_;
+  std::mutex mutex_;
+  std::deque<std::unique_ptr<Stage>> idle_;  // the one that was used least lately first
+};
 
 // The settings of a log. Throws InvalidInput.
 PlaySettings settings_of(const EpisodeLog& log);

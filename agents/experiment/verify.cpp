@@ -71,10 +71,10 @@ std::string first_difference_of_words(const std::string& ours, const std::string
 
 class Verifier {
  public:
-  Verifier(const Plan& plan, const ResultsFolder& folder, const Images& images, CpuKind cpu)
-      : plan_(plan), folder_(folder), images_(images), cpu_(cpu) {}
+  Verifier(const Plan& plan, const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu)
+      : plan_(plan), folder_(folder), images_(images), replayer_(threads, cpu) {}
 
-  RowVerdict judge(const ResultRow& row, const PlanRows::Place& place) const {
+  RowVerdict judge(const ResultRow& row, const PlanRows::Place& place) {
     try {
       if (place.episode == 0) return judge_divergence(row, *place.unit);
       if (const std::string reason = against_plan(row, place); !reason.empty())
@@ -100,7 +100,7 @@ class Verifier {
     return first_difference(row, wanted, "the plan gives");
   }
 
-  RowVerdict judge_episode(const ResultRow& row, const PlanRows::Place& place) const {
+  RowVerdict judge_episode(const ResultRow& row, const PlanRows::Place& place) {
     const std::string path = folder_.log(row[0], field(row, "episode"));
     const std::string bytes = read_input_file("episode log", path, kMostLogBytes);
     const EpisodeLog log = log_of(fs::path(path).filename().string(), bytes);
@@ -130,8 +130,8 @@ class Verifier {
     return game;
   }
 
-  RowVerdict play_again(const ResultRow& row, const EpisodeLog& log, const Cartridge& cartridge) const {
-    const Replay played = replay(log, cartridge, cpu_);
+  RowVerdict play_again(const ResultRow& row, const EpisodeLog& log, const Cartridge& cartridge) {
+    const Replay played = replayer_.play(log, cartridge);
     EpisodeLog truth = log;
     truth.end = played.end;
     truth.hashes = played.hashes;
@@ -147,7 +147,7 @@ class Verifier {
   const Plan& plan_;
   const ResultsFolder& folder_;
   const Images& images_;
-  const CpuKind cpu_;
+  Replayer replayer_;
   const Environment any_machine_{load_image("builtin:beamfall"), find_game("beamfall"), Settings{}};
 };
 
@@ -220,8 +220,9 @@ Verdict verify(const ResultsFolder& folder, const Images& images, unsigned threa
   Verdict verdict;
   const auto places = compare_with_plan(wanted, rows, verdict, finding);
   std::vector<RowVerdict> verdicts(rows.size());
-  const Verifier verifier(plan, folder, images, cpu);
-  ThreadPool(threads).run(rows.size(), [&](std::size_t i) {
+  ThreadPool pool(threads);
+  Verifier verifier(plan, folder, images, pool.threads(), cpu);
+  pool.run(rows.size(), [&](std::size_t i) {
     if (places[i]) verdicts[i] = verifier.judge(rows[i], *places[i]);
   });
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -33,7 +33,7 @@ class Forgery {
 // Ends the log after so many actions, or plays on with NOOPs, with what the machine then gives.
 void set_length(EpisodeLog& log, std::size_t actions) {
   log.actions.resize(actions);
-  const Replay played = replay(log, beamfall(), CpuKind::kAuto);
+  const Replay played = Replayer(1, CpuKind::kAuto).play(log, beamfall());
   log.end = played.end;
   log.end.decisions = static_cast<std::int64_t>(actions);
   log.hashes = played.hashes;

@@ -14,11 +14,49 @@ TEST_CASE("A log that is played again gives the same score, frames, end and stat
     play.machine.sticky = sticky;
     const EpisodeLog log = random_log(play);
     for (const CpuKind cpu : {CpuKind::kAuto, CpuKind::kInterpreter}) {
-      const Replay played = replay(log, beamfall(), cpu);
+      const Replay played = Replayer(1, cpu).play(log, beamfall());
       CHECK(played.end == log.end);
       CHECK(played.hashes == log.hashes);
     }
   }
+}
+
+TEST_CASE("A machine that has played a log plays the next ones as a new machine does") {
+  const auto logs = [] {
+    std::vector<EpisodeLog> all;
+    for (const std::uint32_t seed : {1U, 2U, 3U, 2U}) {
+      PlaySettings play = short_episodes();
+      play.machine.sticky = seed == 3 ? 0.25F : 0.5F;
+      play.machine.random_seed = seed;
+      all.push_back(random_log(play));
+    }
+    return all;
+  }();
+  const Cartridge cartridge = beamfall();
+  for (const unsigned kept : {0U, 1U, 4U}) {
+    Replayer replayer(kept, CpuKind::kAuto);
+    for (const EpisodeLog& log : logs) {
+      const Replay played = replayer.play(log, cartridge);
+      CHECK(played.end == log.end);
+      CHECK(played.hashes == log.hashes);
+    }
+  }
+}
+
+TEST_CASE("A stage serves episodes of its image, game and settings, whatever their seed") {
+  const Cartridge cartridge = beamfall();
+  const PlaySettings play = short_episodes();
+  const Stage stage(cartridge, play, Drawing::kNone);
+  PlaySettings other = play;
+  other.machine.random_seed = 99;
+  CHECK(stage.is_of(cartridge, other));
+  other.machine.sticky = 0.125F;
+  CHECK_FALSE(stage.is_of(cartridge, other));
+  other = play;
+  other.difficulty = 1;
+  CHECK_FALSE(stage.is_of(cartridge, other));
+  CHECK_FALSE(stage.is_of(beamfall(), play));  // loaded again
+  CHECK_FALSE(stage.is_of({cartridge.image, find_game("pong")}, play));
 }
 
 TEST_CASE("An episode has a hash after every 256 decisions, and one of its end") {
