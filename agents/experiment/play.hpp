@@ -61,8 +61,8 @@ struct Replay {
   bool over = false;  // the last action ended the episode; no actions are played after its end
 };
 
-// Plays logs, from several threads at once. Machines are kept for the next logs of the same image and settings:
-// a new one interprets code for a while before it translates it.
+// Plays logs, from several threads at once. Machines are kept for the next logs of the same image and
+// settings: a new one interprets code for a while before it translates it.
 class Replayer {
  public:
   // Keeps as many machines as there are threads.

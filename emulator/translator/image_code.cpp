@@ -17,7 +17,7 @@ constexpr std::size_t kBatchCapacity = 1U << 16;  // a batch is begun only with 
 
 void set_code_capacity(std::size_t bytes) { code_capacity = bytes; }
 
-std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom, const Wiring& wiring) {
+std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom, const Wiring& wiring, bool make) {
   static std::mutex mutex;
   static std::vector<std::weak_ptr<ImageCode>> all;
   const std::lock_guard lock(mutex);
@@ -27,6 +27,7 @@ std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom, const Wiring& wiring) {
     if (code && !code->is_full() && code->wiring_ == wiring && std::ranges::equal(code->rom_, rom))
       return code;
   }
+  if (!make) return nullptr;
   auto code = std::make_shared<ImageCode>(rom, wiring, code_capacity);
   all.push_back(code);
   return code;

@@ -40,10 +40,10 @@ struct View {
 
 class ImageCode {
  public:
-  // The code of this image, made on the first request. Images are compared by their bytes. wiring: of the
-  // cartridge scheme, since two machines can run one image under different schemes. Throws std::system_error
-  // if the system refuses executable memory.
-  static std::shared_ptr<ImageCode> of(const Rom& rom, const Wiring& wiring);
+  // The code of this image with room for more. Null if there is none and `make` is false. Images are compared
+  // by their bytes. wiring: of the cartridge scheme, since two machines can run one image under different
+  // schemes. Throws std::system_error if the system refuses executable memory.
+  static std::shared_ptr<ImageCode> of(const Rom& rom, const Wiring& wiring, bool make);
 
   ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity);
 

@@ -109,7 +109,8 @@ const std::string& executable_memory_error() {
 }  // namespace
 
 struct Translator::Impl {
-  Impl(Board& board, bool always) : layout(board), budget(always) {}
+  // Code that another machine has made is used at once: entering it needs no budget.
+  Impl(Board& board, bool always) : code(code_of(board, false)), layout(board), budget(always) {}
 
   // A window that was looked up before, cached by its address. After a bank switch, the view is found without
   // a search in the image.
@@ -125,13 +126,14 @@ struct Translator::Impl {
     translator::Profitability* profitability = nullptr;
   };
 
+  static std::shared_ptr<translator::ImageCode> code_of(Board& board, bool make);
   bool has_code(Board& board);
   translator::View* current_view(Board& board);
   Entry find_entry(Board& board);
   bool enter(Board& board, const void* start);
   std::int32_t run_block(Board& board, const Entry& entry);
 
-  std::shared_ptr<translator::ImageCode> code;  // null until the budget covers a first batch
+  std::shared_ptr<translator::ImageCode> code;  // null: none was there, and the budget covers no first batch
   const translator::Layout layout;
   std::array<CachedView, 32> views{};
   translator::TranslationBudget budget;
@@ -139,14 +141,18 @@ struct Translator::Impl {
   StepBackoff step_backoff;
 };
 
+std::shared_ptr<translator::ImageCode> Translator::Impl::code_of(Board& board, bool make) {
+  const translator::Wiring wiring{board.plain_registers(), board.slot.scheme.port_reader};
+  return translator::ImageCode::of(board.slot.rom, wiring, make);
+}
+
 // False while there is no code. Begins a new generation when the code memory of the old one is full.
 bool Translator::Impl::has_code(Board& board) {
   const bool is_useful = code != nullptr && !code->is_full();
   if (is_useful || !budget.covers_batch()) return code != nullptr;
   const translator::TranslationBudget::Charge charge(budget);
   try {
-    code =
-        translator::ImageCode::of(board.slot.rom, {board.plain_registers(), board.slot.scheme.port_reader});
+    code = code_of(board, true);
     views = {};
   } catch (const std::system_error&) {
     // The system has no memory for code now. A later step tries again.

@@ -57,6 +57,12 @@ def episodes(found):
     return sum(count for games in found["episodes"].values() for count in games.values())
 
 
+def share_of_bench(verified):
+    """The speed of the verification beside the bench's; "-" if the bench was not run for all of its games."""
+    seconds = verified.get("bench_seconds")
+    return number(seconds / verified["seconds"], 2) if seconds else "-"
+
+
 def best(found, kind):
     """{game: (score, action)} of the best of the 18 agents of a kind."""
     scores = {agent.removeprefix(kind + "_"): each for agent, each in found["scores"].items() if agent.startswith(kind + "_")}
@@ -241,7 +247,8 @@ class Document:
         self.add("## Verification")
         self.say("""`racebeam verify` plays each episode again from its log. It confirms score, frames, end and state hashes. That proves
             that these actions give this score, not which agent chose them ([episodes.md](episodes.md)).
-            `scripts/check/verify-with-ale` plays the same logs in ALE.""")
+            `scripts/check/verify-with-ale` plays the same logs in ALE. "Of the bench" is the speed beside that of
+            `racebeam bench --screen none` for the same games, frames and frame skip; the start of the process counts.""")
         rows, none = [], {}
         for name, found in self.figures.items():
             none.setdefault(found["machine"].get("processor", "-"), {}).update(found["bench"]["none"])
@@ -249,13 +256,14 @@ class Document:
             if verified:
                 rows.append([f"`{name}`", *(f"{verified[key]:,}" for key in ("confirmed", "wrong", "not_checked")),
                              number(verified["frames"] / verified["seconds"], 0),
+                             share_of_bench(verified),
                              number(100 * verified["seconds"] / found["seconds"], 1) + "%",
                              *(f"{ale[key]:,}" if ale else "-" for key in ("agree", "differ"))])
         if not rows:
             self.say("Not run yet.")
             return
-        self.add(rows_of(["plan", "confirmed", "wrong", "not checked", "frames a second and core", "of the time of the run",
-                          "ALE agrees", "ALE does not"], *rows))
+        self.add(rows_of(["plan", "confirmed", "wrong", "not checked", "frames a second and core", "of the bench",
+                          "of the time of the run", "ALE agrees", "ALE does not"], *rows))
         for processor, speeds in none.items():
             if speeds:
                 self.say(f"`racebeam bench --screen none --frame-skip 5` on {processor}, frames a second: " +

@@ -9,7 +9,7 @@ FOLDER/PLAN is what `racebeam experiment PLAN --into FOLDER/PLAN` makes, and who
     PLAN.verify             what `racebeam verify FOLDER/PLAN` printed; then a line "processor seconds: N"
     PLAN.ale                what `scripts/check/verify-with-ale FOLDER/PLAN` printed
     bench/GAME-search.json  what `racebeam bench --rom GAME --frame-skip 5 --search --json` printed
-    bench/GAME-none.json    what `racebeam bench --rom GAME --frame-skip 5 --screen none --json` printed
+    bench/GAME-none-N.json  what `racebeam bench --rom GAME --frame-skip N --screen none --json` printed, N being 1 and 5
 
 FILE is docs/results/figures/PLAN.json unless it is named.
 """
@@ -98,7 +98,15 @@ class Results:
         names = ("confirmed", "wrong", "not_checked", "frames")
         counts = re.search(r"(\d+) rows confirmed, (\d+) wrong, (\d+) could not be checked; (\d+) frames", text).groups()
         seconds = float(re.search(r"processor seconds: ([0-9.]+)", text)[1])
-        return {**dict(zip(names, map(int, counts))), "seconds": seconds}
+        return {**dict(zip(names, map(int, counts))), "seconds": seconds, "bench_seconds": self.bench_seconds()}
+
+    def bench_seconds(self):
+        """How long the bench would take for the same frames, with the same decisions; None if a game was not measured."""
+        frames = collections.Counter()
+        for row in self.rows:
+            frames[row["game"], self.settings(row["agent"])["frame_skip"]] += int(row["frames"])
+        speeds = {key: self.bench(key[0], f"none-{key[1]}") for key in frames}
+        return sum(frames[key] / speed for key, speed in speeds.items()) if all(speeds.values()) else None
 
     def ale(self):
         text = self.beside(f"{self.folder.name}.ale")
@@ -126,8 +134,9 @@ class Results:
             "speeds": {agent: self.speeds(agent) for agent in self.agents},
             "log_bytes": {agent: self.log_bytes(agent) for agent in self.agents},
             "searches": self.searches(),
-            "bench": {kind: {game: speed for game in self.plan["games"] if (speed := self.bench(game, kind))}
-                      for kind in ("search", "none")},
+            "bench": {name: {game: speed for game in self.plan["games"]
+                             if self.bench(game, "search") and (speed := self.bench(game, kind))}
+                      for name, kind in (("search", "search"), ("none", "none-5"))},
             "verified": self.verified(),
             "ale": self.ale(),
         }

@@ -88,7 +88,9 @@ class PaperResults(unittest.TestCase):
         write(self.folder / "iw1.verify", ["1 rows confirmed, 0 wrong, 0 could not be checked; 1000 frames in 9.0 s",
                                            "processor seconds: 0.05"])
         write(self.folder / "iw1.ale", ["1 rows agree with ALE, 0 do not, 0 have no image"])
-        self.assertIn("| `iw1` | 1 | 0 | 0 | 20,000 | 2.0% | 1 | 0 |", self.text())
+        self.assertIn("| `iw1` | 1 | 0 | 0 | 20,000 | - | 2.0% | 1 | 0 |", self.text())
+        write(self.folder / "bench/asterix-none-5.json", ['{"frames_per_second": 25000}'])
+        self.assertIn("| `iw1` | 1 | 0 | 0 | 20,000 | 0.80 | 2.0% | 1 | 0 |", self.text())
 
     def test_the_document_is_laid_out_as_all_are(self):
         results(self.folder / "uct", ["uct"], {"uct": [[5]]})
