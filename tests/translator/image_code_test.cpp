@@ -7,7 +7,7 @@ using namespace racebeam;
 using racebeam::translator::ImageCode;
 
 TEST_CASE("Code is shared by all images of the same bytes and wiring, while a machine has it") {
-  const Rom image(4096, 0xEA), copy = image, other(4096, 0xE8);
+  const Rom image(4096, 0xEA), copy(4096, 0xEA), other(4096, 0xE8);
   const translator::Wiring wiring{1, nullptr}, otherwise{2, nullptr};
   CHECK(ImageCode::of(image, wiring, false) == nullptr);
   auto code = ImageCode::of(image, wiring, true);
