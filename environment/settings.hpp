@@ -34,8 +34,6 @@ struct Settings {
   // As ALE 0.4 to 0.6: one generator for machine and sticky actions, sticky actions persist over a reset, and
   // so on (docs/spec/classic-protocol.md, 6).
   bool classic = false;
-
-  bool operator==(const Settings&) const = default;
 };
 
 }  // namespace racebeam

@@ -1,7 +1,5 @@
 #include "agents/experiment/play.hpp"
 
-#include <algorithm>
-
 #include "agents/base/episode_start.hpp"
 #include "protocol/line/words.hpp"
 #include "system/invalid_input.hpp"
@@ -63,13 +61,6 @@ void Stage::begin(std::uint32_t seed) {
   begin_episode(machine_, settings_, seed);
 }
 
-bool Stage::is_of(const Cartridge& cartridge, const PlaySettings& settings) const {
-  PlaySettings other = settings;
-  other.machine.random_seed = settings_.machine.random_seed;
-  return settings_ == other && &machine_.game() == cartridge.game.get() &&
-         &machine_.image() == cartridge.image.get();
-}
-
 Episode play(Agent& agent, Stage& stage, std::int64_t most_frames, const Watch& watch) {
   Environment& machine = stage.machine();
   Account account(machine);
@@ -103,27 +94,16 @@ PlaySettings settings_of(const EpisodeLog& log) {
   return settings;
 }
 
-std::unique_ptr<Stage> Replayer::take(const Cartridge& cartridge, const PlaySettings& settings) {
+void Replayer::keep(std::unique_ptr<Stage> stage) {
   const std::scoped_lock lock(mutex_);
-  const auto found =
-      std::ranges::find_if(idle_, [&](const auto& stage) { return stage->is_of(cartridge, settings); });
-  if (found == idle_.end()) return nullptr;
-  std::unique_ptr<Stage> stage = std::move(*found);
-  idle_.erase(found);
-  return stage;
-}
-
-void Replayer::give_back(std::unique_ptr<Stage> stage) {
-  const std::scoped_lock lock(mutex_);
-  idle_.push_back(std::move(stage));
-  if (idle_.size() > most_kept_) idle_.pop_front();
+  kept_.push_back(std::move(stage));
+  if (kept_.size() > most_kept_) kept_.pop_front();
 }
 
 Replay Replayer::play(const EpisodeLog& log, const Cartridge& cartridge) {
   PlaySettings settings = settings_of(log);
   settings.machine.cpu = cpu_;
-  std::unique_ptr<Stage> stage = take(cartridge, settings);
-  if (!stage) stage = std::make_unique<Stage>(cartridge, settings, Drawing::kNone);
+  auto stage = std::make_unique<Stage>(cartridge, settings, Drawing::kNone);
   stage->begin(settings.machine.random_seed);
   Account account(stage->machine());
   for (const int action : log.actions) {
@@ -134,7 +114,7 @@ Replay Replayer::play(const EpisodeLog& log, const Cartridge& cartridge) {
   result.end = account.finish();
   result.hashes = std::move(account.hashes());
   result.over = account.over();
-  give_back(std::move(stage));
+  keep(std::move(stage));
   return result;
 }
 

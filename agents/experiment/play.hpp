@@ -29,9 +29,6 @@ class Stage {
 
   void begin(std::uint32_t seed);  // powers the machine on anew
 
-  // Whether an episode of this image with these settings, but for the seed, can be played on it.
-  bool is_of(const Cartridge& cartridge, const PlaySettings& settings) const;
-
   Environment& machine() { return machine_; }
   const PlaySettings& settings() const { return settings_; }  // with the episode's seed
 
@@ -61,8 +58,8 @@ struct Replay {
   bool over = false;  // the last action ended the episode; no actions are played after its end
 };
 
-// Plays logs, from several threads at once. Machines are kept for the next logs of the same image and
-// settings: a new one interprets code for a while before it translates it.
+// Plays logs, each on a new machine, from several threads at once. The last machines are kept, since a new one
+// uses the translated code of another with the same image.
 class Replayer {
  public:
   // Keeps as many machines as there are threads.
@@ -72,13 +69,12 @@ class Replayer {
   Replay play(const EpisodeLog& log, const Cartridge& cartridge);
 
  private:
-  std::unique_ptr<Stage> take(const Cartridge& cartridge, const PlaySettings& settings);
-  void give_back(std::unique_ptr<Stage> stage);
+  void keep(std::unique_ptr<Stage> stage);
 
   const std::size_t most_kept_;
   const CpuKind cpu_;
   std::mutex mutex_;
-  std::deque<std::unique_ptr<Stage>> idle_;  // the one that was used least lately first
+  std::deque<std::unique_ptr<Stage>> kept_;  // the oldest first
 };
 
 // The settings of a log. Throws InvalidInput.

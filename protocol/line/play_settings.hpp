@@ -22,8 +22,6 @@ struct PlaySettings {
   bool autoreset = false;  // an act after the end of an episode is a reset
   int noop_max = 0;        // an episode begins with 0 to noop_max - 1 frames of NOOP
   std::string_view preset = "none";
-
-  bool operator==(const PlaySettings&) const = default;
 };
 
 struct SettingRow {

@@ -21,7 +21,7 @@ TEST_CASE("A log that is played again gives the same score, frames, end and stat
   }
 }
 
-TEST_CASE("A machine that has played a log plays the next ones as a new machine does") {
+TEST_CASE("Logs that are played one after the other are played as each alone") {
   const auto logs = [] {
     std::vector<EpisodeLog> all;
     for (const std::uint32_t seed : {1U, 2U, 3U, 2U}) {
@@ -41,22 +41,6 @@ TEST_CASE("A machine that has played a log plays the next ones as a new machine 
       CHECK(played.hashes == log.hashes);
     }
   }
-}
-
-TEST_CASE("A stage serves episodes of its image, game and settings, whatever their seed") {
-  const Cartridge cartridge = beamfall();
-  const PlaySettings play = short_episodes();
-  const Stage stage(cartridge, play, Drawing::kNone);
-  PlaySettings other = play;
-  other.machine.random_seed = 99;
-  CHECK(stage.is_of(cartridge, other));
-  other.machine.sticky = 0.125F;
-  CHECK_FALSE(stage.is_of(cartridge, other));
-  other = play;
-  other.difficulty = 1;
-  CHECK_FALSE(stage.is_of(cartridge, other));
-  CHECK_FALSE(stage.is_of(beamfall(), play));  // loaded again
-  CHECK_FALSE(stage.is_of({cartridge.image, find_game("pong")}, play));
 }
 
 TEST_CASE("An episode has a hash after every 256 decisions, and one of its end") {
