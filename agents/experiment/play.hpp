@@ -58,8 +58,8 @@ struct Replay {
   bool over = false;  // the last action ended the episode; no actions are played after its end
 };
 
-// Plays logs, each on a new machine, from several threads at once. The last machines are kept, since a new one
-// uses the translated code of another with the same image.
+// Plays logs, each on a new machine, from several threads at once. The last machines are kept, since a new
+// one uses the translated code of another with the same image.
 class Replayer {
  public:
   // Keeps as many machines as there are threads.
