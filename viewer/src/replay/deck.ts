@@ -94,9 +94,10 @@ export class Deck {
     }
   }
 
+  /** Shows frames until the wanted one is shown. Meanwhile the element is busy, for readers of screens and for tests. */
   async #follow(): Promise<void> {
     const track = this.#track!;
-    this.#showing = true;
+    this.#busy(true);
     try {
       for (let step = this.#step(); step !== this.#shown; step = this.#step()) {
         const group = await track.show(step);
@@ -110,8 +111,13 @@ export class Deck {
     } catch (error) {
       await this.#lose(error);
     } finally {
-      this.#showing = false;
+      this.#busy(false);
     }
+  }
+
+  #busy(showing: boolean): void {
+    this.#showing = showing;
+    this.element.setAttribute("aria-busy", String(showing));
   }
 
   /** The step that shows the wanted frame. */

@@ -108,11 +108,11 @@ describe("accessibility", () => {
       const { width, height } = (await page.locator("#screen").boundingBox())!;
       return width / height;
     };
-    const expected = (160 * 12) / 7 / 210;
-    assert.ok(Math.abs(await shape() - expected) < 0.01, `${await shape()}`);
+    const right = async () => Math.abs(await shape() - (160 * 12) / 7 / 210) < 0.01;
+    await until(right, "the shape");
     await page.keyboard.press("KeyF");
     await until(async () => page.evaluate(() => document.fullscreenElement?.id === "stage"), "full screen");
-    assert.ok(Math.abs(await shape() - expected) < 0.01, `${await shape()}`);
+    await until(right, "the shape in full screen");
     await page.context().close();
   });
 });
