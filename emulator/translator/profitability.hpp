@@ -11,8 +11,8 @@ namespace racebeam::translator {
 // Statistics of one block, shared by all machines that run the image. They affect speed only.
 class Profitability {
  public:
-  // An entry that runs this many cycles takes about as long as interpreting them.
-  static constexpr std::int32_t kBreakEvenCycles = 16;
+  // An entry that runs this many cycles takes about as long as interpreting them, if some access devices.
+  static constexpr std::int32_t kBreakEvenCycles = 32;
 
   // Whether its entries have been too short in the mean. One of kRetry times, the answer is no nevertheless,
   // since another scene of the game may have longer ones.

@@ -3,16 +3,12 @@
 // (docs/translator.md).
 #pragma once
 
-#include <x86intrin.h>
-
 #include <algorithm>
 #include <cstdint>
 
-namespace racebeam::translator {
+#include "emulator/translator/ticks.hpp"
 
-// Reads the processor's time stamp counter: some two to four ticks a nanosecond. A read of the system's clock
-// would take as long as a short frame.
-inline std::int64_t ticks() { return static_cast<std::int64_t>(__rdtsc()); }
+namespace racebeam::translator {
 
 class TranslationBudget {
  public:
@@ -25,7 +21,7 @@ class TranslationBudget {
   void end_step() {
     if (began_ != 0)
       balance_ =
-          std::min(balance_ + std::min(ticks() - began_ - spent_, kLongestStep) * kPercent / 100, kCapacity);
+          std::min(balance_ + std::min(ticks() - began_ - spent_, kLongestStep) * percent() / 100, kCapacity);
   }
 
   // Charges the time from its construction to its destruction.
@@ -43,24 +39,31 @@ class TranslationBudget {
 
   bool covers_batch() const { return balance_ >= kBatchCost; }
   bool is_unlimited() const { return unlimited_; }
+  // What was charged in this step, in ticks.
+  std::int64_t spent() const { return spent_; }
 
  private:
   void charge(std::int64_t cost) {
     spent_ += cost;
+    total_ += cost;
     if (!unlimited_) balance_ -= cost;
   }
 
-  static constexpr std::int64_t kPercent = 20;  // of the time that the machine runs
+  // The part of the machine's time that is added. Beyond what translation of most games takes, it is small:
+  // such a program is hardly worth the work.
+  std::int64_t percent() const { return total_ < kUsualTotal ? 20 : 5; }
+
+  static constexpr std::int64_t kUsualTotal = 12'000'000;
   // Longer steps are cut: another thread used the processor.
   static constexpr std::int64_t kLongestStep = 1'000'000;
   static constexpr std::int64_t kCapacity = 10'000'000;
   // What the system does for the memory of the code, beyond what is charged: pages of short-lived machines.
-  static constexpr std::int64_t kStartCost = 1'000'000;
+  static constexpr std::int64_t kStartCost = 500'000;
   static constexpr std::int64_t kBatchCost = 60'000;  // usual; a batch that costs more leaves a debt
 
   bool is_full() const { return balance_ == kCapacity; }
 
-  std::int64_t balance_, began_ = 0, spent_ = 0;  // ticks
+  std::int64_t balance_, began_ = 0, spent_ = 0, total_ = 0;  // ticks; charged in this step, and in all
   bool unlimited_;
 };
 

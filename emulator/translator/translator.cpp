@@ -11,6 +11,7 @@
 #include "emulator/cpu/cpu.hpp"
 #include "emulator/translator/block_discovery.hpp"
 #include "emulator/translator/image_code.hpp"
+#include "emulator/translator/step_trial.hpp"
 #include "emulator/translator/translation_budget.hpp"
 
 namespace racebeam {
@@ -130,6 +131,7 @@ struct Translator::Impl {
   bool has_code(Board& board);
   translator::View* current_view(Board& board);
   Entry find_entry(Board& board);
+  bool interprets_step();
   bool enter(Board& board, const void* start);
   std::int32_t run_block(Board& board, const Entry& entry);
 
@@ -139,6 +141,8 @@ struct Translator::Impl {
   translator::TranslationBudget budget;
   InterpretedRun interpreted_run;
   StepBackoff step_backoff;
+  translator::StepTrial trial;
+  std::int64_t trial_began = 0;  // tick at which a step of a trial began; 0 in other steps
 };
 
 std::shared_ptr<translator::ImageCode> Translator::Impl::code_of(Board& board, bool make) {
@@ -223,9 +227,18 @@ std::unique_ptr<Translator> Translator::make(Board& board, CpuKind kind) {
       new Translator(std::make_unique<Impl>(board, kind == CpuKind::kTranslator)));
 }
 
+// Whether the interpreter runs the whole step that begins.
+bool Translator::Impl::interprets_step() {
+  trial_began = 0;
+  if (code == nullptr || budget.is_unlimited()) return false;
+  const bool interprets = trial.begin_step();
+  if (trial.measures()) trial_began = translator::ticks();
+  return interprets;
+}
+
 bool Translator::run(Board& board, std::int32_t instructions) {
   impl_->budget.begin_step();
-  if (impl_->step_backoff.skips_step() || !impl_->has_code(board)) {
+  if (impl_->interprets_step() || impl_->step_backoff.skips_step() || !impl_->has_code(board)) {
     interpret(board, instructions);
     return true;
   }
@@ -260,7 +273,11 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
   return true;
 }
 
-void Translator::end_step() { impl_->budget.end_step(); }
+void Translator::end_step() {
+  if (impl_->trial_began != 0)
+    impl_->trial.end_step(translator::ticks() - impl_->trial_began - impl_->budget.spent());
+  impl_->budget.end_step();
+}
 
 void Translator::set_code_capacity(std::size_t bytes) { translator::set_code_capacity(bytes); }
 
