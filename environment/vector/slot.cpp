@@ -154,16 +154,23 @@ void Slot::run_frames(const Act& act) {
   progress_.goes_on = settings_.life_loss == LifeLoss::kEnds && lost && !over && !too_long;
   progress_.terminated = over || (settings_.life_loss != LifeLoss::kIgnored && lost);
   progress_.truncated = too_long && !progress_.terminated;
-  progress_.blends = pools();
+  progress_.blends = pools() && (left == 1 || settings_.reset_order == ResetOrder::kFireNoops);
   add_outcome(rewards, frames - left + 1);
   if (stack_) look_at_end_of_step(left);
 }
 
-// The reference looks at the last frame but one and at the last, and stops looking when the episode is over;
-// what it saw before then stays in their place. left: frames of the step that remain, counting the one just
-// run.
+// Shows the last frame, pooled with the one before if both are the step's last two. A pooled step that ends
+// before those shows what the step before it showed. left: frames of the step that remain, counting the one
+// just run.
 void Slot::look_at_end_of_step(int left) {
-  if (!progress_.finished) return show(pools());
+  if (progress_.finished && settings_.reset_order == ResetOrder::kFireNoops) return look_as_reference(left);
+  if (pools() && left > 2) return stack_->push();
+  show(progress_.blends);
+}
+
+// The reference looks at the last frame but one and at the last, and stops looking when the episode is over;
+// what it saw before then stays in their place.
+void Slot::look_as_reference(int left) {
   if (left == 1 && pools()) stack_->look_at_previous(environment_);
   stack_->push();
 }

@@ -152,6 +152,7 @@ class Slot {
   void add_outcome(Environment::RawRewards rewards, int frames);
   void look_at_ends();
   void look_at_end_of_step(int left);
+  void look_as_reference(int left);
   void show(bool pooled);
   bool pools() const { return settings_.max_pool && settings_.machine.frame_skip > 1; }
 
@@ -160,12 +161,12 @@ class Slot {
   void reload(std::uint32_t seed);
   void begin_episode();
   void begin_life();
-  void begin_stack(bool goes_on);
+  void begin_stack(bool goes_on, bool stepped);
   void draw_nothing();
   void run_noops(int frames);
   void run_noops_and_fire(bool fire);  // EnvPool's order
   void press_fire();
-  void press_as_baselines();
+  bool press_as_baselines();
   bool has_fire() const;
 
   const SlotSettings settings_;

@@ -52,6 +52,7 @@ void Slot::begin_episode() {
   draw_nothing();
   environment_.reset_game();
   const bool fire = has_fire();
+  bool stepped = false;
   switch (settings_.reset_order) {
     case ResetOrder::kFireNoops:
       if (fire) press_fire();
@@ -60,13 +61,13 @@ void Slot::begin_episode() {
     case ResetOrder::kNoopsFire: run_noops_and_fire(fire); break;
     case ResetOrder::kBaselines:
       run_noops(settings_.noop_max > 0 ? noops_.draw() + 1 : 0);
-      if (fire) press_as_baselines();
+      stepped = fire && press_as_baselines();
       break;
   }
   progress_ = {};
   progress_.lives = environment_.lives();
   look_at_ends();
-  begin_stack(false);
+  begin_stack(false, stepped);
   if (pace_ != nullptr) reset_frames_ = std::max(reset_frames_, pace_->frames() - frames_before);
 }
 
@@ -96,10 +97,12 @@ void Slot::begin_life() {
   }
   progress_.lives = environment_.lives();
   look_at_ends();
-  begin_stack(goes_on);
+  begin_stack(goes_on, settings_.reset_order == ResetOrder::kBaselines);
 }
 
-void Slot::begin_stack(bool goes_on) {
+// stepped: a whole step came last, so that the screen may be seen as the brighter of two frames.
+void Slot::begin_stack(bool goes_on, bool stepped) {
+  progress_.blends = stepped && pools();
   if (!stack_) return;
   const bool keeps = settings_.stack_start == StackStart::kRepeats && goes_on;
   if (!keeps) stack_->clear();
@@ -131,13 +134,15 @@ void Slot::run_noops_and_fire(bool fire) {
 
 void Slot::press_fire() { environment_.act_for(1, kFire); }
 
-// A step of each of the first two actions after NOOP, provided that the first of them is FIRE.
-void Slot::press_as_baselines() {
-  if (actions_.size() < 3 || actions_[1] != kFire) return;
+// A step of each of the first two actions after NOOP, provided that the first of them is FIRE. Returns whether
+// it is.
+bool Slot::press_as_baselines() {
+  if (actions_.size() < 3 || actions_[1] != kFire) return false;
   for (const int action : {actions_[1], actions_[2]}) {
     environment_.act_for(settings_.machine.frame_skip, action);
     if (environment_.game_over()) environment_.reset_game();
   }
+  return true;
 }
 
 }  // namespace racebeam

@@ -1,5 +1,6 @@
 #include "protocol/line/action.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "games/game/actions.hpp"
@@ -34,9 +35,9 @@ int number_of(std::string_view word, const AllowedActions& actions) {
 
 float strength_of(std::string_view text) {
   const auto strength = parse_number<float>(text);
-  if (strength && *strength >= 0 && *strength <= 1) return *strength;
+  if (strength && std::isfinite(*strength)) return *strength;
   throw RequestError(ErrorCode::kBadValue,
-                     "the strength of a paddle is " + quote(text) + "; it takes 0 to 1");
+                     "the strength of a paddle is " + quote(text) + "; it takes a finite number");
 }
 
 }  // namespace

@@ -38,6 +38,8 @@ TEST_CASE("Player B, strengths and repetition") {
   CHECK(action.times == 30);
   CHECK(parse_action("RIGHT/LEFT", kAll).act.strength_b == 1);
   CHECK(parse_action("RIGHT", kAll).act.strength_b == 0);
+  CHECK(parse_action("RIGHT@1.5", kAll).act.strength_a == 1.5F);  // continuous actions may have such a radius
+  CHECK(parse_action("LEFT@-0.5", kAll).act.strength_a == -0.5F);
 }
 
 TEST_CASE("An unknown action is refused with the list of actions") {
@@ -46,7 +48,7 @@ TEST_CASE("An unknown action is refused with the list of actions") {
     INFO(word);
     CHECK_THAT(refusal(word), Contains("bad-action: ") && Contains("pong takes 0=NOOP 1=FIRE"));
   }
-  for (const std::string word : {"1@", "1@2", "1@-1", "1@nan", "1*", "1*0", "1*x", "1*1000000001"}) {
+  for (const std::string word : {"1@", "1@x", "1@inf", "1@1e39", "1@nan", "1*", "1*0", "1*x", "1*1000000001"}) {
     INFO(word);
     CHECK_THAT(refusal(word), Contains("bad-value: "));
   }

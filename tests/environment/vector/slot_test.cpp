@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "games/rom_image.hpp"
 #include "tests/environment/steered.hpp"
 
 namespace racebeam {
@@ -169,6 +170,57 @@ TEST_CASE("A stack begins with zeros or with the first screen, and may live on w
     slot.reset();
     CHECK(oldest(slot) == (start == StackStart::kZeros ? zeros : last));
     CHECK(last != zeros);
+  }
+}
+
+// The game whose pictures move.
+Cartridge beamfall() { return {load_image("builtin:beamfall"), find_game("beamfall")}; }
+
+constexpr Act kRight{.a = 3};
+
+// What an agent sees after so many frames of the right button: the last one, or the brighter of the last two.
+std::vector<std::uint8_t> seen_after(SlotSettings settings, int frames, bool pooled) {
+  settings.machine.frame_skip = 1;
+  settings.machine.max_episode_frames = 0;
+  Slot slot(beamfall(), settings);
+  for (int frame = 0; frame < frames; ++frame) slot.act(kRight);
+  ScreenStack stack({.depth = 1}, slot.environment());
+  stack.look(slot.environment(), pooled);
+  stack.push();
+  return stack.bytes();
+}
+
+TEST_CASE("The last screen of an episode is the last frame, or of the step before where a step is short") {
+  for (const ResetOrder order : {ResetOrder::kNoopsFire, ResetOrder::kBaselines}) {
+    SlotSettings settings = no_noops();
+    settings.machine.frame_skip = 4;
+    settings.reset_order = order;
+    settings.fire_at_reset = false;
+    const auto last_of = [&settings](int frames) {
+      settings.machine.max_episode_frames = frames;
+      Slot slot(beamfall(), settings);
+      slot.set_stack(StackSettings{.depth = 1});
+      while (!slot.finished()) slot.act(kRight);
+      return slot.stack()->bytes();
+    };
+    INFO(static_cast<int>(order));
+    REQUIRE(seen_after(settings, 44, true) != seen_after(settings, 44, false));
+    REQUIRE(seen_after(settings, 40, true) != seen_after(settings, 44, true));
+    CHECK(last_of(44) == seen_after(settings, 44, true));
+    CHECK(last_of(43) == seen_after(settings, 43, false));
+    CHECK(last_of(42) == seen_after(settings, 40, true));
+    CHECK(last_of(41) == seen_after(settings, 40, true));
+  }
+}
+
+TEST_CASE("The first screen of an episode is pooled where whole steps of FIRE begin it") {
+  SlotSettings settings = no_noops();
+  settings.machine.frame_skip = 4;
+  settings.reset_order = ResetOrder::kBaselines;
+  for (const bool fire : {true, false}) {
+    settings.fire_at_reset = fire;
+    Slot slot(beamfall(), settings);
+    CHECK(slot.blends() == fire);
   }
 }
 
