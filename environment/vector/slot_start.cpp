@@ -134,8 +134,8 @@ void Slot::run_noops_and_fire(bool fire) {
 
 void Slot::press_fire() { environment_.act_for(1, kFire); }
 
-// A step of each of the first two actions after NOOP, provided that the first of them is FIRE. Returns whether
-// it is.
+// A step of each of the first two actions after NOOP, provided that the first of them is FIRE. Returns
+// whether it is.
 bool Slot::press_as_baselines() {
   if (actions_.size() < 3 || actions_[1] != kFire) return false;
   for (const int action : {actions_[1], actions_[2]}) {

@@ -48,7 +48,8 @@ TEST_CASE("An unknown action is refused with the list of actions") {
     INFO(word);
     CHECK_THAT(refusal(word), Contains("bad-action: ") && Contains("pong takes 0=NOOP 1=FIRE"));
   }
-  for (const std::string word : {"1@", "1@x", "1@inf", "1@1e39", "1@nan", "1*", "1*0", "1*x", "1*1000000001"}) {
+  for (const std::string word :
+       {"1@", "1@x", "1@inf", "1@1e39", "1@nan", "1*", "1*0", "1*x", "1*1000000001"}) {
     INFO(word);
     CHECK_THAT(refusal(word), Contains("bad-value: "));
   }
