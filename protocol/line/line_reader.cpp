@@ -63,7 +63,7 @@ std::optional<LineReader::Line> LineReader::next() {
   if (!ended_ || rest.empty()) return std::nullopt;
   begin_ = end_;
   searched_ = 0;
-  return Line{Kind::kHalf, {}};
+  return Line{Kind::kHalf, rest};
 }
 
 std::size_t LineReader::lines(std::size_t most) const {

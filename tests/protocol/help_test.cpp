@@ -190,4 +190,6 @@ TEST_CASE("Lines that begin with # are comments, and have no reply") {
   for (int line = 0; line < 2000; ++line) comments += "# and on\n";
   CHECK(client.say(comments).empty());
   CHECK(client.say(comments + "act NOOP\n" + comments + "act NOOP\n") == "ok frame=2\nok frame=3\n");
+  CHECK(client.say("# the end").empty());
+  CHECK(client.close().empty());
 }
