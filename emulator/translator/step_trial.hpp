@@ -8,7 +8,7 @@
 namespace racebeam::translator {
 
 // Steps run in one way, translated or interpreted. A trial has three steps: the usual way, the other way, and
-// the usual way. Four trials make a round. The usual way changes when the other has won two rounds in turn.
+// the usual way. Four trials make a round. The usual way changes when the other has won three rounds in turn.
 class StepTrial {
  public:
   // Called before each step. Returns whether the interpreter should run it.
@@ -35,22 +35,23 @@ class StepTrial {
   void end_round() {
     const bool other_wins = other_ + other_ / kMargin < usual_;
     lost_ = other_wins ? lost_ + 1 : 0;
-    pause_ = other_wins ? 0 : std::clamp(2 * pause_, kShortestPause, kLongestPause);
+    pause_ = other_wins ? kShortestPause : std::min(2 * pause_, interprets_ ? kLongestTried : kLongestPause);
     if (lost_ == kMostLost) interprets_ = !interprets_, lost_ = 0;
     trials_ = kTrials;
     usual_ = other_ = 0;
   }
 
-  static constexpr int kSteps = 3, kOther = 1, kTrials = 4, kMostLost = 2;
+  static constexpr int kSteps = 3, kOther = 1, kTrials = 4, kMostLost = 3;
   static constexpr std::int64_t kMargin = 4;  // the winner is faster by this part
   // Multiples of four, so that a round tries each of four successive steps. Games do different work in even
   // and odd frames, and frame skip shows one frame of several.
   static constexpr int kShortestPause = 4, kLongestPause = 1024;
-  static constexpr int kFirstPause = 128;  // translation of a game's inner loops needs some of these steps
+  static constexpr int kLongestTried = 64;  // while steps are interpreted: code that pays is soon found again
+  static constexpr int kFirstPause = 128;   // translation of a game's inner loops needs some of these steps
 
   bool interprets_ = false;
   int left_ = kFirstPause + kSteps;     // steps until this trial has ended
-  int pause_ = 0;                       // steps between trials
+  int pause_ = kShortestPause;          // steps between trials
   int trials_ = kTrials;                // of this round, not ended
   int lost_ = 0;                        // rounds in turn
   std::int64_t usual_ = 0, other_ = 0;  // costs in this round
