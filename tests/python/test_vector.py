@@ -372,15 +372,12 @@ class Halves(unittest.TestCase):
 
     def test_a_reset_drops_what_was_not_received(self):
         for settings in ({"batch_size": 2}, {}, {"autoreset_mode": "SameStep", **SHORT}):
-            envs, others = (AtariVectorEnv("beamfall", 4, **settings) for _ in range(2))
+            envs, others = AtariVectorEnv("beamfall", 4, **settings), AtariVectorEnv("beamfall", 4, **{**settings, "batch_size": 0})
             for seed in (1, 2):
-                (seen, info), (_, expected) = envs.reset(seed=seed), others.reset(seed=seed)
+                (seen, info), (expected, _) = envs.reset(seed=seed), others.reset(seed=seed)
                 with self.subTest(seed=seed, **settings):
-                    if not settings:
-                        self.assertTrue(np.array_equal(info["frame_number"], expected["frame_number"]))
-                    self.assertLess(info["frame_number"].max(), 40)
+                    self.assertTrue(np.array_equal(seen, expected[info["env_id"]]))
                 envs.send([0] * envs.batch_size)
-                others = AtariVectorEnv("beamfall", 4, **settings)
 
     def test_a_reset_of_some_drops_too(self):
         envs = AtariVectorEnv("beamfall", 2, seed=1)
