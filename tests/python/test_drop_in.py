@@ -311,6 +311,30 @@ class Vectors(unittest.TestCase):
             envs.reset(seed=1)
             envs.ale.reset([1], [5])
         self.check(*(envs.step(np.array([1, 2])) for envs in both))
+        self.check(*(envs.map_action_idx for envs in both))
+
+    def test_seeds_are_those_of_the_environments_that_are_reset(self):
+        both = [module.AtariVectorEnv("pong", 3) for module in (drop_in, ale_py)]
+        for envs in both:
+            envs.reset(seed=1)
+        for mask in ([False, False, True], [True, False, True], [True, True, True]):
+            chosen = np.array(mask)
+            for seed in (50, np.arange(60, 60 + sum(mask))):
+                self.check(*(envs.reset(seed=seed, options={"reset_mask": chosen}) for envs in both))
+                self.check(*(envs.step(np.array([1, 2, 3])) for envs in both))
+            for envs in both:
+                self.assertRaises(ValueError, envs.reset, seed=np.arange(4), options={"reset_mask": chosen})
+        for envs in both:
+            self.assertRaises(ValueError, envs.reset, seed=np.arange(3), options={"reset_mask": np.array([True, False, False])})
+
+    def test_a_reset_drops_what_was_not_received(self):
+        for batch_size in (2, 4):
+            for module in (drop_in, ale_py):
+                envs = module.AtariVectorEnv("pong", 4, batch_size=batch_size)
+                for seed in (1, 2):
+                    _, info = envs.reset(seed=seed)
+                    self.assertEqual(info["env_id"].shape, (batch_size,))
+                    envs.send(np.zeros(batch_size, np.int64))
 
 
 @unittest.skipIf(PONG is None, "there is no image of pong")
@@ -529,6 +553,31 @@ class Differences(unittest.TestCase):
                 ale_py.AtariEnv("pong", **arguments)
         drop_in.AtariEnv("pong", frameskip=np.int64(4))
         self.assertRaises(gymnasium.error.Error, ale_py.AtariEnv, "pong", frameskip=np.int64(4))
+
+    def test_18_limits_of_many_environments(self):
+        for arguments in ({"img_width": 161}, {"img_height": 211}, {"img_height": 8}, {"img_width": 224, "img_height": 224}, {"stack_num": 17},
+                          {"noop_max": 1001}, {"frameskip": 1001}):
+            with self.subTest(**arguments):
+                with self.assertRaises((gymnasium.error.Error, racebeam.InvalidInput)):
+                    drop_in.AtariVectorEnv("pong", 1, **arguments)
+                ale_py.AtariVectorEnv("pong", 1, **arguments)
+
+    def test_19_no_frames(self):
+        ours, theirs = (module.AtariVectorEnv("pong", 2, max_num_frames_per_episode=0) for module in (drop_in, ale_py))
+        for envs, ends in ((ours, False), (theirs, True)):
+            envs.reset(seed=1)
+            for _ in range(5):
+                self.assertEqual(envs.step(np.zeros(2, np.int64))[3].tolist(), [ends] * 2)
+
+    def test_20_means_of_a_half(self):
+        ours, theirs = (module.AtariVectorEnv("pong", 2, img_height=105, img_width=80) for module in (drop_in, ale_py))
+        far = 0
+        for envs in (ours, theirs):
+            envs.reset(seed=1)
+        for step in range(20):
+            one, other = (envs.step(np.full(2, step % 3))[0].astype(int) for envs in (ours, theirs))
+            far = max(far, np.abs(one - other).max())
+        self.assertLessEqual(far, 1)
 
 
 if __name__ == "__main__":

@@ -103,6 +103,41 @@ class Gymnasium(unittest.TestCase):
             self.assertEqual((seen.shape[0], info["env_id"].tolist(), info["elapsed_step"].tolist()), (1, [2], [0]))
         self.assertEqual(envs.step(np.zeros(3, int))[4]["elapsed_step"].tolist(), [2, 2, 1])
 
+    def test_a_reset_drops_what_was_not_received(self):
+        ends = {"reset": lambda envs: envs.reset(), "mask": lambda envs: envs.reset(options={"reset_mask": [True] * 4}),
+                "async_reset": lambda envs: (envs.async_reset(), envs.recv())[1]}
+        for config in ({}, {"batch_size": 2}):
+            for name, end in ends.items():
+                with self.subTest(name=name, **config):
+                    envs = make(num_envs=4, **config)
+                    for _ in range(3):
+                        *_, info = end(envs)
+                        self.assertEqual(info["elapsed_step"].tolist(), [0] * envs.batch_size)
+                        envs.send(np.zeros(envs.batch_size, np.int32))
+                    self.assertIn(max(envs.recv()[-1]["elapsed_step"].tolist()), (0, 1) if config else (1,))
+
+    def test_the_arrays_are_the_callers_own(self):
+        envs, others = make(num_envs=4, batch_size=2, num_threads=1), make(num_envs=4, batch_size=2, num_threads=1)
+        for one in (envs, others):
+            _, info = one.reset()
+            self.assertFalse(np.shares_memory(info["env_id"], info["players"]["env_id"]))
+            if one is envs:
+                info["env_id"][:] = 3
+            one.send(np.zeros(2, np.int32))
+            self.assertEqual(sorted([*one.recv()[4]["env_id"], *one.recv()[4]["env_id"]]), [0, 1, 2, 3])
+
+    def test_options_of_a_reset(self):
+        envs = make()
+        envs.reset()
+        for mask in ([True, False, True], np.array([1, 0, 2]), np.array([True, False, True])):
+            self.assertEqual(envs.reset(options={"reset_mask": mask})[1]["env_id"].tolist(), [0, 2])
+        self.assertEqual(envs.reset(options={"reset_mask": None})[1]["env_id"].tolist(), [0, 1, 2])
+        for options, env_id, sentence in (({"reset_mask": np.zeros(3, bool)}, None, "one environment or more"), ({"reset_mask": [True]}, None, "takes 3 values"),
+                                          ({"reset_mask": "abc"}, None, "takes 3 values"), ({"foo": 1}, None, "options has 'foo'; it takes reset_mask"),
+                                          ({"reset_mask": [True] * 3}, np.array([1]), "env_id and reset_mask are given")):
+            with self.subTest(options=options), self.assertRaisesRegex(ValueError, sentence):
+                envs.reset(env_id, options=options)
+
     def test_some_at_a_time(self):
         envs = make(num_envs=4, batch_size=2)
         self.assertTrue(envs.is_async)
@@ -209,8 +244,32 @@ class Others(unittest.TestCase):
         envs.step({"env_id": ids, "players.env_id": ids, "action": np.ones(3, np.int32)})
         with self.assertRaisesRegex(RuntimeError, "action of the action has the type int64; it must be int32"):
             envs.step({"env_id": ids, "players.env_id": ids, "action": np.ones(3, np.int64)})
-        with self.assertRaises(TypeError):
-            envs.step(np.full(3, 0.5))
+        envs.step({"action": np.ones(3, np.int32), "players": {"env_id": ids}, "env_id": ids, "more": np.ones(3)})
+        for actions in (np.full(3, np.nan), [1e30] * 3, np.full(3, -1.5)):
+            self.assertRaisesRegex(IndexError, "is out of range; there are 0 to 17", envs.step, actions)
+
+    def test_a_fraction_of_an_action_is_cut_off(self):
+        for cut, whole in ((np.full(3, 1.9), 1), ([True] * 3, 1), (np.full(3, -0.5), 0), (np.full(3, 3.0, np.float32), 3)):
+            shown = [[envs.step(action)[4]["ram"] for _ in range(9)] for envs, action in ((make(), cut), (make(), np.full(3, whole)))]
+            self.assertTrue(np.array_equal(*shown))
+
+    def test_they_are_closed_at_the_end_of_a_block(self):
+        for env_type in ("gymnasium", "gym", "dm"):
+            with make(env_type) as envs:
+                envs.reset()
+            self.assertRaises(gymnasium.error.ClosedEnvironmentError, envs.reset)
+
+    def test_what_wrappers_ask(self):
+        for env_type in ("gymnasium", "gym"):
+            envs = make(env_type, render_mode="rgb_array")
+            self.assertIs(envs.unwrapped, envs)
+            self.assertEqual((envs.is_vector_env, envs.render_mode, envs.metadata["render_modes"]), (True, "rgb_array", ["rgb_array"]))
+        self.assertEqual(envs.reward_range, (-float("inf"), float("inf")))
+
+    def test_the_spec_says_what_a_reset_returns(self):
+        self.assertIs(envpool.make_spec("Beamfall-v5").config.gym_reset_return_info, True)
+        for env_type, config, returns in (("gymnasium", {}, True), ("dm", {}, True), ("gym", {}, False), ("gym", {"gym_reset_return_info": True}, True)):
+            self.assertIs(make(env_type, **config).spec.config.gym_reset_return_info, returns)
 
     def test_an_environment_is_one_of_gymnasium(self):
         for kind in (gymnasium.Env, gymnasium.vector.VectorEnv):
@@ -381,6 +440,12 @@ class Rendering(unittest.TestCase):
         for arguments in ({"render_mode": "human"}, {"from_pixels": True}, {"render_width": 100}, {"render_height": 3}, {"render_camera_id": 4}):
             with self.subTest(**arguments), self.assertRaisesRegex(racebeam.InvalidInput, "racebeam has"):
                 make("gymnasium", **arguments)
+
+    def test_the_mode_is_told_and_wrappers_use_it(self):
+        self.assertIsNone(make().render_mode)
+        envs = gymnasium.wrappers.AddRenderObservation(make(render_mode="rgb_array"))
+        self.assertEqual((envs.reset()[0].shape, envs.observation_space.shape), ((1, 210, 160, 3),) * 2)
+        self.assertEqual(envs.unwrapped.render(env_ids=2, camera_id=-1).shape, (1, 210, 160, 3))
 
     @unittest.skipUnless("air_raid" in package.roms(), "there is no image of air_raid")
     def test_the_upper_210_rows_of_higher_screens_are_seen(self):

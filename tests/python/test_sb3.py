@@ -81,6 +81,25 @@ class Interface(unittest.TestCase):
             ended += parts[0] is not None
         self.assertGreater(ended, 0)
 
+    def test_each_game_that_ends_is_told(self):
+        for settings in ({"max_num_frames_per_episode": 8}, {"max_num_frames_per_episode": 40, "lives": "restart", "frameskip": 60}):
+            envs = VecEnv("beamfall", 2, seed=1, **settings)
+            envs.reset()
+            ended = 0
+            for _ in range(60):
+                _, _, done, infos = envs.step(np.ones(2, int))
+                ended += done.sum()
+                with self.subTest(**settings):
+                    self.assertEqual(["episode" in info for info in infos], done.tolist())
+            self.assertGreater(ended, 20)
+
+    def test_settings_that_are_not_those_of_a_VecEnv_are_refused(self):
+        for settings, sentence in (({"autoreset_mode": "NextStep"}, "autoreset_mode is 'NextStep'; VecEnv takes SameStep"),
+                                   ({"lives": "told"}, "VecEnv takes ignored, end, restart"), ({"batch_size": 1}, "batch_size is 1; VecEnv takes 0")):
+            with self.subTest(**settings), self.assertRaisesRegex(ValueError, sentence):
+                VecEnv("beamfall", 2, **settings)
+        VecEnv("beamfall", 2, autoreset_mode="SAME_STEP")
+
     def test_seeds(self):
         self.envs.seed(5)
         first = self.envs.reset()
@@ -94,6 +113,7 @@ class Interface(unittest.TestCase):
         self.assertEqual(self.envs.get_attr("num_envs", 0), [2])
         self.assertEqual(len(self.envs.env_method("save")), 2)
         self.assertEqual(self.envs.get_images()[1].shape, (210, 160, 3))
+        self.assertEqual((self.envs.render_mode, "rgb_array" in self.envs.metadata["render_modes"]), ("rgb_array", True))
         self.envs.close()
 
     def test_it_learns(self):

@@ -72,6 +72,13 @@ class Observations(unittest.TestCase):
         play(envs, 20)
         self.assertTrue(all(map(np.array_equal, shown, before)))
 
+    def test_infos_are_the_callers_own_too(self):
+        envs = AtariVectorEnv("beamfall", 4, batch_size=2, seed=1)
+        _, info = envs.reset()
+        info["env_id"][:] = 3
+        envs.step([0, 0])
+        self.assertEqual(sorted([*envs._received, *envs.recv()[4]["env_id"]]), [0, 1, 2, 3])
+
     def test_they_go_where_the_caller_wants_them(self):
         envs, others = (AtariVectorEnv("beamfall", 2) for _ in range(2))
         out = np.zeros(envs.observation_space.shape, np.uint8)
@@ -354,7 +361,7 @@ class Halves(unittest.TestCase):
     def test_what_plays_is_not_touched(self):
         envs = AtariVectorEnv("beamfall", 4, batch_size=2)
         envs.reset(seed=1)
-        for call in (lambda: envs.reset(seed=2), envs.show, lambda: [envs.save(env) for env in range(4)]):
+        for call in (envs.show, lambda: [envs.save(env) for env in range(4)]):
             with self.assertRaisesRegex(InvalidInput, "play"):
                 call()
         envs.recv()
@@ -362,6 +369,22 @@ class Halves(unittest.TestCase):
             envs.recv()
         with self.assertRaisesRegex(InvalidInput, "reset_mask"):
             envs.reset(options={"reset_mask": np.ones(4, bool)})
+
+    def test_a_reset_drops_what_was_not_received(self):
+        for settings in ({"batch_size": 2}, {}, {"autoreset_mode": "SameStep", **SHORT}):
+            envs, others = AtariVectorEnv("beamfall", 4, **settings), AtariVectorEnv("beamfall", 4, **{**settings, "batch_size": 0})
+            for seed in (1, 2):
+                (seen, info), (expected, _) = envs.reset(seed=seed), others.reset(seed=seed)
+                with self.subTest(seed=seed, **settings):
+                    self.assertTrue(np.array_equal(seen, expected[info["env_id"]]))
+                envs.send([0] * envs.batch_size)
+
+    def test_a_reset_of_some_drops_too(self):
+        envs = AtariVectorEnv("beamfall", 2, seed=1)
+        before = envs.reset()[1]["frame_number"]
+        envs.send([0, 0])
+        after = envs.reset(options={"reset_mask": np.array([True, False])})[1]["frame_number"]
+        self.assertEqual(after[1], before[1] + 4)  # it has made its step
 
 
 class Gymnasium(unittest.TestCase):
@@ -403,6 +426,18 @@ class BadInput(unittest.TestCase):
                 AtariVectorEnv("beamfall", 2, **arguments)
         with self.assertRaises(racebeam.UnknownGame):
             AtariVectorEnv("beamfal", 2)
+
+    def test_arguments_that_are_wrong_together(self):
+        two = ["beamfall", "updraft"]
+        for game, arguments, error, sentence in (
+                (["beamfall"], {"num_envs": 3}, ValueError, "game has 1 names, but num_envs is 3"),
+                ("beamfall", {"lives": "end", "episodic_life": True}, ValueError, "episodic_life is True"),
+                (two, {"rom": b"", "full_action_space": True}, ValueError, "rom and server take one"),
+                (["beamfall", ["x"]], {}, TypeError, r"game has \['x'\] in its list; it takes names of games"),
+                (b"beamfall", {}, TypeError, "game has 98 in its list"), (3, {}, TypeError, "game is 3")):
+            with self.subTest(sentence=sentence), self.assertRaisesRegex(error, sentence) as raised:
+                AtariVectorEnv(game, **arguments)
+            self.assertIsInstance(raised.exception, Error)
 
     def test_more_environments_than_the_memory_has(self):
         for count in (10**6, 10**7):
@@ -572,6 +607,9 @@ class Interrupts(unittest.TestCase):
         envs.send([1] * 500)
         self.interrupt(envs.recv)
         self.assertTrue(same([envs.recv()], [others.step([1] * 500)]))
+        envs.send([1] * 500)
+        self.interrupt(envs.recv)
+        self.assertTrue(same([envs.reset(seed=1)], [others.reset(seed=1)]))
 
     def test_a_handler_that_uses_them(self):
         envs = AtariVectorEnv("beamfall", **self.LONG)

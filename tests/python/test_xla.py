@@ -89,6 +89,17 @@ class Compiled(unittest.TestCase):
         jax.block_until_ready(jax.jit(lambda handle: step(handle, np.zeros(COUNT, np.int32))[0])(handle))
         self.assertGreater(compiled.show()[1]["episode_frame_number"].min(), 3)
 
+    def test_unsigned_seeds_of_jax_are_seeds(self):
+        compiled, plain = both()
+        handle, reset, _ = compiled.xla()
+        seeds = np.array([3 * 10**9, 2**32 - 1, 7], np.uint32)
+        for call in (reset, jax.jit(reset)):
+            for _ in range(2):
+                handle, shown = call(handle, jnp.asarray(seeds))
+                self.check(shown, plain.reset(seed=(seeds & 0x7fffffff).astype(np.int64)))
+                handle, shown = call(handle, jnp.uint32(2**32 - 1))  # counts on at 0
+                self.check(shown, plain.reset(seed=[2**31 - 1, 0, 1]))
+
     def test_continuous_actions(self):
         compiled, plain = both(continuous=True, continuous_action_threshold=0.3)
         handle, _, step = compiled.xla()
@@ -165,6 +176,19 @@ class Refused(unittest.TestCase):
                 jax.block_until_ready(result)
             except jax.errors.JaxRuntimeError as error:
                 self.assertIn("were closed", str(error))
+
+    def test_seeds_that_are_too_large(self):
+        handle, reset, _ = both()[0].xla()
+        for seed in (2**31 - COUNT + 1, 2**32 + 5, np.int64(2**32 + 5), np.uint32(3 * 10**9), np.array([1, 2**31, 3]), np.array([1, 2, 2**64 - 1], np.uint64)):
+            with self.subTest(seed=seed), self.assertRaisesRegex(InvalidInput, "the seed is .*; it takes up to 21474836"):
+                reset(handle, seed)
+
+    def test_an_action_is_not_narrowed(self):
+        envs = both()[0]
+        handle, _, step = envs.xla()
+        for actions in (np.array([0, 2**32 + 1, 0]), jnp.array([0, 3 * 10**9, 0], jnp.uint32)):
+            with self.assertRaisesRegex(jax.errors.JaxRuntimeError, "action 2147483647 is out of range"):
+                jax.block_until_ready(step(handle, actions))
 
     def test_without_jax_it_says_what_is_missing(self):
         script = ("import sys; sys.modules['jax'] = None\nimport racebeam\n"

@@ -14,29 +14,48 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from gymnasium.vector import AutoresetMode
 from stable_baselines3.common import monitor, vec_env  # type: ignore[import-not-found,unused-ignore]
 
+from .arguments import WrongValue
 from .vector_env import AtariVectorEnv
+from .vector_settings import autoreset_of
 
 __all__ = ["VecEnv"]
 
 USUAL: dict[str, Any] = {"autoreset_mode": "SameStep", "start": "baselines", "lives": "end"}
 
 
+def _check(settings: dict[str, Any]) -> None:
+    """Raises WrongValue or WrongType for what AtariVectorEnv takes and VecEnv does not."""
+    mode = settings.get("autoreset_mode", AutoresetMode.SAME_STEP)
+    if autoreset_of(mode) is not AutoresetMode.SAME_STEP:
+        raise WrongValue(f"autoreset_mode is {mode!r}; VecEnv takes SameStep")
+    if settings.get("lives") == "told":
+        raise WrongValue("lives is 'told', with which an episode goes on after a step that is done; VecEnv takes ignored, "
+                         "end, restart")
+    if settings.get("batch_size"):
+        raise WrongValue(f"batch_size is {settings['batch_size']!r}; VecEnv takes 0, for all environments")
+
+
 class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
     """AtariVectorEnv as a VecEnv, with the preprocessing of AtariWrapper and VecFrameStack.
 
-    settings: those of AtariVectorEnv. Observations are stack x height x width. A lost life ends an episode, and the
+    settings: those of AtariVectorEnv, but for batch_size; autoreset_mode is SAME_STEP, and lives="told" is not taken,
+    since an episode ends where a step is done. Observations are stack x height x width. A lost life ends an episode, and the
     game goes on. infos have "lives", and where an episode ends "terminal_observation" and "TimeLimit.truncated". Where the
     game ends they have "episode": the sum of the rewards as the game gives them, its frames, and the seconds. That is also
     where it ends in the frames before the next life is played.
 
-    For the same seeds, rewards, ends and lives are those of make_atari_env() over AtariEnv. A pixel is the brighter of two
-    frames in grey, and there in each colour, so that some differ.
+    For the same seeds, rewards, ends and lives are those of make_atari_env() over AtariEnv, where noop_max is 0 and no
+    action is sticky: the numbers are drawn otherwise here. A pixel is the brighter of two frames in grey, and there in
+    each colour, so that some differ.
     """
 
     def __init__(self, game: str | Sequence[str], num_envs: int | None = None, *, seed: int | None = None, **settings: Any) -> None:
+        _check(settings)
         self._envs = AtariVectorEnv(game, num_envs, seed=seed, **{**USUAL, **settings})
+        self._restarts = settings.get("lives") == "restart"  # each episode is a game
         self._began = time.time()
         self._actions: Any = None
         count = self._envs.num_envs
@@ -70,7 +89,10 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
         final = info["final_info"]
         told = {"lives": int(final["lives"][env]), "terminal_observation": info["final_obs"][env], "TimeLimit.truncated": is_truncated}
         frames = int(final["episode_frame_number"][env])
-        if info["episode_frame_number"][env] < frames:  # it is another game
+        # The game may end in the frames before the next life is played, too, and with a lost life at the limit of frames.
+        is_next_game = (self._restarts or is_truncated or info["game_over"][env] or info["lives"][env] > told["lives"]
+                        or info["episode_frame_number"][env] < frames)
+        if is_next_game:
             told["episode"] = {"r": float(self._returns[env]), "l": frames, "t": round(time.time() - self._began, 6)}
             self._returns[env] = 0
         return told

@@ -14,11 +14,11 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from . import _core, images, xla
-from .arguments import WrongType, either, flag, real, seconds, whole
+from .arguments import WrongType, WrongValue, either, flag, real, seconds, whole
 from .errors import InvalidInput
 from .vector_results import Bools, Numbers, Pixels, Results
 from .vector_settings import SEEDS, autoreset_of, settings_of
-from .wire.remote_machines import RemoteMachines
+from .wire.remote_machines import Halves, RemoteMachines
 from .wire.spread_machines import SpreadMachines
 
 __all__ = ["AtariVectorEnv"]
@@ -62,11 +62,13 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     max_num_frames_per_episode, repeat_action_probability, full_action_space, continuous, continuous_action_threshold,
         mode, difficulty: as AtariEnv has them.
     autoreset_mode: NEXT_STEP, SAME_STEP or DISABLED, as Gymnasium defines them, or their names.
-    img_height, img_width, grayscale, stack_num: an observation is so many screens of this size, oldest first.
+    img_height, img_width, grayscale, stack_num: an observation is so many screens of this size, oldest first. They have 9
+        rows to those of the game's screen, and 1 to 160 columns; 0: as many as that has. There are 1 to 16 screens.
     obs_type: "rgb" or "grayscale" makes them screens of full size instead, and "ram" one array of 128 bytes.
     frameskip: frames of a step, 1 to 1000; a step stops where the episode ends. maxpool: a screen is the brighter of the
         last two of them, pixel by pixel.
     noop_max, use_fire_reset: an episode begins with FIRE, if the game has it, and with up to noop_max - 1 no-ops, drawn.
+        noop_max is 0 to 1000.
     start: their order: "fire-noops", "noops-fire" as EnvPool has it, or "baselines" as Stable-Baselines3.
     lives: what a lost life does. "ignored"; "told": the step is terminated, the episode goes on (life_loss_info of ale_py);
         "end": the episode ends, and the next one goes on with the game, as in DQN; "restart": the next one is a new game
@@ -78,8 +80,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     seed: of the first environment, until a reset has another one; the next has one more; None: at random.
     render_mode: "rgb_array" lets render() return the pictures.
     server: the environments run there; token, timeout: as racebeam.connect() has them. They are of one game,
-        and batch_size is num_envs. A list spreads the environments over servers. If one is lost, its episodes are
-        truncated, and its environments begin new ones on the others; info["lost"] says where.
+        and batch_size is num_envs; without use_fire_reset, start is "fire-noops". A list spreads the environments over
+        servers. If one is lost, its episodes are truncated, and its environments begin new ones on the others; info["lost"]
+        says where.
 
     Rewards are int32. info has env_id, lives, frame_number, episode_frame_number, raw_reward, the reward before it was
     clipped, and game_over, whatever lives and limits say: an array each. With SAME_STEP, where episodes end, also final_obs,
@@ -162,8 +165,11 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         if not isinstance(game, Sequence):
             raise WrongType(f"game is {game!r}; it takes a name, or a list of names")
         if num_envs is not None and num_envs != len(game):
-            raise error.Error(f"game has {len(game)} names, but num_envs is {num_envs!r}")
+            raise WrongValue(f"game has {len(game)} names, but num_envs is {num_envs!r}")
         whole("num_envs", len(game), 1, MOST_ENVS)
+        for name in game:
+            if not isinstance(name, str):
+                raise WrongType(f"game has {name!r} in its list; it takes names of games")
         names = list(dict.fromkeys(game))
         for name in names:
             self._check_game(name)
@@ -197,21 +203,40 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
         options["reset_mask"]: an array of bools that chooses environments; the others are shown as they are.
         out: the array that becomes the observations; None: a new one.
+        Steps that were sent and not received are played to their end, and what they show is dropped.
         KeyboardInterrupt ends a long call, as it ends step().
         """
         self._check_open()
         if not isinstance(options, (dict, type(None))):
             raise TypeError(f"options are {options!r}; they must be a dict")
-        seeds, mask = self._seeds(seed), self._mask((options or {}).get("reset_mask"))
+        mask = self._mask((options or {}).get("reset_mask"))
+        seeds = self._seeds(seed, mask)
         results = self._room(out)
+        if mask is not None and self.batch_size < self.num_envs:
+            raise InvalidInput("reset_mask is given with batch_size < num_envs; it needs batch_size to be num_envs")
+        self._drop_pending()
         if self.batch_size == self.num_envs:
             self._machines.reset(mask, seeds, results)
-        elif mask is not None:
-            raise InvalidInput("reset_mask is given with batch_size < num_envs; it needs batch_size to be num_envs")
         else:
             self._machines.send_resets(seeds)
             self._machines.receive(results)
         return self._begun(results)
+
+    def _drop_pending(self) -> None:
+        """Receives what was sent and not received, and forgets it."""
+        pending = self._pending()
+        if pending == 0:
+            return
+        self._machines.receive(self._room(None, pending))
+        if isinstance(self._machines, SpreadMachines):
+            self._machines._lost_before |= self._machines.lost  # the next call tells it
+
+    def _pending(self) -> int:
+        """How many environments were sent and not received."""
+        machines = self._machines
+        if isinstance(machines, Halves):
+            return 0 if machines._awaited is None else self.num_envs
+        return int(machines.playing())
 
     def step(self, actions: npt.ArrayLike, *, out: Pixels | None = None) -> Step:
         """An action for each environment; with batch_size, for each of those that the last call returned.
@@ -265,19 +290,22 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
     # Seeds and actions
 
-    def _seeds(self, seed: Any) -> npt.NDArray[np.int64] | None:
-        if seed is None:
-            return None
+    def _seeds(self, seed: Any, mask: Bools | None) -> npt.NDArray[np.int64] | None:
+        """One for each environment, also for those that are not in the mask."""
+        return None if seed is None else self._seeds_of(seed, self.num_envs)
+
+    @staticmethod
+    def _seeds_of(seed: Any, count: int) -> npt.NDArray[np.int64]:
         is_array = isinstance(seed, np.ndarray) and seed.ndim > 0
         if not is_array and not isinstance(seed, Sequence):
-            return _seed(seed) + np.arange(self.num_envs, dtype=np.int64)
+            return _seed(seed) + np.arange(count, dtype=np.int64)
         if is_array and (seed.dtype.kind not in "iuO"):
             raise TypeError(f"the seeds have the type {seed.dtype}; they must be integers")
         if is_array and seed.ndim > 1:
-            raise InvalidInput(f"the seeds have the shape {seed.shape}; they must have {(self.num_envs,)}")
+            raise InvalidInput(f"the seeds have the shape {seed.shape}; they must have {(count,)}")
         seeds = [-1 if one is None else _seed(one, -1) for one in seed]
-        if len(seeds) != self.num_envs:
-            raise InvalidInput(f"there are {len(seeds)} seeds for {self.num_envs} environments; give one entry per sub-environment, or one seed")
+        if len(seeds) != count:
+            raise InvalidInput(f"there are {len(seeds)} seeds for {count} environments; give one entry per sub-environment, or one seed")
         return np.array(seeds, np.int64)
 
     def _mask(self, mask: Any) -> Bools | None:
@@ -336,7 +364,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         return observations, info
 
     def _shown(self, results: Results) -> Step:
-        self._received = results.env_id
+        self._received = results.env_id.copy()
         observations, info = self._seen(results), self._info(results)
         if self._has_finals and results.finished.any():
             self._add_finals(info, observations, results)
@@ -378,7 +406,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         """For programs that JAX compiles: a handle, reset(handle, seed=None, reset_mask=None) and step(handle, actions).
 
         Both return the handle for the next call, and a tuple of what they show, as reset() and step() of this class do, in arrays
-        of JAX on the processor. Seeds are int32. Not with SAME_STEP, batch_size or a server. Errors of a compiled program are
+        of JAX on the processor. Seeds end at 2,147,483,647. An array of JAX gives the lower 31 bits of its seeds, so
+        that jax.random.bits() draws some. Not with SAME_STEP, batch_size or a server. Errors of a compiled program are
         jax.errors.JaxRuntimeError. Raises ImportError without JAX.
         """
         self._check_open()
@@ -437,7 +466,7 @@ def _closed() -> error.ClosedEnvironmentError:
 def _machines(names: list[str], game_of_env: Numbers, rom: Rom | None, settings: dict[str, Any], server: str | Sequence[str] | None,
               token: str | None, timeout: float | None) -> Machines:
     if len(names) > 1 and (rom is not None or server is not None):
-        raise error.Error(f"there are {len(names)} games; rom and server take one")
+        raise WrongValue(f"there are {len(names)} games; rom and server take one")
     if server is not None:
         kind: Any = RemoteMachines if isinstance(server, str) else SpreadMachines
         machines: Machines = kind(server, token, timeout, names[0], rom, len(game_of_env), settings)

@@ -9,7 +9,6 @@ import secrets
 from collections.abc import Mapping
 from typing import Any
 
-from gymnasium import error
 from gymnasium.vector import AutoresetMode
 
 from . import _core
@@ -79,7 +78,7 @@ def _check_lives(given: Mapping[str, Any]) -> None:
     member("lives", given["lives"], _core.LifeLoss)
     for name, word in (("episodic_life", "restart"), ("life_loss_info", "told")):
         if given["lives"] != word and _flag(given, name):
-            raise error.Error(f"{name} is True, which means lives={word!r}, but lives is {given['lives']!r}")
+            raise WrongValue(f"{name} is True, which means lives={word!r}, but lives is {given['lives']!r}")
 
 
 def _of_episodes(given: Mapping[str, Any]) -> dict[str, Any]:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["RESULTS", "call", "check_shape", "functions", "handle_of", "imported", "whole"]
 
+SEEDS = 2**31 - 1  # the greatest that a custom call takes
 Arrays = Sequence[tuple[tuple[int, ...], Any]]  # a shape and a type each
 
 # After the observations, in the order of bind_xla.cpp.
@@ -49,10 +50,9 @@ def functions(envs: AtariVectorEnv, infos: tuple[str, ...]) -> tuple[Any, Callab
 
     def reset(handle: Any, seed: Any = None, reset_mask: Any = None) -> tuple[Any, tuple[Any, dict[str, Any]]]:
         """New episodes. seed: of the first environment, and the next has one more; or one for each; -1 is none.
-        reset_mask: which environments; the others are shown. Returns the handle and what is shown."""
-        seeds = whole("seed", -1 if seed is None else seed)
-        if seeds.ndim == 0:
-            seeds = jax.numpy.where(seeds < 0, seeds, seeds + np.arange(count, dtype=np.int32))
+        Seeds end at 2**31 - 1; an array of JAX gives their lower 31 bits. reset_mask: which environments; the others
+        are shown. Returns the handle and what is shown."""
+        seeds = _seeds(-1 if seed is None else seed, count)
         mask = jax.numpy.asarray(np.ones(count, np.bool_) if reset_mask is None else reset_mask)
         if mask.dtype != np.bool_:
             raise TypeError(f"reset_mask has the type {mask.dtype}; it must be bool")
@@ -111,11 +111,35 @@ def _register() -> None:
 
 
 def whole(name: str, values: Any) -> Any:
-    """As an array of int32. Raises TypeError."""
-    array = imported().numpy.asarray(values)
+    """As an array of int32. What is beyond its range becomes the nearest end, which names no action and no environment.
+    Raises TypeError."""
+    array = _integers(name, values)
+    limits, of_array = np.iinfo(np.int32), np.iinfo(array.dtype)
+    return imported().numpy.asarray(array.clip(max(limits.min, of_array.min), min(limits.max, of_array.max)), np.int32)
+
+
+def _integers(name: str, values: Any) -> Any:
+    """As an array of NumPy, whose numbers JAX has not narrowed, or of JAX if a part of it is one. Raises TypeError."""
+    jax = imported()
+    is_of_jax = any(isinstance(part, jax.Array) for part in jax.tree.leaves(values))
+    array = jax.numpy.asarray(values) if is_of_jax else np.asarray(values)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{name} have the type {array.dtype}; they must be integers")
-    return array.astype(np.int32)
+    return array
+
+
+def _seeds(values: Any, count: int) -> Any:
+    """Of each environment, in int32; -1 is none. One seed counts up. Raises InvalidInput for one that is too large, as far
+    as it is known before the program runs."""
+    array = _integers("seed", values)
+    offsets = np.arange(count if array.ndim == 0 else 1, dtype=np.uint32)
+    if isinstance(array, np.ndarray):
+        most = SEEDS - int(offsets[-1])
+        if (array > most).any():
+            raise InvalidInput(f"the seed is {array[array > most][0]}; it takes up to {most}")
+    jax_numpy = imported().numpy
+    numbers = (jax_numpy.asarray(array.astype(np.uint32)) + offsets) & np.uint32(SEEDS)
+    return jax_numpy.where(array < 0, -1, numbers.astype(np.int32))
 
 
 def check_shape(name: str, array: Any, shape: tuple[int, ...]) -> None:

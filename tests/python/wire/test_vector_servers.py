@@ -127,6 +127,16 @@ class Halves(Servers):
         self.check(there.step([0] * COUNT), here.step([0] * COUNT), FIRST)
 
 
+    def test_a_server_that_is_lost_before_a_reset_is_told(self):
+        here, there = self.both()
+        halt(self.second)
+        for envs in (here, there):
+            envs.send([0] * COUNT)
+        self.kill(self.second)
+        self.check(there.reset(seed=3), here.reset(seed=3), lost=SECOND)
+        self.check(there.step([0] * COUNT), here.step([0] * COUNT))
+
+
 class States(Servers):
     def test_a_state_goes_from_one_server_to_the_other(self):
         here, there = self.both()

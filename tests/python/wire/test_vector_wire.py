@@ -122,7 +122,7 @@ class Halves(Compared):
                 envs.reset(seed=1)
                 state = envs.save(0)
                 envs.send([0, 0])
-                for call in (envs.reset, envs.show, envs.render, lambda: envs.save(0), lambda: envs.restore(0, state),
+                for call in (envs.show, envs.render, lambda: envs.save(0), lambda: envs.restore(0, state),
                              lambda: envs.step([0, 0]), lambda: envs.send([0, 0])):
                     with self.assertRaisesRegex(InvalidInput, "receive"):
                         call()
@@ -133,6 +133,16 @@ class Halves(Compared):
                     with self.assertRaises((IndexError, InvalidInput)):
                         envs.send(actions)
                 envs.step([0, 0])
+
+    def test_a_reset_drops_what_was_not_received(self):
+        with server() as (address, _):
+            for where in (address, [address]):
+                here, there = (AtariVectorEnv("beamfall", 3, server=place, seed=1) for place in (None, where))
+                for seed in (1, None):
+                    for envs in (here, there):
+                        envs.send([1, 0, 1])
+                    (seen, told), (expected, info) = there.reset(seed=seed), here.reset(seed=seed)
+                    self.assertTrue(np.array_equal(seen, expected) and np.array_equal(told["frame_number"], info["frame_number"]))
 
     def test_a_server_that_dies_between_the_halves_is_a_ConnectionError(self):
         with server() as (address, process):
@@ -217,6 +227,7 @@ class Refused(unittest.TestCase):
             for arguments in ({"batch_size": 1}, {"num_envs": 5}, {"start": "baselines", "use_fire_reset": False}):
                 with self.subTest(arguments=arguments), self.assertRaises(InvalidInput):
                     AtariVectorEnv("beamfall", **{"num_envs": 2, "server": address, **arguments})
+            AtariVectorEnv("beamfall", 2, server=address, use_fire_reset=False, start="fire-noops").close()
             with self.assertRaises(gymnasium.error.Error):
                 AtariVectorEnv(["beamfall", "updraft"], server=address, full_action_space=True)
 

@@ -66,7 +66,7 @@ class ALEVectorInterface:
         every = np.full(count, -1, np.int64)
         every[ids] = [operator.index(seed) for seed in seeds]
         chosen = np.isin(np.arange(count), ids)
-        return self._envs.reset(seed=every, options=None if chosen.all() else {"reset_mask": chosen})
+        return self._envs.reset(seed=every[chosen], options=None if chosen.all() else {"reset_mask": chosen})
 
     def send(self, action_ids: Sequence[int], paddle_strengths: Sequence[float], /) -> None:
         """Begins a step of the environments that were received last. An action is a place in get_action_set()."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from typing import Any
 
@@ -9,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import vector_env
-from ..vector_results import Results
+from ..vector_results import Bools, Numbers, Results
+from ..wire.remote_machines import STICK
 from .interface import check_game, plain_errors
 from .single import AtariEnv
 from .vector_interface import ALEVectorInterface
@@ -24,6 +26,11 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
     is_xla_registered = False
     _was_reset = False
     _check_game = staticmethod(check_game)
+
+    @functools.cached_property
+    def map_action_idx(self) -> Numbers:
+        """The number of the action of each continuous one: from left to right, from down to up, then without fire."""
+        return np.ascontiguousarray(STICK.transpose(2, 1, 0), np.int32)
 
     @property
     def ale(self) -> ALEVectorInterface:
@@ -40,6 +47,14 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
         shown = super().reset(seed=seed, options=options, out=out)
         self._was_reset = True
         return shown
+
+    def _seeds(self, seed: Any, mask: Bools | None) -> npt.NDArray[np.int64] | None:
+        """Given for the environments of the mask alone, and counted over them."""
+        if seed is None or mask is None:
+            return super()._seeds(seed, mask)
+        seeds = np.full(self.num_envs, -1, np.int64)
+        seeds[mask] = self._seeds_of(seed, int(mask.sum()))
+        return seeds
 
     def step(self, actions: Any, *, out: Any = None) -> vector_env.Step:
         self._check_reset()

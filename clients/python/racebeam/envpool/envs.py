@@ -7,14 +7,14 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ..arguments import MOST
 from ..errors import InvalidInput
-from ..vector_env import AtariVectorEnv
+from ..vector_env import AtariVectorEnv, array_of
 from ..vector_results import Numbers, Pixels, Results
 from .spec import EnvSpec
 
-__all__ = ["ROWS", "Envs", "Shown"]
+__all__ = ["ROWS", "Envs", "Shown", "parts_of"]
 
-MOST_FRAMES = 2**31 - 1
 ROWS = 210  # EnvPool sees no more, of games that have them, too
 
 
@@ -43,7 +43,7 @@ class Envs(AtariVectorEnv):
         super().__init__(
             config.task, config.num_envs, batch_size=config.batch_size, num_threads=config.num_threads,
             thread_affinity_offset=config.thread_affinity_offset, stack_num=config.stack_num,
-            max_num_frames_per_episode=min(config.max_episode_steps * config.frame_skip, MOST_FRAMES), frameskip=config.frame_skip,
+            max_num_frames_per_episode=min(config.max_episode_steps * config.frame_skip, MOST), frameskip=config.frame_skip,
             noop_max=config.noop_max, use_fire_reset=config.use_fire_reset, reward_clipping=config.reward_clip,
             img_height=config.img_height, img_width=config.img_width, grayscale=config.gray_scale,
             mode=_optional(config.mode), difficulty=_optional(config.difficulty),
@@ -62,8 +62,10 @@ class Envs(AtariVectorEnv):
         return self._ready()
 
     def send_resets_of(self, envs: Numbers) -> None:
-        """Begins new games."""
+        """Begins new games. Where those are of all environments, what was sent and not received is dropped."""
         self._check_open()
+        if len(envs) == self.num_envs:
+            self._drop_pending()
         self._machines.end_episodes(envs)
         self._machines.send(np.zeros(len(envs), np.int64), envs)
 
@@ -92,15 +94,31 @@ class Envs(AtariVectorEnv):
         return super()._room(out, count)._replace(ram=np.empty((count, 128), np.uint8), played=np.empty((3, count), np.int32))
 
     def _told(self, results: Results) -> Shown:
-        self._received = results.env_id
+        self._received = results.env_id.copy()
         assert results.played is not None
         return Shown(results.observations, results.ram, results.rewards, results.raw_rewards, results.terminated, results.truncated,
                      results.game_over, results.env_id, results.lives, *results.played)
 
     def chosen(self, mask: Any) -> Numbers:
-        """The environments of a mask."""
-        checked = self._mask(mask)
-        return self.every if checked is None else self.every[checked]
+        """The environments of a mask, of one or more; None: all."""
+        if mask is None:
+            return self.every
+        array = array_of(mask)
+        if array.shape != self.every.shape or array.dtype.kind not in "biuf":
+            raise InvalidInput(f"reset_mask is {mask!r}; it takes {self.num_envs} values that are true or false")
+        if not array.any():
+            raise InvalidInput(f"reset_mask is {mask!r}; it takes one environment or more")
+        return self.every[array.astype(np.bool_)]
+
+    def _indices(self, actions: Any, count: int | None = None) -> npt.NDArray[np.int64]:
+        """A fraction is cut off, and a flag is 0 or 1."""
+        array = array_of(actions)
+        if array.dtype.kind not in "bf":
+            return super()._indices(array, count)
+        if (far := array[~(np.abs(array) <= MOST)]).size:
+            most = self._machines.numbers_of_actions()[0] - 1
+            raise IndexError(f"action {far[0]} is out of range; there are 0 to {most}")
+        return super()._indices(array.astype(np.int64), count)
 
     def numbers_of(self, env_id: Any) -> Numbers:
         """Of environments, checked."""
@@ -113,6 +131,16 @@ class Envs(AtariVectorEnv):
         if len(np.unique(ids)) < len(ids):
             raise InvalidInput(f"env_id is {env_id!r}; each environment is named once")
         return np.ascontiguousarray(ids, np.int32)
+
+
+def parts_of(action: dict[str, Any]) -> dict[str, Any]:
+    """By name: {"players": {"env_id": ids}} has the part players.env_id. Raises InvalidInput if `action` is missing."""
+    parts: dict[str, Any] = {}
+    for name, part in action.items():
+        parts |= {f"{name}.{key}": value for key, value in part.items()} if isinstance(part, dict) else {name: part}
+    if "action" not in parts:
+        raise InvalidInput(f"the parts of the action are {', '.join(map(str, parts))}; one must be 'action'")
+    return parts
 
 
 def _optional(number: int) -> int | None:

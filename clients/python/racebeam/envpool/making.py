@@ -23,7 +23,7 @@ def make_spec(task_id: str, **config: Any) -> EnvSpec:
 
 def make_gymnasium(task_id: str, **config: Any) -> GymnasiumEnvPool:
     _check_info_wanted("gymnasium", config)
-    return GymnasiumEnvPool(make_spec(task_id, **config), config.get("render_env_id", 0))
+    return GymnasiumEnvPool(*_given(task_id, config, True))
 
 
 def make_gym(task_id: str, **config: Any) -> GymnasiumEnvPool:
@@ -34,13 +34,19 @@ def make_gym(task_id: str, **config: Any) -> GymnasiumEnvPool:
 def make_dm(task_id: str, **config: Any) -> DMEnvPool:
     """It is a dm_env.Environment to a program that has imported dm_env."""
     _check_info_wanted("dm", config)
-    return DMEnvPool(make_spec(task_id, **config), config.get("render_env_id", 0))
+    return DMEnvPool(*_given(task_id, config, True))
 
 
 def _make_old_gym(task_id: str, **config: Any) -> GymEnvPool | GymnasiumEnvPool:
     if checked(flag, "gym_reset_return_info", config.get("gym_reset_return_info")):
         return make_gymnasium(task_id, **config)
-    return GymEnvPool(make_spec(task_id, **config), config.get("render_env_id", 0))
+    return GymEnvPool(*_given(task_id, config, False))
+
+
+def _given(task_id: str, config: dict[str, Any], returns_info: bool) -> tuple[EnvSpec, Any, Any]:
+    """The arguments of a pool. returns_info: what its spec says of reset()."""
+    spec = make_spec(task_id, **{**config, "gym_reset_return_info": returns_info})
+    return spec, config.get("render_env_id", 0), config.get("render_mode")
 
 
 def _check_info_wanted(env_type: str, config: dict[str, Any]) -> None:

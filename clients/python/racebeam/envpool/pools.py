@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import warnings
 from collections.abc import Callable, Mapping
@@ -18,7 +19,7 @@ from ..errors import InvalidInput
 from ..vector_env import Info
 from ..vector_results import Numbers, Pixels
 from . import xla
-from .envs import ROWS, Envs, Shown
+from .envs import ROWS, Envs, Shown, parts_of
 from .spec import EnvSpec, InvalidSetting, checked, dm_specs
 
 __all__ = ["DMEnvPool", "EnvPool", "GymEnvPool", "GymnasiumEnvPool", "State", "TimeStep"]
@@ -27,7 +28,7 @@ __all__ = ["DMEnvPool", "EnvPool", "GymEnvPool", "GymnasiumEnvPool", "State", "T
 class EnvPool:
     """What all kinds have. A kind says in _shown_as() what its results look like."""
 
-    def __init__(self, spec: EnvSpec, render_env_id: Any = 0) -> None:
+    def __init__(self, spec: EnvSpec, render_env_id: Any = 0, render_mode: str | None = None) -> None:
         if not isinstance(spec, EnvSpec):
             raise InvalidSetting(f"the spec is {spec!r}; it takes what make_spec() returns")
         self.spec: Any = spec
@@ -36,6 +37,7 @@ class EnvPool:
         self._envs = Envs(spec)
         self.num_envs, self.batch_size = self._envs.num_envs, self._envs.batch_size
         self._shown_by_render = checked(whole, "render_env_id", render_env_id, 0, self.num_envs - 1)
+        self.render_mode = render_mode
         self.action_space = self.single_action_space = spec.action_space
         self.observation_space = self.single_observation_space = spec.observation_space
 
@@ -46,6 +48,12 @@ class EnvPool:
 
     def __len__(self) -> int:
         return self.num_envs
+
+    def __enter__(self) -> Any:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}<{self.spec.id}>({', '.join(f'{name}={value!r}' for name, value in self.config.items())})"
@@ -75,7 +83,8 @@ class EnvPool:
         """Has no effect, as in EnvPool."""
         warnings.warn("seed() has no effect; give seed to make()", stacklevel=2)
 
-    def render(self, env_ids: Any = None) -> Pixels:
+    def render(self, env_ids: Any = None, camera_id: Any = None) -> Pixels:
+        """The pictures of these environments. camera_id has no effect, as in EnvPool."""
         pictures = self._envs.render() or ()
         chosen = np.atleast_1d(self._shown_by_render if env_ids is None else env_ids)
         if chosen.size == 0:
@@ -94,7 +103,7 @@ class EnvPool:
         self._envs.close()
 
     def async_reset(self) -> None:
-        """Begins new games of all environments; recv() returns the first."""
+        """Begins new games of all environments; recv() returns the first. What was not received before is dropped."""
         self._send_resets(self._envs.every)
 
     def send(self, action: Any, env_id: Any = None) -> None:
@@ -111,7 +120,9 @@ class EnvPool:
     def _reset(self, env_id: Any, options: Any = None) -> Any:
         if not isinstance(options, (Mapping, type(None))):
             raise InvalidInput(f"options is {options!r}; it takes a dictionary, or None")
-        mask = (options or {}).get("reset_mask")
+        mask = _mask_of(options or {})
+        if mask is not None and env_id is not None:
+            raise InvalidInput("env_id and reset_mask are given; one of them chooses the environments")
         self._envs.send_resets_of(self._envs.chosen(mask) if env_id is None else self._envs.numbers_of(env_id))
         return self._shown_as(self._receive())
 
@@ -124,10 +135,8 @@ class EnvPool:
 
     def _meant(self, action: Any, env_id: Any) -> tuple[Numbers, Any]:
         if isinstance(action, dict):
-            _check_parts(action)
-            action, env_id = action["action"], action.get("env_id", action.get("players.env_id", env_id))
-        if isinstance(action, np.ndarray) and action.dtype.kind == "f" and np.array_equal(action, np.floor(action)):
-            action = action.astype(np.int64)
+            parts = _checked_parts(action)
+            action, env_id = parts["action"], parts.get("env_id", parts.get("players.env_id", env_id))
         if env_id is None:
             return (self._envs.received if self.is_async else self._envs.every), action
         return self._envs.numbers_of(env_id), action
@@ -143,7 +152,7 @@ class EnvPool:
         skip = self.config["frame_skip"]
         ends = done | (shown.lives_lost > 0) if self.config["zero_discount_on_life_loss"] else done
         return {
-            "info:env_id": shown.env_id, "info:players.env_id": shown.env_id, "elapsed_step": (shown.elapsed + skip - 1) // skip, "done": done,
+            "info:env_id": shown.env_id, "info:players.env_id": shown.env_id.copy(), "elapsed_step": (shown.elapsed + skip - 1) // skip, "done": done,
             "reward": shown.rewards.astype(np.float32), "discount": (~ends).astype(np.float32),
             "step_type": ((shown.acts > 0) * (1 + done)).astype(np.int32), "trunc": shown.truncated, "obs": observations,
             "info:lives": shown.lives, "info:reward": shown.raw_rewards.astype(np.float32),
@@ -158,18 +167,26 @@ class EnvPool:
         return told["obs"], told["reward"], told["done"], told["trunc"], info
 
 
-def _check_parts(action: dict[str, Any]) -> None:
-    if "action" not in action:
-        raise InvalidInput(f"the parts of the action are {', '.join(map(str, action))}; one must be 'action'")
-    for name, part in action.items():
-        if np.asarray(part).dtype != np.int32:
-            raise InvalidInput(f"{name} of the action has the type {np.asarray(part).dtype}; it must be int32")
+def _checked_parts(action: dict[str, Any]) -> dict[str, Any]:
+    parts = parts_of(action)
+    for name in ("action", "env_id"):
+        if name in parts and np.asarray(parts[name]).dtype != np.int32:
+            raise InvalidInput(f"{name} of the action has the type {np.asarray(parts[name]).dtype}; it must be int32")
+    return parts
+
+
+def _mask_of(options: Mapping[Any, Any]) -> Any:
+    unknown = [name for name in options if name != "reset_mask"]
+    if unknown:
+        raise InvalidInput(f"options has {', '.join(map(repr, unknown))}; it takes reset_mask alone")
+    return options.get("reset_mask")
 
 
 class GymnasiumEnvPool(EnvPool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any]):  # type: ignore[misc]
     """env_type="gymnasium"."""
 
     metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP, "render_modes": ["rgb_array"]}
+    is_vector_env = True
 
     def reset(self, env_id: Any = None, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Any, Info]:
         if seed is not None:
@@ -193,15 +210,23 @@ class GymnasiumEnvPool(EnvPool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any
 class GymEnvPool(EnvPool):
     """make(env_type="gym"): reset() returns observations, and a step has one end, `done`.
 
-    To a program that has imported gym, the spaces are those of that package."""
+    To a program that has imported gym, the spaces are those of that package. Wrappers of gym find what they ask for."""
 
-    def __init__(self, spec: EnvSpec, render_env_id: Any = 0) -> None:
-        super().__init__(spec, render_env_id)
+    metadata: dict[str, Any] = {"render.modes": ["rgb_array"], "render_modes": ["rgb_array"]}
+    reward_range = (-math.inf, math.inf)
+    is_vector_env = True
+
+    def __init__(self, spec: EnvSpec, render_env_id: Any = 0, render_mode: str | None = None) -> None:
+        super().__init__(spec, render_env_id, render_mode)
         if "gym" in sys.modules:
             theirs, box, actions = sys.modules["gym"].spaces, self.single_observation_space, self.single_action_space
             assert isinstance(actions, spaces.Discrete)
             self.observation_space = self.single_observation_space = theirs.Box(0, 255, box.shape, box.dtype)
             self.action_space = self.single_action_space = theirs.Discrete(actions.n)
+
+    @property
+    def unwrapped(self) -> GymEnvPool:
+        return self
 
     def reset(self, env_id: Any = None) -> Any:
         return self._reset(env_id)[0]
@@ -257,8 +282,8 @@ class Players(NamedTuple):
 class DMEnvPool(EnvPool):
     """env_type="dm". It is a dm_env.Environment to a program that has imported dm_env."""
 
-    def __init__(self, spec: EnvSpec, render_env_id: Any = 0) -> None:
-        super().__init__(spec, render_env_id)
+    def __init__(self, spec: EnvSpec, render_env_id: Any = 0, render_mode: str | None = None) -> None:
+        super().__init__(spec, render_env_id, render_mode)
         if "dm_env" in sys.modules:
             sys.modules["dm_env"].Environment.register(DMEnvPool)
 

@@ -28,7 +28,7 @@ CONFIG: dict[str, Any] = {
     "base_path": "",
     "seed": 42,
     "env_seed": [],
-    "gym_reset_return_info": None,
+    "gym_reset_return_info": True,
     "max_episode_steps": MOST,
     "stack_num": 4,
     "frame_skip": 4,

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import xla
 from ..errors import InvalidInput
-from .envs import Envs, Shown
+from .envs import Envs, Shown, parts_of
 
 __all__ = ["functions"]
 
@@ -32,7 +32,8 @@ def functions(envs: Envs, shown_as: Callable[[Shown], Any]) -> tuple[Any, Callab
 
     def send(handle: Any, action: Any, env_id: Any = None) -> Any:
         if isinstance(action, dict):
-            action, env_id = action["action"], action.get("env_id", action.get("players.env_id", env_id))
+            parts = parts_of(action)
+            action, env_id = parts["action"], parts.get("env_id", parts.get("players.env_id", env_id))
         if env_id is None and count < envs.num_envs:
             raise InvalidInput("env_id is None; with batch_size below num_envs, it takes the environments of the actions")
         numbers = xla.whole("env_id", envs.every if env_id is None else env_id)
