@@ -6,7 +6,10 @@ import functools
 from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
+import numpy as np
+
 from .. import images, interface
+from ..arguments import listed
 from ..errors import InvalidInput, UnknownGame
 
 __all__ = ["ALEInterface", "NoSuchGame", "check_game", "plain_errors"]
@@ -26,7 +29,7 @@ def check_game(game: str) -> None:
         raise NoSuchGame(*error.args) from None
 
 
-REFUSING = ("setMode", "setDifficulty", "setRAM", "setInt", "setBool", "setFloat", "setString", "getScreen", "getScreenRGB", "getScreenGrayscale")
+REFUSING = ("setDifficulty", "setRAM", "setInt", "setBool", "setFloat", "setString", "getScreen", "getScreenRGB", "getScreenGrayscale")
 
 
 def plain_errors(method: Method, kind: type[Exception] = RuntimeError) -> Method:
@@ -46,6 +49,14 @@ class ALEInterface(interface.ALEInterface):
     """racebeam.ALEInterface with the errors of ale_py."""
 
     isSupportedROM = staticmethod(plain_errors(interface.ALEInterface.isSupportedROM))
+
+    @plain_errors
+    def setMode(self, mode: int, /) -> None:
+        """One of getAvailableModes(). Modes for two, which racebeam.ALEInterface has besides, are refused."""
+        offered = self.getAvailableModes()
+        if isinstance(mode, (int, np.integer)) and mode not in offered:
+            raise InvalidInput(f"Invalid game mode requested: mode is {mode}; it takes {listed(offered)}")
+        super().setMode(mode)
 
 
 for _name in REFUSING:
