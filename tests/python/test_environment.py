@@ -146,6 +146,13 @@ class Playing(unittest.TestCase):
             screens.append(seen.tobytes())
         self.assertNotEqual(*screens)
 
+    def test_a_mode_for_two_needs_two_players(self):
+        if "pong" not in package.roms():
+            self.skipTest("there is no image of pong")
+        with self.assertRaisesRegex(racebeam.InvalidInput, "pong has mode 5 for two alone.*for one it offers 0, 1$"):
+            racebeam.AtariEnv("pong", mode=5)
+        self.assertEqual(racebeam.AtariEnv("pong", mode=5, two_player=True).ale.getMode(), 5)
+
     def test_presets_are_the_settings_of_the_literature(self):
         def settings(**arguments):
             env = racebeam.AtariEnv("beamfall", **arguments)

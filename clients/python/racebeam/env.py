@@ -182,11 +182,18 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             self.ale.loadROM(self._rom, self._game)
         else:
             self.ale.loadROM(images.find(self._game) if self._rom is None else self._rom, self._game)
-        mode = self._mode_for_two() if self._two_player else self._game_mode
+        mode = self._mode_for_two() if self._two_player else self._mode_for_one()
         if mode is not None:
             self.ale.setMode(mode)
         if self._game_difficulty is not None:
             self.ale.setDifficulty(self._game_difficulty)
+
+    def _mode_for_one(self) -> int | None:
+        offered: list[int] = self.ale.getAvailableModes()
+        if self._game_mode is not None and self._game_mode in self.ale.getTwoPlayerModes() and self._game_mode not in offered:
+            raise InvalidInput(f"{self._game} has mode {self._game_mode} for two alone, which two_player=True plays; "
+                               f"for one it offers {listed(offered)}")
+        return self._game_mode
 
     def _mode_for_two(self) -> int:
         offered: list[int] = self.ale.getTwoPlayerModes()
