@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -140,5 +141,6 @@ int after_output(int status) {
 
 int main(int argc, char** argv) {
   take_standard_descriptors();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer
   return after_output(run(argc, argv));
 }

@@ -242,7 +242,6 @@ int Server::status() const {
 
 int serve(const ServerSettings& settings, const Services& services) {
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer
   const int status = Server(settings, services).run();
   // Sessions that did not end in time are gone. Their recordings are finished here.
   if (const auto recorder = recorder_of(services)) recorder->end(kLastFrames);

@@ -62,6 +62,49 @@ FileLock lock_plan(const ResultsFolder& folder) {
   return with_lock(folder, "plan", [](const std::string& path) { return FileLock(path); });
 }
 
+// Whether this process and its like have made the file in the folder `work`.
+bool is_own(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.ends_with(".lock") || name.ends_with(".checkpoint") || name.ends_with(".checkpoint.part");
+}
+
+// A file of the user's that has the name of one that an experiment writes; empty if there is none.
+fs::path foreign_file(const ResultsFolder& folder) {
+  std::error_code none;
+  for (const std::string& path :
+       {folder.results(), folder.curves(), folder.times(), folder.units(), folder.logs(), folder.facts()})
+    if (fs::exists(fs::symlink_status(path, none))) return path;
+  if (fs::is_symlink(folder.work(), none)) return folder.work();
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.work(), none))
+    if (!is_own(entry.path())) return entry.path();
+  return {};
+}
+
+// The plan is looked for last: another process of this experiment writes it before the other files.
+void refuse_foreign_files(const ResultsFolder& folder) {
+  const fs::path foreign = foreign_file(folder);
+  if (foreign.empty() || fs::exists(folder.plan())) return;
+  throw InvalidInput(folder.root() + " has no plan.toml, but " + foreign.string() +
+                     ", which an experiment would replace; choose another folder");
+}
+
+std::ptrdiff_t lines_of(const std::string& path) {
+  std::error_code none;
+  if (!fs::exists(path, none)) return 0;
+  return std::ranges::count(read_input_file("table", path, kMostTableBytes), '\n');
+}
+
+// The tables are put together from `units`. A folder whose table has rows that no unit has would lose them.
+void refuse_lost_units(const ResultsFolder& folder, const Plan& plan) {
+  std::ptrdiff_t found = 0;
+  for (const Unit& unit : units_of(plan)) found += lines_of(folder.unit(unit.name, "results"));
+  const std::ptrdiff_t rows = lines_of(folder.results()) - 1;
+  if (rows > found)
+    throw InvalidInput(folder.results() + " has " + std::to_string(rows) + " rows, and " + folder.units() +
+                       " has " + std::to_string(found) + " of them, so that the others would be lost; " +
+                       "choose another folder");
+}
+
 // Claims the folder for this plan, or checks that it has been. Writes nothing if it cannot be used.
 void claim(const ResultsFolder& folder, const Plan& plan, const Images& images) {
   const std::string text = text_of(plan);
@@ -69,14 +112,23 @@ void claim(const ResultsFolder& folder, const Plan& plan, const Images& images) 
   if (fs::exists(folder.plan(), none)) check_plan(folder, text);
   for (const PlanGame& game : plan.games)
     GameFacts(*images.find(game.name), sample_settings(plan, game), folder.facts()).check();
-  for (const std::string& path : {folder.root(), folder.units(), folder.logs(), folder.facts()})
-    make_folder(path);
+  refuse_foreign_files(folder);
+  make_folder(folder.root());
   const FileLock lock = lock_plan(folder);
   fs::exists(folder.plan()) ? check_plan(folder, text) : replace_file(folder.plan(), text, Durable::kNow);
+  refuse_lost_units(folder, plan);
+  for (const std::string& path : {folder.units(), folder.logs(), folder.facts()}) make_folder(path);
 }
 
 bool is_finished(const ResultsFolder& folder, const Unit& unit) {
   return fs::exists(folder.unit(unit.name, "results"));
+}
+
+void remove_work(const ResultsFolder& folder) {
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.work(), none))
+    if (is_own(entry.path())) fs::remove(entry.path(), none);
+  fs::remove(folder.work(), none);
 }
 
 // Puts the finished units together, in the plan's order. Under the lock, so that the process which finishes
@@ -96,7 +148,7 @@ void put_together(const ResultsFolder& folder, const std::vector<Unit>& units) {
   replace_file(folder.times(), times, Durable::kLater);
   replace_file(folder.curves(), curves, Durable::kLater);
   replace_file(folder.results(), results, Durable::kNow);
-  if (finished == units.size()) fs::remove_all(folder.work());
+  if (finished == units.size()) remove_work(folder);
 }
 
 class Run {

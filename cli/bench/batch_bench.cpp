@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <random>
@@ -77,7 +78,8 @@ nlohmann::ordered_json time_batch(const Cartridge& cartridge, const MachineOptio
 
   Dealer dealer(actions, batch.actions(0).size());
   std::vector<int> dealt(count);
-  const int steps = std::max(1, frames / (options.machines * frame_skip));
+  const auto frames_of_step = std::int64_t{options.machines} * frame_skip;
+  const auto steps = static_cast<int>(std::max<std::int64_t>(1, frames / frames_of_step));
   int resets = 0;
   const double wall = wall_seconds(), cpu = cpu_seconds();
   for (int step = 0; step < steps; ++step) {

@@ -152,7 +152,6 @@ void run(const ExperimentOptions& options) {
   settings.shards = shard.count;
   bind(plan, images, RACEBEAM_VERSION);
   check_memory(plan, settings.threads, usable_memory());
-  std::signal(SIGXFSZ, SIG_IGN);    // a file that may not grow is an error of its writer
   const Interruption interruption;  // ends after the tables are put together
   settings.check = [&] { interruption.check(); };
   ProgressLine line;

@@ -2,8 +2,12 @@
 
 #include <png.h>
 
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <vector>
+
+#include "recording/atomic_file.hpp"
 
 namespace racebeam {
 namespace {
@@ -20,18 +24,31 @@ std::vector<std::uint8_t> doubled(std::span<const std::uint8_t> rgb) {
   return wide;
 }
 
-}  // namespace
-
-void write_png(const std::string& path, std::span<const std::uint8_t> rgb) {
+std::string encoded(std::span<const std::uint8_t> rgb, const std::string& path) {
   const auto wide = doubled(rgb);
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = 2 * kPngWidth;
   image.height = static_cast<png_uint_32>(rgb.size() / (kPngWidth * kChannels));
   image.format = PNG_FORMAT_RGB;
-  if (png_image_write_to_file(&image, path.c_str(), 0, wide.data(), 0, nullptr) == 0) {
-    throw std::runtime_error("can't write '" + path + "': " + image.message);
-  }
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, wide.data(), 0, nullptr) == 0)
+    throw std::runtime_error("cannot write '" + path + "': " + image.message);
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace
+
+// A device or a pipe is written to; it is no file that another one could replace.
+void write_png(const std::string& path, std::span<const std::uint8_t> rgb) {
+  const std::string bytes = encoded(rgb, path);
+  std::error_code none;
+  if (!std::filesystem::exists(path, none) || std::filesystem::is_regular_file(path, none))
+    return replace_file(path, bytes, Durable::kLater);
+  if (!(std::ofstream(path, std::ios::binary) << bytes << std::flush))
+    throw std::runtime_error("cannot write '" + path + "'");
 }
 
 }  // namespace racebeam

@@ -1,5 +1,7 @@
 #include "server/access/tls.hpp"
 
+#include <openssl/ssl.h>
+
 #include <stdexcept>
 
 #include "system/input_file.hpp"
@@ -36,6 +38,9 @@ std::shared_ptr<ssl::context> Tls::read() const {
   if (error) throw std::runtime_error("cannot use the certificate " + certificate_ + ": " + error.message());
   context->use_private_key(boost::asio::buffer(key), ssl::context::pem, error);
   if (error) throw std::runtime_error("cannot use the key " + key_ + ": " + error.message());
+  // A key of another kind than the certificate's is not compared with it when it is loaded.
+  if (SSL_CTX_check_private_key(context->native_handle()) != 1)
+    throw std::runtime_error("the key " + key_ + " does not belong to the certificate " + certificate_);
   return context;
 }
 

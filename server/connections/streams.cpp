@@ -37,14 +37,19 @@ int client_gone(const Halt& halt) {
   return kClientGone;
 }
 
+// Returns whether there is a pipe.
+bool refuse_other_file(const std::string& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) return false;
+  if (!S_ISFIFO(found.st_mode)) throw std::runtime_error(path + " exists, but is not a named pipe");
+  return true;
+}
+
 void make_if_missing(const std::string& path) {
   if (::mkfifo(path.c_str(), 0600) == 0) return log("made the pipe " + path);
   const int error = errno;
-  struct stat found {};
-  if (::stat(path.c_str(), &found) != 0) {
+  if (!refuse_other_file(path))
     throw std::runtime_error("cannot make the pipe " + path + ": " + std::generic_category().message(error));
-  }
-  if (!S_ISFIFO(found.st_mode)) throw std::runtime_error(path + " exists, but is not a named pipe");
 }
 
 }  // namespace
@@ -198,6 +203,7 @@ bool StreamSession::connect() {
   const auto* pipes = std::get_if<Pipes>(&address_);
   const std::string prefix = pipes ? pipes->prefix : "ale_fifo";
   log(what + ", for a client that opens " + prefix + "_out for reading, then " + prefix + "_in for writing");
+  refuse_other_file(prefix + "_out");
   return streams_.open_out(prefix + "_out", pipes ? 0 : O_CREAT | O_TRUNC) &&
          streams_.open_in(prefix + "_in");
 }

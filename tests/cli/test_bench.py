@@ -94,6 +94,10 @@ class Bench(unittest.TestCase):
         lines = dict(line.split(None, 1) for line in printed.decode().splitlines())
         self.assertEqual((lines["game"], lines["audio"]), ("beamfall", "yes"))
 
+    def test_steps_of_very_many_frames_are_counted(self):
+        status, _, errors = run("bench", "--rom", GAME, "--batch", "4", "--threads", "1", "--frame-skip", str(2**30), "--frames", "10")
+        self.assertEqual((status, errors), (0, []))
+
     def test_no_actions_and_wrong_ones_are_refused(self):
         for data, complaint in ((b"", "there are no actions in '-'"), (b"x", "line 1: 'x' is not a number"), (b"99", "99")):
             with self.subTest(data=data):

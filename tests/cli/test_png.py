@@ -1,12 +1,15 @@
 """racebeam png: the picture shows the screen of the client's line."""
 
 import os
+import resource
+import stat
 import struct
+import subprocess
 import tempfile
 import unittest
 import zlib
 
-from harness import GAME, main, run
+from harness import BINARY, GAME, main, run
 
 WIDTH, HEIGHT = 160, 210
 NTSC = {0x00: (0, 0, 0), 0x0E: (0xEC, 0xEC, 0xEC), 0x1A: (0xD2, 0xD2, 0x40), 0x44: (0xB8, 0x32, 0x32)}
@@ -130,6 +133,27 @@ class Png(unittest.TestCase):
         status, _, errors = run("png", path, data=run_lengths(self.pixels).encode())
         self.assertEqual((status, len(errors)), (1, 1), errors)
         self.assertIn(path, errors[0])
+
+    def test_a_file_that_may_not_grow_leaves_the_old_one(self):
+        with open(self.path, "wb") as file:
+            file.write(b"the old picture")
+        limits = (resource.RLIMIT_FSIZE, (0, resource.RLIM_INFINITY))
+        done = subprocess.run([BINARY, "png", self.path], input=run_lengths(self.pixels).encode(), capture_output=True,
+                              preexec_fn=lambda: resource.setrlimit(*limits))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        with open(self.path, "rb") as file:
+            self.assertEqual(file.read(), b"the old picture")
+        self.assertEqual(len(os.listdir(os.path.dirname(self.path))), 1)
+
+    def test_a_pipe_is_written_to_and_stays(self):
+        os.mkfifo(self.path)
+        with subprocess.Popen([BINARY, "png", self.path], stdin=subprocess.PIPE) as writer:
+            writer.stdin.write(run_lengths(self.pixels).encode())
+            writer.stdin.close()
+            with open(self.path, "rb") as pipe:
+                self.assertEqual(pipe.read(4), b"\x89PNG")
+        self.assertEqual(writer.returncode, 0)
+        self.assertTrue(stat.S_ISFIFO(os.stat(self.path).st_mode))
 
 
 if __name__ == "__main__":

@@ -348,6 +348,13 @@ class Tls(Folder):
                 self.assertEqual((ended, len(errors)), (status, 1), errors)
                 self.assertIn(hint, errors[0])
 
+    def test_a_key_of_another_kind_than_the_certificate_is_refused(self):
+        other = os.path.join(self.keys.name, "rsa.pem")
+        subprocess.run(["openssl", "genrsa", "-out", other, "2048"], check=True, capture_output=True)
+        ended, _, errors = run("serve", "--listen", "tls://127.0.0.1:0", "--tls-cert", self.certificate, "--tls-key", other)
+        self.assertEqual((ended, len(errors)), (1, 1), errors)
+        self.assertIn(f"the key {other} does not belong to the certificate {self.certificate}", errors[0])
+
     def test_nobody_is_asked_for_the_password_of_a_key(self):
         subprocess.run(["openssl", "ec", "-aes256", "-in", self.key, "-passout", "pass:secret", "-out",
                         self.path("locked.pem")], check=True, capture_output=True)

@@ -186,6 +186,17 @@ class NamedPipes(unittest.TestCase):
             self.assertIn("ale_fifo_in", server.log()[-1])
             self.assertTrue(os.path.isfile(server.path("ale_fifo_out")))
 
+    def test_a_file_in_the_place_of_a_pipe_stays(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "ale_fifo_out")
+            with open(path, "w") as file:
+                file.write("mine")
+            with Server(*self.COMMAND, folder=folder) as server:
+                self.assertEqual(server.wait(), 1)
+                self.assertIn("ale_fifo_out exists, but is not a named pipe", server.log()[-1])
+            with open(path) as file:
+                self.assertEqual(file.read(), "mine")
+
 
 if __name__ == "__main__":
     main()

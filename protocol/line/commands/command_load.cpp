@@ -176,6 +176,8 @@ void run_load(Session& session, Words arguments) {
   settings.machine.cpu = session.service.cpu;
   read_settings(words.settings, settings, kKeysOfImages);
   if (settings.machine.random_seed == 0) settings.machine.random_seed = fresh_seed();
+  // The cache of resets belongs to the process, and would keep the image when the session is gone.
+  settings.machine.copy_resets = arguments[0] != kInline;
   Cartridge cartridge = find_cartridge(session, arguments[0], words);
   std::unique_ptr<LoadedMachine> loaded;
   try {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "games/game/actions.hpp"
 #include "games/similar.hpp"
@@ -28,10 +29,13 @@ std::string share_name(std::string_view text) {
   return std::string(text);
 }
 
+constexpr std::size_t kMostSimilar = 256;  // names that are compared: more would take milliseconds
+
 [[noreturn]] void refuse_unknown(const Session& session, std::string_view name) {
   const auto all = session.service.shares->all();
   std::vector<std::string_view> names;
-  for (const auto& share : all) names.push_back(share->name());
+  for (const auto& share : std::span(all).first(std::min(all.size(), kMostSimilar)))
+    names.push_back(share->name());
   throw RequestError(ErrorCode::kBadValue, "there is no shared session " + quote(name) + ";" +
                                                did_you_mean(name, names) + " shared lists them");
 }

@@ -170,6 +170,46 @@ TEST_CASE("What ends a run early is handed on, and what is finished is in the ta
   CHECK(files_of(whole) == files_of(folder));
 }
 
+TEST_CASE("A folder with files of its user is refused, and its files stay") {
+  for (const std::string name :
+       {"results.csv", "curves.csv", "times.csv", "units/x", "logs/x", "games/x", "work/thesis"}) {
+    INFO(name);
+    const Scratch place;
+    const ResultsFolder folder(place.path("results"));
+    const fs::path file = folder.root() + '/' + name;
+    fs::create_directories(file.parent_path());
+    write(file.string(), "mine");
+    CHECK_THROWS_WITH(run(bound_plan(kPlan), folder), Catch::Contains("has no plan.toml, but ") &&
+                                                          Catch::EndsWith("; choose another folder"));
+    CHECK(contents(file.string()) == "mine");
+    CHECK_FALSE(fs::exists(folder.plan()));
+  }
+}
+
+TEST_CASE("A file of another program in the folder of work stays") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan = bound_plan(kPlan);
+  run(plan, folder);
+  CHECK_FALSE(fs::exists(folder.work()));
+  fs::create_directories(folder.work());
+  write(folder.work() + "/notes", "mine");
+  run(plan, folder);
+  CHECK(contents(folder.work() + "/notes") == "mine");
+}
+
+TEST_CASE("Results whose units are gone are refused, and stay") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan = bound_plan(kPlan);
+  run(plan, folder);
+  const std::string before = contents(folder.results());
+  fs::remove(folder.unit("beamfall-basic-1", "results"));
+  CHECK_THROWS_WITH(run(plan, folder),
+                    Catch::Contains(" has 40 rows, and ") && Catch::Contains(" has 38 of them"));
+  CHECK(contents(folder.results()) == before);
+}
+
 TEST_CASE("A folder that cannot be made is named") {
   const Scratch place;
   write(place.path("file"), "");
