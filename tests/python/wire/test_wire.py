@@ -1,6 +1,7 @@
 """AtariEnv(server=...) plays what AtariEnv plays, and a server that goes away is an exception."""
 
 import contextlib
+import gc
 import os
 import pathlib
 import pickle
@@ -220,6 +221,27 @@ class Sessions(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "a request is one line"):
                 session.load("beamfall\nquit")
             self.assertEqual(session.load("beamfall")["game"], "beamfall")
+
+    def test_a_session_ends_with_the_last_reference_to_it(self):
+        def held():
+            children = pathlib.Path(f"/proc/self/task/{os.getpid()}/children").read_text().split()
+            return children, len(os.listdir("/proc/self/fd"))
+        gc.collect()
+        before = held()
+        for _ in range(3):
+            racebeam.launch().load("beamfall")
+        gc.collect()
+        self.assertEqual(held(), before)
+
+    def test_a_session_may_be_left_to_the_end_of_python(self):
+        script = "import racebeam; session = racebeam.launch(); session.load('beamfall')"
+        done = subprocess.run([sys.executable, "-X", "dev", "-c", script], capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_program_that_refuses_its_arguments_is_a_ConnectionError(self):
+        for options in (("--nope",), ("--classic", "--rom", "builtin:beamfall")):
+            with self.assertRaisesRegex(ConnectionError, f"does not serve: .* serve --stdio .*{options[0]}"):
+                racebeam.launch(*options)
 
     def test_the_file_can_be_copied_alone(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -98,11 +98,6 @@ class RemoteInterface:
         """Ends the session."""
         self.session.close_connection()
 
-    def __del__(self) -> None:
-        session = self.__dict__.get("session")  # there is none where connect() failed
-        if session is not None:
-            session.close_connection()
-
     # The game
 
     def _settings(self) -> dict[str, object]:
