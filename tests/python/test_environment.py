@@ -308,14 +308,16 @@ class BadInput(unittest.TestCase):
         self.assertEqual(env.clone_state().serialize(), whole)
 
 
+@unittest.skipIf(importlib.util.find_spec("pygame") is None, "there is no pygame")
 class Window(unittest.TestCase):
     """By SDL's driver that shows nothing; under a display, set SDL_VIDEODRIVER."""
 
+    def check(self, script, *said, **variables):
+        """What a script says at last."""
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env={**os.environ, **variables})
+        self.assertEqual((done.returncode, done.stdout.split()[-len(said):]), (0, [*said]), done.stderr)
+
     def test_a_person_sees_each_frame(self):
-        try:
-            import pygame  # noqa: F401
-        except ModuleNotFoundError:
-            self.skipTest("there is no pygame")
         script = ("import racebeam, time\n"
                   "env = racebeam.AtariEnv('beamfall', render_mode='human')\n"
                   "quiet = racebeam.AtariEnv('beamfall')\n"
@@ -330,8 +332,32 @@ class Window(unittest.TestCase):
                   "assert (shown == a[0]).all()\n"
                   "env.close()\n"
                   "print(0.8 < took)")
-        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
-        self.assertEqual((done.returncode, done.stdout.split()[-1:]), (0, ["True"]), done.stderr)
+        self.check(script, "True")
+
+    def test_games_share_the_window_until_each_is_closed(self):
+        self.check("import copy, pygame, racebeam\n"
+                   "def shown(): return pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
+                   "games = [racebeam.AtariEnv(game, render_mode='human', sound=True) for game in ('beamfall', 'updraft')]\n"
+                   "games.append(copy.deepcopy(games[0]))\n"
+                   "for _ in range(2):\n"
+                   "    for game in games:\n"
+                   "        assert (game.reset(seed=1)[0] == shown()).all()\n"
+                   "        print(pygame.display.get_caption()[0])\n"
+                   "for game in games[:2]:\n"
+                   "    game.close()\n"
+                   "assert (games[2].step(1)[0] == shown()).all()\n"
+                   "games[2].close()\n"
+                   "assert not pygame.display.get_init() and not pygame.mixer.get_init()\n"
+                   "games = [racebeam.AtariEnv('beamfall', render_mode='human') for _ in range(2)]\n"
+                   "pygame.quit()  # as another's environment does\n"
+                   "games[0].reset(); del games[0], game; games[0].close()\n"
+                   "assert not pygame.display.get_init()\n",
+                   *("Beamfall", "Updraft", "Beamfall") * 2)
+
+    def test_without_a_display_a_sentence_says_so(self):
+        self.check("import racebeam\n"
+                   "try: racebeam.AtariEnv('beamfall', render_mode='human')\n"
+                   "except racebeam.InvalidInput as error: print('needs a display' in str(error))", "True", SDL_VIDEODRIVER="x11", DISPLAY="")
 
 
 if __name__ == "__main__":

@@ -65,7 +65,8 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     continuous: an action is float32 (radius, angle, fire). A direction is pressed, and fire, where its part is more
         than continuous_action_threshold; the radius is the strength of a paddle. All 18 actions are used.
     max_num_frames_per_episode: the episode is truncated after them; 0: never.
-    render_mode: "human" opens a window, at 60 frames a second; "rgb_array" lets render() return the picture.
+    render_mode: "human" opens a window, at 60 frames a second; "rgb_array" lets render() return the picture. All games of a
+        process share one window, which shows the one that played last.
     preset: of racebeam.presets. It says what frameskip, repeat_action_probability, full_action_space,
         max_num_frames_per_episode, noop_max, life_loss_ends and reward_range are where they are None.
     rules: "ale-0.12", or "fixed". rom: the image, a path or its bytes; None: the one that racebeam.find_image() finds.
@@ -395,7 +396,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self.ale.restoreState(state)
 
     def __getstate__(self) -> dict[str, Any]:
-        """The game as it is. A copy opens a window of its own."""
+        """The game as it is. A copy with render_mode "human" shows itself in the window, too."""
         self._check_open("a copy")
         return {**self.__dict__, "_window": None}
 
