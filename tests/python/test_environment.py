@@ -5,9 +5,12 @@ import importlib.util
 import os
 import pathlib
 import pickle
+import re
 import subprocess
 import sys
+import tempfile
 import unittest
+import unittest.mock
 import warnings
 
 import package
@@ -19,6 +22,7 @@ import numpy as np
 from gymnasium.utils.env_checker import check_env
 
 import racebeam
+from racebeam import images
 
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 if "DISPLAY" not in os.environ:
@@ -216,6 +220,7 @@ class BadInput(unittest.TestCase):
     def test_arguments(self):
         make, wrong = racebeam.AtariEnv, gym.error.Error
         self.refused(racebeam.UnknownGame, "there is no game 'beamfal'; did you mean beamfall", make, "beamfal")
+        self.refused(racebeam.UnknownGame, r"there is no game \[1\]", make, [1])
         self.refused(wrong, "obs_type is 'text'; it takes rgb, grayscale, ram", make, "beamfall", obs_type="text")
         self.refused(wrong, "render_mode is 'ansi'; it takes None, human, rgb_array", make, "beamfall", render_mode="ansi")
         self.refused(wrong, "frameskip has the type float", make, "beamfall", frameskip=4.0)
@@ -237,6 +242,13 @@ class BadInput(unittest.TestCase):
             make("beamfall", **{name: np.int64(4)}).reset(seed=1)
         make("beamfall", frameskip=(np.int64(2), 5), mode=np.int32(0), difficulty=np.int64(1)).reset(seed=1)
         self.refused(racebeam.InvalidInput, "beamfall has no mode for two", make, "beamfall", two_player=True)
+        for arguments, kind in (({"frameskip": 0}, ValueError), ({"frameskip": (3, 3)}, ValueError), ({"frameskip": "x"}, TypeError),
+                                ({"frameskip": (1.0, 2)}, TypeError), ({"reward_range": (2, 1)}, ValueError), ({"server": 3}, TypeError),
+                                ({"reward_range": (0, float("nan"))}, ValueError), ({"reward_range": (1,)}, ValueError),
+                                ({"reward_range": ("a", 1)}, TypeError), ({"reward_range": 5}, TypeError), ({"rom": 5}, TypeError),
+                                ({"two_player": True, "continuous": True}, ValueError)):
+            for also in (wrong, kind):
+                self.refused(also, next(iter(arguments)), make, "beamfall", **arguments)
         for flag in ("two_player", "continuous", "sound", "sound_obs", "life_loss_ends", "full_action_space"):
             self.refused(wrong, f"{flag} is array.*; it takes True or False", make, "beamfall", **{flag: np.ones(2, bool)})
 
@@ -256,6 +268,14 @@ class BadInput(unittest.TestCase):
         good = (HOMEBREW / "beamfall.bin").read_bytes()
         env = racebeam.AtariEnv("beamfall", rom=good)
         self.assertEqual(env.reset(seed=1)[0].tobytes(), racebeam.AtariEnv("beamfall").reset(seed=1)[0].tobytes())
+        for rom in (bytearray(good), memoryview(good), np.frombuffer(good, np.uint8)):
+            env = racebeam.AtariEnv("beamfall", rom=rom)
+            self.assertEqual(pickle.loads(pickle.dumps(env)).reset(seed=1)[0].tobytes(), env.reset(seed=1)[0].tobytes())
+            env.ale.loadROM(rom)
+            self.assertEqual(racebeam.ALEInterface.isSupportedROM(rom), "beamfall")
+        for rom in (5, [1], env):
+            for call in (lambda rom: racebeam.AtariEnv("beamfall", rom=rom), env.ale.loadROM, env.ale.isSupportedROM):
+                self.refused(TypeError, "rom has the type .*; it takes a path, or the bytes of an image", call, rom)
         for rom, sentence in ((b"", "it is empty"), (b"x" * 600000, "larger than the largest image"),
                               ("/nowhere/x.bin", "there is no such file"), ("/dev/zero", "image /dev/zero")):
             self.refused(racebeam.InvalidInput, sentence, racebeam.AtariEnv, "beamfall", rom=rom)
@@ -278,7 +298,6 @@ class BadInput(unittest.TestCase):
     def test_an_image_is_found_by_its_md5(self):
         if "pong" not in package.roms():
             self.skipTest("there is no image of pong")
-        import tempfile
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "something.a26").write_bytes(pathlib.Path(racebeam.find_image("pong")).read_bytes())
             pathlib.Path(folder, "pong.bin").write_bytes(b"no image of pong")
@@ -286,6 +305,33 @@ class BadInput(unittest.TestCase):
             done = subprocess.run([sys.executable, "-c", script], env=dict(os.environ, RACEBEAM_ROMS=folder),
                                   capture_output=True, text=True, check=True)
             self.assertEqual(done.stdout.strip(), str(pathlib.Path(folder, "something.a26")))
+
+    def test_a_file_that_is_overwritten_is_identified_again(self):
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ, RACEBEAM_ROMS=folder):
+            image, game = pathlib.Path(folder, "something.rom"), "updraft"
+            with unittest.mock.patch.object(images, "built_in", frozenset):
+                for name, expected in (("updraft", str(image)), ("beamfall", None), ("updraft", str(image))):
+                    image.write_bytes((HOMEBREW / f"{name}.bin").read_bytes())
+                    self.assertEqual(images.find_all().get(game), expected)
+                    if expected is None:
+                        self.refused(racebeam.MissingImage, "no file with an MD5 of it", racebeam.find_image, game)
+                    else:
+                        self.assertEqual(racebeam.find_image(game), expected)
+
+    def test_what_counts_as_an_image_is_in_the_document(self):
+        told = re.search(r"A file that ends in (.*?) counts", (package.SOURCE / "docs/python.md").read_text().replace("\n", " "))[1]
+        self.assertEqual(told, "`.bin`, `.a26` or `.rom`, also with `.gz` after it,")
+        with tempfile.TemporaryDirectory() as folder:
+            names = ("a.bin", "b.a26", "c.rom", "d.bin.gz", "e.BIN", "f", "g.foo", "h.bin.bak", "i.zip", "sub/j.bin")
+            pathlib.Path(folder, "sub").mkdir()
+            for name in names:
+                pathlib.Path(folder, name).write_bytes(b"x")
+            self.assertEqual(racebeam._core.image_files(folder), [str(pathlib.Path(folder, name)) for name in names[:5]])
+
+    def test_the_games_are_the_callers_own(self):
+        racebeam.games().clear()
+        self.assertEqual(len(racebeam.games()), 110)
+        self.assertEqual(racebeam.games()["beamfall"], "Beamfall")
 
     def test_after_close(self):
         env = racebeam.AtariEnv("beamfall")

@@ -111,6 +111,9 @@ class Environment(unittest.TestCase):
                     racebeam.AtariEnv("beamfall", server=addresses[0], **arguments)
             with self.assertRaises(racebeam.UnknownGame):
                 racebeam.AtariEnv("beamfal", server=addresses[0])
+            good = (package.SOURCE / "games/homebrew/beamfall.bin").read_bytes()
+            for rom in (bytearray(good), memoryview(good)):
+                racebeam.AtariEnv("beamfall", server=addresses[0], rom=rom).ale.loadROM(rom)
             env = racebeam.AtariEnv("beamfall", server=addresses[0])
             with self.assertRaises(IndexError):
                 env.step(18)

@@ -357,8 +357,9 @@ class RemoteInterface:
 
 
 def _bytes_of(rom: Any) -> bytes:
-    if isinstance(rom, (bytes, bytearray)):
-        return bytes(rom)
+    rom = images.given(rom)
+    if isinstance(rom, bytes):
+        return rom
     if str(rom).startswith(images.BUILT_IN):
         raise InvalidInput(f"{rom} is an image of the server's: give the name of its game alone")
     try:
