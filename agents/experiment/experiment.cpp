@@ -68,11 +68,12 @@ bool is_own(const fs::path& file) {
   return name.ends_with(".lock") || name.ends_with(".checkpoint") || name.ends_with(".checkpoint.part");
 }
 
-// A file of the user's that has the name of one that an experiment writes; empty if there is none.
+// A file of the user's that has the name of one that an experiment writes; empty if there is none. The files
+// of games may be there before: they are checked, and read.
 fs::path foreign_file(const ResultsFolder& folder) {
   std::error_code none;
   for (const std::string& path :
-       {folder.results(), folder.curves(), folder.times(), folder.units(), folder.logs(), folder.facts()})
+       {folder.results(), folder.curves(), folder.times(), folder.units(), folder.logs()})
     if (fs::exists(fs::symlink_status(path, none))) return path;
   if (fs::is_symlink(folder.work(), none)) return folder.work();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.work(), none))

@@ -45,10 +45,15 @@ std::string encoded(std::span<const std::uint8_t> rgb, const std::string& path) 
 void write_png(const std::string& path, std::span<const std::uint8_t> rgb) {
   const std::string bytes = encoded(rgb, path);
   std::error_code none;
-  if (!std::filesystem::exists(path, none) || std::filesystem::is_regular_file(path, none))
-    return replace_file(path, bytes, Durable::kLater);
-  if (!(std::ofstream(path, std::ios::binary) << bytes << std::flush))
+  if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none)) {
+    if (std::ofstream(path, std::ios::binary) << bytes << std::flush) return;
     throw std::runtime_error("cannot write '" + path + "'");
+  }
+  try {
+    replace_file(path, bytes, Durable::kLater);
+  } catch (const std::exception& error) {
+    throw std::runtime_error("cannot write '" + path + "': " + error.what());
+  }
 }
 
 }  // namespace racebeam

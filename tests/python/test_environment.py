@@ -5,9 +5,12 @@ import importlib.util
 import os
 import pathlib
 import pickle
+import re
 import subprocess
 import sys
+import tempfile
 import unittest
+import unittest.mock
 import warnings
 
 import package
@@ -19,6 +22,7 @@ import numpy as np
 from gymnasium.utils.env_checker import check_env
 
 import racebeam
+from racebeam import images
 
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 if "DISPLAY" not in os.environ:
@@ -223,6 +227,7 @@ class BadInput(unittest.TestCase):
     def test_arguments(self):
         make, wrong = racebeam.AtariEnv, gym.error.Error
         self.refused(racebeam.UnknownGame, "there is no game 'beamfal'; did you mean beamfall", make, "beamfal")
+        self.refused(racebeam.UnknownGame, r"there is no game \[1\]", make, [1])
         self.refused(wrong, "obs_type is 'text'; it takes rgb, grayscale, ram", make, "beamfall", obs_type="text")
         self.refused(wrong, "render_mode is 'ansi'; it takes None, human, rgb_array", make, "beamfall", render_mode="ansi")
         self.refused(wrong, "frameskip has the type float", make, "beamfall", frameskip=4.0)
@@ -244,6 +249,13 @@ class BadInput(unittest.TestCase):
             make("beamfall", **{name: np.int64(4)}).reset(seed=1)
         make("beamfall", frameskip=(np.int64(2), 5), mode=np.int32(0), difficulty=np.int64(1)).reset(seed=1)
         self.refused(racebeam.InvalidInput, "beamfall has no mode for two", make, "beamfall", two_player=True)
+        for arguments, kind in (({"frameskip": 0}, ValueError), ({"frameskip": (3, 3)}, ValueError), ({"frameskip": "x"}, TypeError),
+                                ({"frameskip": (1.0, 2)}, TypeError), ({"reward_range": (2, 1)}, ValueError), ({"server": 3}, TypeError),
+                                ({"reward_range": (0, float("nan"))}, ValueError), ({"reward_range": (1,)}, ValueError),
+                                ({"reward_range": ("a", 1)}, TypeError), ({"reward_range": 5}, TypeError), ({"rom": 5}, TypeError),
+                                ({"two_player": True, "continuous": True}, ValueError)):
+            for also in (wrong, kind):
+                self.refused(also, next(iter(arguments)), make, "beamfall", **arguments)
         for flag in ("two_player", "continuous", "sound", "sound_obs", "life_loss_ends", "full_action_space"):
             self.refused(wrong, f"{flag} is array.*; it takes True or False", make, "beamfall", **{flag: np.ones(2, bool)})
 
@@ -263,6 +275,14 @@ class BadInput(unittest.TestCase):
         good = (HOMEBREW / "beamfall.bin").read_bytes()
         env = racebeam.AtariEnv("beamfall", rom=good)
         self.assertEqual(env.reset(seed=1)[0].tobytes(), racebeam.AtariEnv("beamfall").reset(seed=1)[0].tobytes())
+        for rom in (bytearray(good), memoryview(good), np.frombuffer(good, np.uint8)):
+            env = racebeam.AtariEnv("beamfall", rom=rom)
+            self.assertEqual(pickle.loads(pickle.dumps(env)).reset(seed=1)[0].tobytes(), env.reset(seed=1)[0].tobytes())
+            env.ale.loadROM(rom)
+            self.assertEqual(racebeam.ALEInterface.isSupportedROM(rom), "beamfall")
+        for rom in (5, [1], env):
+            for call in (lambda rom: racebeam.AtariEnv("beamfall", rom=rom), env.ale.loadROM, env.ale.isSupportedROM):
+                self.refused(TypeError, "rom has the type .*; it takes a path, or the bytes of an image", call, rom)
         for rom, sentence in ((b"", "it is empty"), (b"x" * 600000, "larger than the largest image"),
                               ("/nowhere/x.bin", "there is no such file"), ("/dev/zero", "image /dev/zero")):
             self.refused(racebeam.InvalidInput, sentence, racebeam.AtariEnv, "beamfall", rom=rom)
@@ -285,7 +305,6 @@ class BadInput(unittest.TestCase):
     def test_an_image_is_found_by_its_md5(self):
         if "pong" not in package.roms():
             self.skipTest("there is no image of pong")
-        import tempfile
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "something.a26").write_bytes(pathlib.Path(racebeam.find_image("pong")).read_bytes())
             pathlib.Path(folder, "pong.bin").write_bytes(b"no image of pong")
@@ -293,6 +312,33 @@ class BadInput(unittest.TestCase):
             done = subprocess.run([sys.executable, "-c", script], env=dict(os.environ, RACEBEAM_ROMS=folder),
                                   capture_output=True, text=True, check=True)
             self.assertEqual(done.stdout.strip(), str(pathlib.Path(folder, "something.a26")))
+
+    def test_a_file_that_is_overwritten_is_identified_again(self):
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ, RACEBEAM_ROMS=folder):
+            image, game = pathlib.Path(folder, "something.rom"), "updraft"
+            with unittest.mock.patch.object(images, "built_in", frozenset):
+                for name, expected in (("updraft", str(image)), ("beamfall", None), ("updraft", str(image))):
+                    image.write_bytes((HOMEBREW / f"{name}.bin").read_bytes())
+                    self.assertEqual(images.find_all().get(game), expected)
+                    if expected is None:
+                        self.refused(racebeam.MissingImage, "no file with an MD5 of it", racebeam.find_image, game)
+                    else:
+                        self.assertEqual(racebeam.find_image(game), expected)
+
+    def test_what_counts_as_an_image_is_in_the_document(self):
+        told = re.search(r"A file that ends in (.*?) counts", (package.SOURCE / "docs/python.md").read_text().replace("\n", " "))[1]
+        self.assertEqual(told, "`.bin`, `.a26` or `.rom`, also with `.gz` after it,")
+        with tempfile.TemporaryDirectory() as folder:
+            names = ("a.bin", "b.a26", "c.rom", "d.bin.gz", "e.BIN", "f", "g.foo", "h.bin.bak", "i.zip", "sub/j.bin")
+            pathlib.Path(folder, "sub").mkdir()
+            for name in names:
+                pathlib.Path(folder, name).write_bytes(b"x")
+            self.assertEqual(racebeam._core.image_files(folder), [str(pathlib.Path(folder, name)) for name in names[:5]])
+
+    def test_the_games_are_the_callers_own(self):
+        racebeam.games().clear()
+        self.assertEqual(len(racebeam.games()), 110)
+        self.assertEqual(racebeam.games()["beamfall"], "Beamfall")
 
     def test_after_close(self):
         env = racebeam.AtariEnv("beamfall")
@@ -315,14 +361,16 @@ class BadInput(unittest.TestCase):
         self.assertEqual(env.clone_state().serialize(), whole)
 
 
+@unittest.skipIf(importlib.util.find_spec("pygame") is None, "there is no pygame")
 class Window(unittest.TestCase):
     """By SDL's driver that shows nothing; under a display, set SDL_VIDEODRIVER."""
 
+    def check(self, script, *said, **variables):
+        """What a script says at last."""
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env={**os.environ, **variables})
+        self.assertEqual((done.returncode, done.stdout.split()[-len(said):]), (0, [*said]), done.stderr)
+
     def test_a_person_sees_each_frame(self):
-        try:
-            import pygame  # noqa: F401
-        except ModuleNotFoundError:
-            self.skipTest("there is no pygame")
         script = ("import racebeam, time\n"
                   "env = racebeam.AtariEnv('beamfall', render_mode='human')\n"
                   "quiet = racebeam.AtariEnv('beamfall')\n"
@@ -337,8 +385,32 @@ class Window(unittest.TestCase):
                   "assert (shown == a[0]).all()\n"
                   "env.close()\n"
                   "print(0.8 < took)")
-        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
-        self.assertEqual((done.returncode, done.stdout.split()[-1:]), (0, ["True"]), done.stderr)
+        self.check(script, "True")
+
+    def test_games_share_the_window_until_each_is_closed(self):
+        self.check("import copy, pygame, racebeam\n"
+                   "def shown(): return pygame.surfarray.array3d(pygame.display.get_surface())[::4, ::2].swapaxes(0, 1)\n"
+                   "games = [racebeam.AtariEnv(game, render_mode='human', sound=True) for game in ('beamfall', 'updraft')]\n"
+                   "games.append(copy.deepcopy(games[0]))\n"
+                   "for _ in range(2):\n"
+                   "    for game in games:\n"
+                   "        assert (game.reset(seed=1)[0] == shown()).all()\n"
+                   "        print(pygame.display.get_caption()[0])\n"
+                   "for game in games[:2]:\n"
+                   "    game.close()\n"
+                   "assert (games[2].step(1)[0] == shown()).all()\n"
+                   "games[2].close()\n"
+                   "assert not pygame.display.get_init() and not pygame.mixer.get_init()\n"
+                   "games = [racebeam.AtariEnv('beamfall', render_mode='human') for _ in range(2)]\n"
+                   "pygame.quit()  # as another's environment does\n"
+                   "games[0].reset(); del games[0], game; games[0].close()\n"
+                   "assert not pygame.display.get_init()\n",
+                   *("Beamfall", "Updraft", "Beamfall") * 2)
+
+    def test_without_a_display_a_sentence_says_so(self):
+        self.check("import racebeam\n"
+                   "try: racebeam.AtariEnv('beamfall', render_mode='human')\n"
+                   "except racebeam.InvalidInput as error: print('needs a display' in str(error))", "True", SDL_VIDEODRIVER="x11", DISPLAY="")
 
 
 if __name__ == "__main__":

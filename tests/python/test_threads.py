@@ -44,7 +44,7 @@ class Threads(unittest.TestCase):
     def test_two_threads_of_one_game_take_turns(self):
         ale, failures = loaded(), []
         everything = (lambda: ale.act(1), ale.getScreenRGB, ale.getRAM, lambda: ale.cloneState(True).serialize(), ale.reset_game,
-                      lambda: ale.restoreState(ale.cloneState()), lambda: ale.loadROM("builtin:updraft"), ale.getMinimalActionSet)
+                      lambda: ale.restoreState(ale.cloneState()), lambda: ale.loadROM("builtin:beamfall"), ale.getMinimalActionSet)
 
         def work(seed):
             try:

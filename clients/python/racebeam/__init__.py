@@ -20,7 +20,7 @@ from .wire.client import Refused, Session, connect, launch
 from .errors import InvalidInput, MissingImage, UnknownGame
 from .images import find as find_image
 from .images import find_all as find_images
-from .images import titles as games
+from .images import games
 from .interface import ALEInterface
 
 if TYPE_CHECKING:

@@ -11,6 +11,8 @@ from typing import Any, TypeVar
 
 from gymnasium import error
 
+from . import images
+
 Member = TypeVar("Member", bound=enum.Enum)
 MOST = 2**31 - 1
 
@@ -83,6 +85,14 @@ def real(name: str, value: Any) -> float:
     if math.isnan(number):
         raise WrongValue(f"{name} is {value!r}; it takes a number")
     return number
+
+
+def image(value: Any) -> images.Rom | None:
+    """A path or bytes, or None."""
+    try:
+        return None if value is None else images.given(value)
+    except TypeError as wrong:
+        raise WrongType(*wrong.args) from None
 
 
 def seconds(name: str, value: Any) -> float | None:

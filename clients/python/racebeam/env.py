@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import numbers
 import operator
-import os
 from typing import Any, Literal, TypedDict, Union
 
 import gymnasium
@@ -16,7 +14,8 @@ from gymnasium.utils import seeding
 
 from . import images
 from ._core import Action, ALEState, View
-from .arguments import MOST, check_choice, either, flag, listed, real, seconds, share, whole
+from .arguments import (MOST, WrongType, WrongValue, check_choice, either, flag, image, listed, real, seconds, share,
+                        whole)
 from .errors import InvalidInput
 from .interface import ALEInterface
 from .presets import preset as preset_of
@@ -26,7 +25,7 @@ from .wire.remote import RemoteInterface
 Pixels = npt.NDArray[np.uint8]
 Observation = Union[Pixels, dict[str, Pixels]]
 PlayerAction = Any  # an index, a pair of them, or (radius, angle, fire)
-Rom = Union[str, os.PathLike[str], bytes]
+Rom = Union[images.Rom, bytearray, memoryview]
 Played = tuple[Any, float, float, bool, bool, int, int, int]  # what ALEInterface.step() returns
 
 VIEWS = {"rgb": View.RGB, "grayscale": View.GRAYSCALE, "ram": View.RAM}
@@ -65,10 +64,12 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     continuous: an action is float32 (radius, angle, fire). A direction is pressed, and fire, where its part is more
         than continuous_action_threshold; the radius is the strength of a paddle. All 18 actions are used.
     max_num_frames_per_episode: the episode is truncated after them; 0: never.
-    render_mode: "human" opens a window, at 60 frames a second; "rgb_array" lets render() return the picture.
+    render_mode: "human" opens a window, at 60 frames a second; "rgb_array" lets render() return the picture. All games of a
+        process share one window, which shows the one that played last.
     preset: of racebeam.presets. It says what frameskip, repeat_action_probability, full_action_space,
         max_num_frames_per_episode, noop_max, life_loss_ends and reward_range are where they are None.
-    rules: "ale-0.12", or "fixed". rom: the image, a path or its bytes; None: the one that racebeam.find_image() finds.
+    rules: "ale-0.12", or "fixed". rom: the image, a path or its bytes, of any type that holds bytes; None: the one that
+        racebeam.find_image() finds.
     two_player: an action is a pair, for A and B; info has reward_a, which is also the reward, and reward_b.
     noop_max: an episode begins with 0 to noop_max - 1 frames of NOOP, drawn from np_random.
     life_loss_ends: a lost life truncates the episode.
@@ -121,8 +122,8 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         check_choice("render_mode", render_mode, RENDER_MODES)
         two_player, continuous = flag("two_player", two_player), flag("continuous", continuous)
         if two_player and continuous:
-            raise error.Error("two_player and continuous are both True; a game for two takes indices of actions alone")
-        self._game, self._rom = game, rom
+            raise WrongValue("two_player and continuous are both True; a game for two takes indices of actions alone")
+        self._game, self._rom = game, image(rom)
         self._game_mode, self._game_difficulty = _optional("mode", mode), _optional("difficulty", difficulty)
         self._obs_type, self._view = obs_type, VIEWS[obs_type]
         self._frameskip = _frameskip(either(frameskip, usual.frameskip))
@@ -153,7 +154,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         if server is None:
             return self._local_interface()
         if not isinstance(server, str):
-            raise error.Error(f"server is {server!r}; it takes the address of one server")
+            raise WrongType(f"server is {server!r}; it takes the address of one server")
         return RemoteInterface(server, token, timeout)
 
     def _set_keys(self, rules: str, sticky: float, limit: int | None, life_loss_ends: bool) -> None:
@@ -402,7 +403,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self.ale.restoreState(state)
 
     def __getstate__(self) -> dict[str, Any]:
-        """The game as it is. A copy opens a window of its own."""
+        """The game as it is. A copy with render_mode "human" shows itself in the window, too."""
         self._check_open("a copy")
         return {**self.__dict__, "_window": None}
 
@@ -464,17 +465,20 @@ def _frameskip(given: Any) -> int | tuple[int, int]:
     """Checked, in Python's own ints."""
     accepted = f"it takes an int from 1 to {MOST}, or a tuple (low, high) of such ints with low < high"
     if not isinstance(given, tuple) and not _is_whole(given):
-        raise error.Error(f"frameskip has the type {type(given).__name__}; {accepted}")
+        raise WrongType(f"frameskip has the type {type(given).__name__}; {accepted}")
     ends = given if isinstance(given, tuple) else (given, MOST + 1)
-    if not (len(ends) == 2 and all(map(_is_whole, ends)) and 0 < ends[0] < ends[1] <= MOST + (ends is not given)):
-        raise error.Error(f"frameskip is {given}; {accepted}")
+    if not all(map(_is_whole, ends)):
+        raise WrongType(f"frameskip is {given}; {accepted}")
+    if not (len(ends) == 2 and 0 < ends[0] < ends[1] <= MOST + (ends is not given)):
+        raise WrongValue(f"frameskip is {given}; {accepted}")
     return (int(ends[0]), int(ends[1])) if ends is given else int(given)
 
 
 def _check_reward_range(reward_range: object) -> None:
     if reward_range is None:
         return
-    ends = reward_range if isinstance(reward_range, (tuple, list)) else ()
-    are_numbers = len(ends) == 2 and all(isinstance(end, numbers.Real) and not math.isnan(end) for end in ends)
-    if not are_numbers or ends[0] > ends[1]:
-        raise error.Error(f"reward_range is {reward_range!r}; it takes None, or two numbers (low, high), low <= high")
+    sentence = f"reward_range is {reward_range!r}; it takes None, or two numbers (low, high), low <= high"
+    if not isinstance(reward_range, (tuple, list)) or not all(isinstance(end, numbers.Real) for end in reward_range):
+        raise WrongType(sentence)
+    if len(reward_range) != 2 or not reward_range[0] <= reward_range[1]:  # as with NaN
+        raise WrongValue(sentence)

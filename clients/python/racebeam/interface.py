@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _core
+from . import _core, images
 
 
 def _chunk(name: bytes, data: bytes) -> bytes:
@@ -28,6 +28,16 @@ def png(rgb: np.ndarray[Any, np.dtype[np.uint8]]) -> bytes:
 
 class ALEInterface(_core.ALEInterface):
     """A game in this process, with the methods of ale_py.ALEInterface and some more."""
+
+    def loadROM(self, rom: Any, game: str | None = None) -> None:
+        """Powers the machine on. rom: a path, builtin:NAME, or the bytes of an image. game: whose rule it has; None: the
+        image decides."""
+        super().loadROM(images.given(rom), game)
+
+    @staticmethod
+    def isSupportedROM(rom: Any) -> str | None:
+        """The name of the image's game, or None."""
+        return _core.ALEInterface.isSupportedROM(images.given(rom))
 
     def saveScreenPNG(self, path: str | os.PathLike[str]) -> None:
         """Writes the screen as a PNG file, in which each pixel is doubled in width. Raises OSError."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import weakref
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+from .errors import InvalidInput
 
 FRAMES_A_SECOND = 60
 SAMPLES_A_FRAME = 512
@@ -13,7 +16,11 @@ SCALE = 2  # of a pixel, which is twice as wide as it is high
 
 
 class Window:
-    """One game's. Raises ImportError, with what to install, where there is no pygame."""
+    """One game's. pygame has one window in a process: all games share it, and it shows the game that played last. It is gone when
+    each of them was closed. Raises ImportError, with what to install, where there is no pygame, and InvalidInput without a display.
+    """
+
+    _open: weakref.WeakSet[Window] = weakref.WeakSet()
 
     def __init__(self, title: str, width: int, height: int, sound: bool) -> None:
         try:
@@ -21,12 +28,23 @@ class Window:
         except ModuleNotFoundError as missing:
             raise ImportError('render_mode "human" needs pygame; install it with: pip install "racebeam[human]"') from missing
         self._pygame: Any = pygame
-        self._size = (2 * SCALE * width, SCALE * height)
-        pygame.display.init()
-        pygame.display.set_caption(title)
-        self._screen = pygame.display.set_mode(self._size)
+        self._title, self._size = title, (2 * SCALE * width, SCALE * height)
+        self._surface()
         self._clock = pygame.time.Clock()
         self._channel = self._open_sound() if sound else None
+        self._open.add(self)
+
+    def _surface(self) -> Any:
+        """That of the window, in the size of this game. Whatever else uses pygame may have closed it, or changed its size."""
+        display = self._pygame.display
+        try:
+            display.init()
+            if display.get_caption()[:1] != (self._title,):
+                display.set_caption(self._title)
+            surface = display.get_surface()
+            return surface if surface and surface.get_size() == self._size else display.set_mode(self._size)
+        except self._pygame.error as error:
+            raise InvalidInput(f"render_mode is 'human', which needs a display: {error}; it takes None or 'rgb_array' here") from error
 
     def _open_sound(self) -> Any:
         """None where the computer has no sound."""
@@ -40,7 +58,7 @@ class Window:
     def show(self, rgb: npt.NDArray[np.uint8]) -> None:
         """A picture, height x width x 3."""
         picture = self._pygame.surfarray.make_surface(rgb.swapaxes(0, 1))
-        self._pygame.transform.scale(picture, self._size, self._screen)
+        self._pygame.transform.scale(picture, self._size, self._surface())
         self._pygame.event.pump()
         self._pygame.display.flip()
 
@@ -54,7 +72,9 @@ class Window:
         self._clock.tick(FRAMES_A_SECOND)
 
     def close(self) -> None:
-        """Once; the window is gone then."""
-        if self._channel is not None:
+        """Once."""
+        self._open.discard(self)
+        if self._channel is not None and all(other._channel is None for other in self._open):
             self._pygame.mixer.quit()
-        self._pygame.display.quit()
+        if not self._open:
+            self._pygame.display.quit()

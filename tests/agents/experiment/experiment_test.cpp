@@ -172,7 +172,7 @@ TEST_CASE("What ends a run early is handed on, and what is finished is in the ta
 
 TEST_CASE("A folder with files of its user is refused, and its files stay") {
   for (const std::string name :
-       {"results.csv", "curves.csv", "times.csv", "units/x", "logs/x", "games/x", "work/thesis"}) {
+       {"results.csv", "curves.csv", "times.csv", "units/x", "logs/x", "work/thesis"}) {
     INFO(name);
     const Scratch place;
     const ResultsFolder folder(place.path("results"));

@@ -1,7 +1,9 @@
 """Sessions for asyncio answer what sessions answer, in order, and end with an error that says why."""
 
 import asyncio
+import gc
 import os
+import pathlib
 import sys
 import unittest
 import unittest.mock
@@ -21,6 +23,10 @@ FIELDS = ("reward", "ends", "screen:delta", "grey84x4:raw", "ram:raw")
 
 def plain(values):
     return [{key: value.tolist() if hasattr(value, "tolist") else value for key, value in group.items()} for group in values]
+
+
+def children():
+    return pathlib.Path(f"/proc/self/task/{os.getpid()}/children").read_text().split()
 
 
 class Sessions(unittest.IsolatedAsyncioTestCase):
@@ -45,6 +51,16 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
         good, bad, after = await asyncio.gather(*(self.session.request("act", action) for action in (1, 99, 1)), return_exceptions=True)
         self.assertEqual((bad.code, set(good[0])), ("bad-action", set(after[0])))
 
+    async def test_help_is_a_text(self):
+        with racebeam.launch() as other:
+            for words in ((), ("act",)):
+                self.assertEqual(await self.session.help(*words), other.help(*words))
+            with self.assertRaisesRegex(racebeam.Refused, "there is no help on 'bogus'"):
+                other.help("bogus")
+        bad, after = await asyncio.gather(self.session.help("bogus"), self.session.request("act", 1), return_exceptions=True)
+        self.assertEqual(bad.code, "bad-arguments")
+        self.assertIn("reward", after[0])
+
     async def test_a_request_that_is_cancelled_leaves_the_others(self):
         given_up, kept = (asyncio.create_task(self.session.request("act", action)) for action in ("0*3000", "1"))
         await asyncio.sleep(0)
@@ -59,6 +75,18 @@ class Sessions(unittest.IsolatedAsyncioTestCase):
         for _ in range(2):
             with self.assertRaisesRegex(ConnectionError, "was interrupted between a request and the end of its reply"):
                 await self.session.request("act", 1)
+
+    async def test_it_ends_with_the_last_reference_to_it(self):
+        before = children(), len(os.listdir("/proc/self/fd"))
+        for _ in range(3):
+            session = await aio.launch()
+            await session.request(*LOAD)
+            del session
+        gc.collect()
+        until = asyncio.get_running_loop().time() + 60
+        while (now := (children(), len(os.listdir("/proc/self/fd")))) != before and asyncio.get_running_loop().time() < until:
+            await asyncio.sleep(0.01)
+        self.assertEqual(now, before)
 
     async def test_it_ends(self):
         waiting = asyncio.create_task(self.session.request("act", "0*10000"))
@@ -128,6 +156,10 @@ class Ends(unittest.IsolatedAsyncioTestCase):
         async with await asyncio.start_server(mute, "127.0.0.1", 0) as server:
             with self.assertRaises(TimeoutError):
                 await aio.connect(f"tcp://127.0.0.1:{server.sockets[0].getsockname()[1]}", timeout=0.2)
+
+    async def test_a_program_that_refuses_its_arguments_is_a_ConnectionError(self):
+        with self.assertRaisesRegex(ConnectionError, "does not serve: .* serve --stdio .*--nope"):
+            await aio.launch("--nope")
 
     async def test_a_session_is_opened_again_only_by_connect(self):
         async with await aio.launch() as session:

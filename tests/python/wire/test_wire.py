@@ -1,6 +1,7 @@
 """AtariEnv(server=...) plays what AtariEnv plays, and a server that goes away is an exception."""
 
 import contextlib
+import gc
 import os
 import pathlib
 import pickle
@@ -11,6 +12,7 @@ import tempfile
 import threading
 import time
 import unittest
+import zlib
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import package
@@ -109,11 +111,55 @@ class Environment(unittest.TestCase):
                     racebeam.AtariEnv("beamfall", server=addresses[0], **arguments)
             with self.assertRaises(racebeam.UnknownGame):
                 racebeam.AtariEnv("beamfal", server=addresses[0])
+            good = (package.SOURCE / "games/homebrew/beamfall.bin").read_bytes()
+            for rom in (bytearray(good), memoryview(good)):
+                racebeam.AtariEnv("beamfall", server=addresses[0], rom=rom).ale.loadROM(rom)
             env = racebeam.AtariEnv("beamfall", server=addresses[0])
             with self.assertRaises(IndexError):
                 env.step(18)
             for state in (None, b"", {}, np.zeros(3)):
                 self.assertRaisesRegex(TypeError, "it takes an ALEState", env.restore_state, state)
+
+    def test_the_interface_takes_and_refuses_what_that_of_a_game_here_does(self):
+        wrong = ("x", None, 1.5, -1, 2**40, True, np.int64(0), np.bool_(True), [0])
+        names = ("setMode", "setDifficulty", "act", "cloneState", "game_over", "restoreState")
+        calls = [(name, (value,)) for value in wrong for name in names]
+        calls += [("setRAM", (1, value)) for value in wrong]
+        calls += [("setRAM", words) for words in ((1, 255), (1, 256), (128, 0), (True, 1), ("x", 1))]
+        calls += [("act", words) for words in ((racebeam.Action.FIRE,), (18,), (1, True), (1, "x"), (1, float("nan")))]
+        calls += [("saveScreenPNG", (5,))]
+        usual = [1, 1.0, 1, 2, 18, 0.0]
+        calls += [("step", (*usual[:at], value, *usual[at + 1:])) for at in (0, 3, 4) for value in wrong]
+        calls += [("step", words) for words in ((1, "x", 1, 2), (1, 1.0, "x", 2), (1, 1.0, 1, 2, 18, "x"), (1, True, 1, 2))]
+        shapes = {"getScreen": (210, 160), "getScreenRGB": (210, 160, 3), "getRAM": (128,), "getAudio": (512,)}
+        for name, shape in shapes.items():
+            count = int(np.prod(shape))
+            buffers = [np.zeros(shape, kind) for kind in (np.uint8, np.int8, np.int32, np.float64)]
+            buffers += [np.frombuffer(bytes(count), np.uint8).reshape(shape), np.zeros((*shape, 2), np.uint8)[..., 0]]
+            buffers += [np.zeros((2, 2), np.uint8)]
+            calls += [(name, (buffer,)) for buffer in (*buffers, bytearray(count), bytearray(1), [0], "x", None)]
+
+        def outcome(ale, name, words):
+            try:
+                value = getattr(ale, name)(*words)
+            except Exception as error:
+                return type(error)
+            written = zlib.crc32(bytes(words[0])) if name.startswith("get") else 0
+            return "a state" if isinstance(value, racebeam.ALEState) else str(value), written
+        with server() as (addresses, _):
+            here, there = (racebeam.AtariEnv("beamfall", server=where).ale for where in (None, addresses[0]))
+            for ale in (here, there):
+                ale.setInt("random_seed", 5)
+                ale.loadROM(racebeam.find_image("beamfall") if ale is here else None, "beamfall")
+            self.assertEqual([name for name in dir(here) if not hasattr(there, name)], [])
+            for name, words in calls:
+                with self.subTest(name=name, words=words):
+                    self.assertEqual(outcome(there, name, words), outcome(here, name, words))
+            self.assertEqual(there.state_hash(), here.state_hash())
+            here.act(1)
+            self.assertNotEqual(there.state_hash(), here.state_hash())
+            self.assertEqual(there.isSupportedROM(b"x"), here.isSupportedROM(b"x"))
+            there.setLoggerMode(racebeam.LoggerMode.Error)
 
     def test_a_server_that_dies_is_a_ConnectionError(self):
         with server() as (addresses, process):
@@ -220,6 +266,27 @@ class Sessions(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "a request is one line"):
                 session.load("beamfall\nquit")
             self.assertEqual(session.load("beamfall")["game"], "beamfall")
+
+    def test_a_session_ends_with_the_last_reference_to_it(self):
+        def held():
+            children = pathlib.Path(f"/proc/self/task/{os.getpid()}/children").read_text().split()
+            return children, len(os.listdir("/proc/self/fd"))
+        gc.collect()
+        before = held()
+        for _ in range(3):
+            racebeam.launch().load("beamfall")
+        gc.collect()
+        self.assertEqual(held(), before)
+
+    def test_a_session_may_be_left_to_the_end_of_python(self):
+        script = "import racebeam; session = racebeam.launch(); session.load('beamfall')"
+        done = subprocess.run([sys.executable, "-X", "dev", "-c", script], capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_program_that_refuses_its_arguments_is_a_ConnectionError(self):
+        for options in (("--nope",), ("--classic", "--rom", "builtin:beamfall")):
+            with self.assertRaisesRegex(ConnectionError, f"does not serve: .* serve --stdio .*{options[0]}"):
+                racebeam.launch(*options)
 
     def test_the_file_can_be_copied_alone(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -12,12 +12,15 @@ from __future__ import annotations
 
 import asyncio
 import collections
+import contextlib
 import ssl
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Coroutine
 from typing import IO, Any, cast
 
 from . import client
-from .client import LONGEST_REPLY, Refused, Texts, Values
+from .client import LONGEST_REPLY, Refused, Values
+
+Read = Callable[[str], Coroutine[Any, Any, Any]]  # makes a value of the line of a reply
 
 __all__ = ["AsyncSession", "connect", "launch"]
 
@@ -42,10 +45,13 @@ async def connect(address: str | None = None, *, token: str | None = None, tls: 
 
 async def launch(*options: str, program: str | None = None, arrays: bool = False) -> AsyncSession:
     """As racebeam.launch()."""
-    pipe = asyncio.subprocess.PIPE
-    process = await asyncio.create_subprocess_exec(*client.command_of(program, options), stdin=pipe, stdout=pipe, limit=LONGEST_REPLY)
+    pipe, command = asyncio.subprocess.PIPE, client.command_of(program, options)
+    process = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, limit=LONGEST_REPLY)
     assert process.stdout is not None and process.stdin is not None
-    return await _greeted(AsyncSession(process.stdout, process.stdin, "", LONGEST_REPLY, arrays, process), None)
+    try:
+        return await _greeted(AsyncSession(process.stdout, process.stdin, "", LONGEST_REPLY, arrays, process), None)
+    except ConnectionError as error:
+        raise client.not_serving(command, error) from error
 
 
 async def _greeted(session: AsyncSession, token: str | None) -> AsyncSession:
@@ -59,17 +65,23 @@ async def _greeted(session: AsyncSession, token: str | None) -> AsyncSession:
 
 
 class AsyncSession:
-    """One session. connect() and launch() make them. A request that is cancelled is carried out all the same."""
+    """One session. connect() and launch() make them. A request that is cancelled is carried out all the same. Without the last
+    reference to it, a session ends."""
 
     def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, address: str, longest_reply: int, arrays: bool,
                  process: asyncio.subprocess.Process | None = None, timeout: float | None = None) -> None:
-        self._reader, self._writer, self._process = reader, writer, process
+        self._writer, self._process = writer, process
         self._session = client.Session(cast(IO[bytes], None), cast(IO[bytes], writer), writer.close, arrays)
         self._session.address, self._session.longest_reply = address, longest_reply
-        self._timeout, self._heard = timeout, 0.0  # when the last reply came
+        self._timeout = timeout
         self.again: Callable[[], Awaitable[AsyncSession]] | None = None
-        self._answers: collections.deque[asyncio.Future[list[Values]]] = collections.deque()  # of the requests, in order
-        self._reading = asyncio.create_task(self._read())
+        self._replies = _Replies(reader, self._session)
+        self._reading = asyncio.create_task(self._replies.read())
+
+    def __del__(self) -> None:
+        with contextlib.suppress(Exception):  # where the constructor failed, or the event loop has ended
+            self._session.check_process()
+            self._reading.get_loop().call_soon_threadsafe(self._reading.cancel)  # which ends the session
 
     async def __aenter__(self) -> AsyncSession:
         return self
@@ -84,9 +96,19 @@ class AsyncSession:
     async def request(self, *words: object, **settings: object) -> list[Values]:
         """The groups of the reply, with numbers, and bytes or arrays. Raises Refused; ConnectionError when the server has gone; and
         TimeoutError when nothing came from it for as long as `timeout` of connect() says."""
+        answer: list[Values] = await self._exchange(self._replies.values, *words, **settings)
+        return answer
+
+    async def help(self, *words: str) -> str:
+        """As Session.help()."""
+        text: str = await self._exchange(self._replies.text, "help", *words)
+        return text
+
+    async def _exchange(self, read: Read, *words: object, **settings: object) -> Any:
+        """What `read` makes of the reply to a request."""
         self._session.send(*words, **settings)
-        answer: asyncio.Future[list[Values]] = asyncio.get_running_loop().create_future()
-        self._answers.append(answer)
+        answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
+        self._replies.awaited.append((answer, read))
         if self._timeout is None:
             await self._writer.drain()
             return await answer
@@ -97,12 +119,12 @@ class AsyncSession:
             raise
         return answer.result()
 
-    async def _await_reply(self, answer: asyncio.Future[list[Values]], limit: float) -> None:
+    async def _await_reply(self, answer: asyncio.Future[Any], limit: float) -> None:
         """Returns when it is there. Each reply to an earlier request begins the time anew."""
         clock = asyncio.get_running_loop().time
         begin = clock()
         while not answer.done():
-            left = max(begin, self._heard) + limit - clock()
+            left = max(begin, self._replies.heard) + limit - clock()
             if left <= 0:
                 answer.cancel()
                 raise self._session.lost(TimeoutError())
@@ -123,7 +145,17 @@ class AsyncSession:
         if self._process is not None:
             await self._process.wait()
 
-    async def _read(self) -> None:
+
+class _Replies:
+    """Reads the replies of a session, and gives each to its request. An AsyncSession has one. It does not refer to the AsyncSession,
+    which can end while this waits."""
+
+    def __init__(self, reader: asyncio.StreamReader, session: client.Session) -> None:
+        self._reader, self._session = reader, session
+        self.awaited: collections.deque[tuple[asyncio.Future[Any], Read]] = collections.deque()  # of the requests, in order
+        self.heard = 0.0  # when the last reply came
+
+    async def read(self) -> None:
         """Answers requests until the connection ends; then each that is left gets the error."""
         error: BaseException = ConnectionError("the session was closed")
         try:
@@ -135,29 +167,35 @@ class AsyncSession:
             error = why if isinstance(why, ConnectionError) else self._session.lost(why)
         finally:
             self._session.close_connection()
-            for answer in self._answers:
+            for answer, _ in self.awaited:
                 if not answer.done():
                     answer.set_exception(error)
 
     async def _read_reply(self) -> None:
-        line = await self._reader.readuntil(b"\n")
+        line = (await self._reader.readuntil(b"\n")).decode("latin-1").rstrip("\n")
+        read = self.awaited[0][1] if self.awaited else self.values
         try:
-            reply = self._session.read_line(line.decode("latin-1").rstrip("\n"))
-            values = await self._values(*reply)
+            value = await read(line)
         except Refused as refused:
             self._answer(lambda answer: answer.set_exception(refused))
         else:
-            self._answer(lambda answer: answer.set_result(values))
+            self._answer(lambda answer: answer.set_result(value))
 
-    async def _values(self, words: list[str], groups: list[Texts], count: int) -> list[Values]:
+    async def values(self, line: str) -> list[Values]:
+        """The groups of a reply."""
+        words, groups, count = self._session.read_line(line)
         if count:
             self._session.take_bytes(words, groups, await self._reader.readexactly(count))
         return self._session.all_decoded(words, groups)
 
-    def _answer(self, how: Any) -> None:
+    async def text(self, line: str) -> str:
+        """A reply without its status."""
+        return self._session.read_status(line)[1]
+
+    def _answer(self, how: Callable[[asyncio.Future[Any]], None]) -> None:
         """The oldest request, if it still waits."""
-        self._heard = asyncio.get_running_loop().time()
-        if self._answers and len(self._answers) != len(self._session.unanswered) + 1:  # Ctrl-C came between send() and append()
+        self.heard = asyncio.get_running_loop().time()
+        if self.awaited and len(self.awaited) != len(self._session.unanswered) + 1:  # Ctrl-C came between send() and append()
             raise self._session.lost(ConnectionError("it was interrupted between a request and the end of its reply"))
-        if self._answers and not (oldest := self._answers.popleft()).done():
+        if self.awaited and not (oldest := self.awaited.popleft()[0]).done():
             how(oldest)

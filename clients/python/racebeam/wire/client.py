@@ -23,6 +23,7 @@ import contextlib
 import json
 import os
 import re
+import shlex
 import shutil
 import socket
 import ssl
@@ -134,13 +135,28 @@ def _line_of(words: Iterable[object], settings: Mapping[str, object]) -> str:
 
 
 def launch(*options: str, program: str | None = None, arrays: bool = False) -> Session:
-    """A server of one's own, on standard streams, that ends with the session.
+    """A server of one's own, on standard streams, that ends with the session, or with the last reference to it.
 
     options: those of `racebeam serve`, such as "--roms", DIR. program: the program racebeam; None: the one that was installed
-    with this package, or the one on the PATH. Raises FileNotFoundError where there is none.
+    with this package, or the one on the PATH. Raises FileNotFoundError where there is none, and ConnectionError when it ends
+    instead of serving.
     """
-    racebeam, _, _, *rest = command_of(program, options)
-    return Session.start(racebeam, *rest, arrays=arrays)
+    command = command_of(program, options)
+    racebeam, _, _, *rest = command
+    session = Session.start(racebeam, *rest, arrays=arrays)
+    try:
+        session.check_greeting(session.hello())
+        return session
+    except ConnectionError as error:
+        raise not_serving(command, error) from error
+    except BaseException:
+        session.close_connection()
+        raise
+
+
+def not_serving(command: Iterable[str], error: ConnectionError) -> ConnectionError:
+    """What launch() raises where the program does not greet. A program that refuses its arguments has written why."""
+    return ConnectionError(f"this program does not serve: {shlex.join(command)}; standard error may say why; {error}")
 
 
 def command_of(program: str | None, options: Iterable[str]) -> list[str]:
@@ -429,6 +445,11 @@ class Session:
     def __exit__(self, *_: object) -> None:
         self.close_connection()
 
+    def __del__(self) -> None:
+        """Without the last reference to it, a session ends."""
+        with contextlib.suppress(Exception):  # where the constructor failed, or Python itself is ending
+            self.close_connection()
+
     def close_connection(self) -> None:
         """Ends the session. More than once does nothing; in a child process after a fork, the parent's goes on."""
         self._end("the session was closed")
@@ -527,7 +548,7 @@ class Session:
         return self._uncut(self._receive_plain)
 
     def _receive_plain(self) -> Reply:
-        words, text = self._read_status(self._line())
+        words, text = self.read_status(self._line())
         count = RAW.search(text)
         return Reply(words, text, self._bytes(self._count_of(count[1])) if count else b"")
 
@@ -552,12 +573,12 @@ class Session:
 
     def read_line(self, line: str) -> tuple[list[str], list[Texts], int]:
         """The same, of a reply's line, and how many bytes follow it, which go to take_bytes()."""
-        words, text = self._read_status(line)
+        words, text = self.read_status(line)
         groups = _groups(text)
         self._follow(words, groups[0])
         return words, groups, self._count_of(groups[-1].pop("raw", "0"))
 
-    def _read_status(self, line: str) -> tuple[list[str], str]:
+    def read_status(self, line: str) -> tuple[list[str], str]:
         """The words of the oldest request without a reply, and the reply's text after `ok`. Raises Refused."""
         words = self.unanswered.popleft() if self.unanswered else [""]  # without one, the server says why it ends
         status, _, rest = line.partition(" ")
@@ -736,9 +757,7 @@ class Session:
         return self._exchange(self._help, "help", *words)
 
     def _help(self) -> str:
-        said = self._line().partition(" ")[2]
-        self.unanswered.pop()
-        return said
+        return self.read_status(self._line())[1]
 
     def games(self, *words: str) -> list[str]:
         return self.list_of("games", "games", *words)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 import inspect
 import os
@@ -9,20 +10,20 @@ import pathlib
 import struct
 import threading
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from .. import images
 from .._core import Action, ALEState, View
-from ..arguments import flag
 from ..errors import InvalidInput, MissingImage, UnknownGame
 from ..interface import ALEInterface, png
 from .client import Refused, Session, connect
 
 Pixels = npt.NDArray[np.uint8]
 Kind = TypeVar("Kind")
+Method = TypeVar("Method", bound=Callable[..., Any])
 
 STATE = "racebeam-env"  # the name under which states pass through the session
 STATE_HEAD = struct.Struct("<8s4i")  # what ALEState.serialize() has before the server's bytes
@@ -55,6 +56,18 @@ def _turn(method: Callable[..., Any]) -> Callable[..., Any]:
                     self.session.cut()
                 raise
     return taken
+
+
+def _typed(method: Method) -> Method:
+    """Raises the TypeError of ALEInterface's method. Without a game, that checks types first, and raises InvalidInput then."""
+    @functools.wraps(method)
+    def checked(self: RemoteInterface, *words: Any, **settings: Any) -> Any:
+        try:
+            getattr(self._keys, method.__name__)(*words, **settings)
+        except InvalidInput:
+            pass
+        return method(self, *words, **settings)
+    return cast(Method, checked)
 
 
 @_takes_turns
@@ -98,10 +111,8 @@ class RemoteInterface:
         """Ends the session."""
         self.session.close_connection()
 
-    def __del__(self) -> None:
-        session = self.__dict__.get("session")  # there is none where connect() failed
-        if session is not None:
-            session.close_connection()
+    isSupportedROM = staticmethod(ALEInterface.isSupportedROM)
+    setLoggerMode = staticmethod(ALEInterface.setLoggerMode)
 
     # The game
 
@@ -178,11 +189,13 @@ class RemoteInterface:
     def getDifficulty(self) -> int:
         return int(self.ask(self.session.values, "difficulties")["difficulty"])
 
+    @_typed
     def setMode(self, mode: int) -> None:
-        self.ask(self.session.set, mode=mode)
+        self.ask(self.session.set, mode=int(mode))
 
+    @_typed
     def setDifficulty(self, difficulty: int) -> None:
-        self.ask(self.session.set, difficulty=difficulty)
+        self.ask(self.session.set, difficulty=int(difficulty))
 
     # Playing
 
@@ -191,12 +204,14 @@ class RemoteInterface:
             self.ask(self.session.observe, *ALWAYS, *FIELDS[view])
             self._view = view
 
+    @_typed
     def step(self, action: int, paddle_strength: float, times: int, view: View, action_b: int = 18,
              paddle_strength_b: float = 0.0) -> tuple[Any, float, float, bool, bool, int, int, int]:
         """As ALEInterface's."""
+        view = View(view)
         self._observe(view)
-        word = f"{action}@{paddle_strength:.9g}/{action_b - 18}@{paddle_strength_b:.9g}"
-        shown = self.ask(self.session.act, f"{word}*{times}")
+        word = f"{int(action)}@{float(paddle_strength):.9g}/{int(action_b) - 18}@{float(paddle_strength_b):.9g}"
+        shown = self.ask(self.session.act, f"{word}*{int(times)}")
         self._act_after_the_end(word, times - max(shown["acts"], 1))
         return (self._seen(shown, view), float(shown["reward"]), float(shown["reward_b"]), bool(shown["terminated"]),
                 bool(shown["truncated"]), shown["lives"], shown["episode_frame"], shown["frame"])
@@ -212,6 +227,7 @@ class RemoteInterface:
                 self.session.received()
             acts -= burst
 
+    @_typed
     def act(self, action: int | Action, paddle_strength: float = 1.0) -> int:
         number = action.value if isinstance(action, Action) else action
         return int(self.step(number, paddle_strength, 1, View.NONE)[1])
@@ -229,6 +245,7 @@ class RemoteInterface:
             return screen.copy()
         return self._colours[screen] if view is View.RGB else self._greys[screen]
 
+    @_typed
     def game_over(self, with_truncation: bool = True) -> bool:
         ends = self._look("ends")
         return bool(ends["terminated"] or (with_truncation and ends["truncated"]))
@@ -251,18 +268,23 @@ class RemoteInterface:
         seen: Pixels = self._seen(self._look("ram:hex" if view is View.RAM else "screen:zlib"), view)
         return _given(seen, buffer)
 
+    @_typed
     def getScreen(self, buffer: Pixels | None = None) -> Pixels | None:
         return self._show(View.PALETTE, buffer)
 
+    @_typed
     def getScreenRGB(self, buffer: Pixels | None = None) -> Pixels | None:
         return self._show(View.RGB, buffer)
 
+    @_typed
     def getScreenGrayscale(self, buffer: Pixels | None = None) -> Pixels | None:
         return self._show(View.GRAYSCALE, buffer)
 
+    @_typed
     def getRAM(self, buffer: Pixels | None = None) -> Pixels | None:
         return self._show(View.RAM, buffer)
 
+    @_typed
     def getAudio(self, buffer: Pixels | None = None) -> Pixels | None:
         if not self._keys.getBool("sound_obs"):
             return _given(np.zeros(512, np.uint8), buffer)
@@ -277,9 +299,21 @@ class RemoteInterface:
     def getAudioSize(self) -> int:
         return 512
 
+    @_typed
     def setRAM(self, index: int, value: int) -> None:
-        self.ask(self.session.poke, index, bytes([value]))
+        self.ask(self.session.poke, int(index), bytes([value]))
 
+    def state_hash(self) -> int:
+        """As ALEInterface's, which has it of the state. Raises MissingImage where only the server has the image."""
+        state = self.cloneState(True)
+        assert self._loaded is not None
+        rom, game, _ = self._loaded
+        here = copy.deepcopy(self._keys)
+        here.loadROM(images.find(str(game)) if rom is None else rom, game)
+        here.restoreState(state)
+        return here.state_hash()
+
+    @_typed
     def saveScreenPNG(self, path: str) -> None:
         picture = self.getScreenRGB()
         assert picture is not None
@@ -287,9 +321,10 @@ class RemoteInterface:
 
     # States
 
+    @_typed
     def cloneState(self, include_rng: bool = False) -> ALEState:
         """The state comes here; it can be restored in this process, too."""
-        self.ask(self.session.save, STATE, random=int(flag("include_rng", include_rng)))
+        self.ask(self.session.save, STATE, random=int(include_rng))
         data = self.ask(self.session.export_state, STATE)
         self.ask(self.session.drop, STATE)
         now = self._look("frame", "episode_frame")
@@ -322,8 +357,9 @@ class RemoteInterface:
 
 
 def _bytes_of(rom: Any) -> bytes:
-    if isinstance(rom, (bytes, bytearray)):
-        return bytes(rom)
+    rom = images.given(rom)
+    if isinstance(rom, bytes):
+        return rom
     if str(rom).startswith(images.BUILT_IN):
         raise InvalidInput(f"{rom} is an image of the server's: give the name of its game alone")
     try:
@@ -335,7 +371,8 @@ def _bytes_of(rom: Any) -> bytes:
 def _given(seen: Pixels, buffer: Pixels | None) -> Pixels | None:
     if buffer is None:
         return seen
-    if buffer.shape != seen.shape:
-        raise InvalidInput(f"Invalid shape {buffer.shape}, expecting shape {seen.shape}")
-    buffer[:] = seen
+    room = np.asarray(buffer)  # the same memory, of whatever else holds bytes
+    if room.shape != seen.shape:
+        raise InvalidInput(f"Invalid shape {room.shape}, expecting shape {seen.shape}")
+    room[:] = seen
     return None
