@@ -222,6 +222,12 @@ class Episodes(unittest.TestCase):
 
 
 class States(unittest.TestCase):
+    def test_an_image_is_given_as_bytes_of_any_kind(self):
+        image = (package.SOURCE / "games/homebrew/beamfall.bin").read_bytes()
+        shown = [AtariVectorEnv("beamfall", 1, rom=rom).reset(seed=1)[0] for rom in (image, bytearray(image), memoryview(image))]
+        self.assertTrue(np.array_equal(shown[0], shown[1]) and np.array_equal(shown[0], shown[2]))
+        self.assertRaisesRegex(TypeError, "rom has the type int", AtariVectorEnv, "beamfall", 1, rom=3)
+
     def test_one_environment_goes_back(self):
         envs = AtariVectorEnv("beamfall", 2, repeat_action_probability=0.25, seed=1)
         before = play(envs, 10)[-1][0]

@@ -14,7 +14,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from . import _core, images, xla
-from .arguments import WrongType, WrongValue, either, flag, real, seconds, whole
+from .arguments import WrongType, WrongValue, either, flag, image, real, seconds, whole
 from .errors import InvalidInput
 from .vector_results import Bools, Numbers, Pixels, Results
 from .vector_settings import SEEDS, autoreset_of, settings_of
@@ -149,7 +149,7 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self.continuous = flag("continuous", continuous)
         self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
         self._shows_ram = obs_type == "ram"
-        self._machines: Any = _machines(names, game_of_env, rom, settings, server, token, seconds("timeout", timeout))
+        self._machines: Any = _machines(names, game_of_env, image(rom), settings, server, token, seconds("timeout", timeout))
         self._make_spaces(settings)
         self._received = np.arange(self.num_envs, dtype=np.int32)
         self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
