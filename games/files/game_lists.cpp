@@ -35,6 +35,8 @@ void add_actions(const Section& section, std::string_view key, const toml::node&
       space == text.size() ? 1 : whole_number(std::string_view(text).substr(space + 1));
   if (!action || !count || *count < 1 || *count > kMaxRepeat)
     section.refuse(node, key, "must be actions, \"NAME\" or \"NAME COUNT\", such as \"NOOP 60\"");
+  if (actions.size() + static_cast<std::size_t>(*count) > kMaxRepeat)
+    section.refuse(node, key, "must be " + std::to_string(kMaxRepeat) + " actions at most, in all");
   actions.insert(actions.end(), static_cast<std::size_t>(*count), *action);
 }
 

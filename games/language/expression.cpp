@@ -47,7 +47,8 @@ constexpr std::array kFunctions = {Function{"if", 3, Op::kSelect}, Function{"min
 
 constexpr int kFirstRamAddress = 0x80, kLastRamAddress = 0xFF;
 constexpr int kDeepest = 500;  // levels of operators and parentheses, so that no text can exhaust the stack
-constexpr int kMaxSumTerms = 4096;  // of one expression, in total
+constexpr int kMaxSumTerms = 4096;                // of one expression, in total
+constexpr std::ptrdiff_t kMaxReread = 1'000'000;  // tokens of its sums, for all terms but the first of each
 
 class Compiler {
  public:
@@ -225,13 +226,18 @@ class Compiler {
     const auto outer = scope_.values.extract(index);
     Register total = term(index, first);
     for (std::int64_t i = std::int64_t{first} + 1; i <= last; ++i) {
-      in_.go_to(body);
+      go_back(body);
       total = emit({.op = Op::kAdd, .a = total, .b = term(index, static_cast<std::int32_t>(i))});
     }
     scope_.values.erase(index);
     if (outer) scope_.values.emplace(outer.key(), outer.mapped());
     leave_call("sum");
     return last < first ? constant(0) : total;
+  }
+
+  void go_back(const Token* body) {
+    if ((reread_ += in_.place() - body) > kMaxReread) in_.refuse("sums are too long");
+    in_.go_to(body);
   }
 
   std::string_view bound_name() {
@@ -287,6 +293,7 @@ class Compiler {
   ProgramBuilder& out_;
   int depth_ = 0;
   int terms_ = 0;
+  std::ptrdiff_t reread_ = 0;  // tokens
 };
 
 }  // namespace

@@ -185,6 +185,9 @@ TEST_CASE("what cannot be an expression is refused with the word that is wrong")
   CHECK_THAT(error_of("1 ? 2"), Contains("'?'"));
   CHECK_THAT(error_of("sum(i, 0, ram[0x80], i)"), Contains("must be a constant"));
   CHECK_THAT(error_of("sum(1, 0, 3, 2)"), Contains("takes a name"));
+  std::string ones = "1";
+  for (int i = 0; i < 1000; ++i) ones += " + 1";
+  CHECK_THAT(error_of("sum(i, 1, 4000, " + ones + ")"), Contains("sums are too long"));
 }
 
 TEST_CASE("no expression can exhaust the compiler") {

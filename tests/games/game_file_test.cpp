@@ -171,6 +171,8 @@ TEST_CASE("facts that cannot be are refused") {
   CHECK_THAT(error_in("start = ['FIRE 0']"), Contains("start: must be actions"));
   CHECK_THAT(error_in("start = ['FIRE x']"), Contains("start: must be actions"));
   CHECK_THAT(error_in("start = ['FIRE 1000000000']"), Contains("start: must be actions"));
+  CHECK_THAT(error_in("start = ['FIRE 60000', 'NOOP 60000']"),
+             Contains("start: must be 100000 actions at most"));
   CHECK_THAT(error_in("modes = ['7-3']"), Contains("modes: must be numbers"));
   CHECK_THAT(error_in("modes = [-1]"), Contains("modes: must be numbers"));
   CHECK_THAT(error_in("modes = ['0-2000000000']"), Contains("modes: must be numbers"));
