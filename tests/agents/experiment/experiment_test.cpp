@@ -74,6 +74,7 @@ TEST_CASE("A trial goes on from its checkpoint as if nothing had happened") {
   const Images images;
   for (const std::string& path : {parts.units(), parts.logs(), parts.facts(), parts.work()})
     fs::create_directories(path);
+  write(parts.plan(), text_of(plan));
   for (const Unit& unit : units) {
     const Cartridge& cartridge = *images.find("beamfall");
     for (bool finished = false; !finished;) {
