@@ -9,7 +9,6 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from .. import images, interface
-from ..arguments import listed
 from ..errors import InvalidInput, UnknownGame
 
 __all__ = ["ALEInterface", "NoSuchGame", "check_game", "plain_errors"]
@@ -55,7 +54,7 @@ class ALEInterface(interface.ALEInterface):
         """One of getAvailableModes(). Modes for two, which racebeam.ALEInterface has besides, are refused."""
         offered = self.getAvailableModes()
         if isinstance(mode, (int, np.integer)) and mode not in offered:
-            raise InvalidInput(f"Invalid game mode requested: mode is {mode}; it takes {listed(offered)}")
+            raise InvalidInput(f"Invalid game mode requested: mode is {mode}; it takes {', '.join(map(str, offered))}")
         super().setMode(mode)
 
 
