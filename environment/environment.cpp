@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "emulator/base/mersenne_twister.hpp"
 #include "emulator/tia/palette.hpp"
@@ -103,6 +104,7 @@ Environment::Environment(std::shared_ptr<const Image> image, std::shared_ptr<con
                          const Settings& settings, Pace* pace)
     : impl_(std::make_unique<Impl>(std::move(image), std::move(game), settings, pace)) {}
 
+Environment::Environment(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Environment::~Environment() = default;
 Environment::Environment(Environment&&) noexcept = default;
 Environment& Environment::operator=(Environment&&) noexcept = default;
@@ -116,13 +118,13 @@ void Environment::rest() { impl_->console.rest(); }
 
 void Environment::reset_game() { impl_->reset(); }
 
-void Environment::reload(std::uint32_t random_seed) {
+Environment Environment::reload(std::uint32_t random_seed) {
   Settings settings = impl_->settings;
   settings.random_seed = random_seed;
   auto anew = std::make_unique<Impl>(impl_->image, impl_->game, settings, impl_->pace);
-  anew->each_frame = std::move(impl_->each_frame);
+  anew->each_frame = impl_->each_frame;
   anew->drawing = impl_->drawing;
-  impl_ = std::move(anew);
+  return Environment(std::exchange(impl_, std::move(anew)));
 }
 
 void Environment::set_mode(int mode) {

@@ -63,8 +63,8 @@ class Environment {
   void reset_game();  // throws InvalidInput if the image does not reach the selected mode
 
   // Powers on anew with this random_seed, in the game's default mode, as if newly constructed. The settings
-  // of set_drawing() and watch() stay.
-  void reload(std::uint32_t random_seed);
+  // of set_drawing() and watch() stay. Returns the environment as it was.
+  Environment reload(std::uint32_t random_seed);
 
   // As act(), but for this number of frames: for no-ops at the start of an episode, or for an agent that
   // chooses the number at each step.
@@ -152,6 +152,8 @@ class Environment {
 
  private:
   struct Impl;
+  explicit Environment(std::unique_ptr<Impl> impl);
+
   std::unique_ptr<Impl> impl_;
 };
 

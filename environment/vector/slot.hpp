@@ -158,7 +158,7 @@ class Slot {
 
   // slot_start.cpp
   void set_up();
-  void reload(std::uint32_t seed);
+  Environment reload(std::uint32_t seed);  // returns the one that it replaces
   void begin_episode();
   void begin_life();
   void begin_stack(bool goes_on, bool stepped);

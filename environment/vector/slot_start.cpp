@@ -26,11 +26,13 @@ void Slot::reset(std::optional<std::uint32_t> seed) {
   if (may_fail) before = save(true, true);
   const Outcome outcome = outcome_;
   const std::optional<std::uint32_t> next_seed = next_seed_;
+  std::optional<Environment> replaced;
   if (!seed) seed = next_seed;
   try {
-    if (seed) reload(*seed);
+    if (seed) replaced = reload(*seed);
     progress_.goes_on && !seed ? begin_life() : begin_episode();
   } catch (...) {
+    if (replaced) environment_ = std::move(*replaced);
     if (before) restore(*before);
     next_seed_ = next_seed;
     outcome_ = outcome;
@@ -39,12 +41,13 @@ void Slot::reset(std::optional<std::uint32_t> seed) {
   next_seed_.reset();
 }
 
-void Slot::reload(std::uint32_t seed) {
+Environment Slot::reload(std::uint32_t seed) {
   const int mode = environment_.mode(), difficulty = environment_.difficulty();
-  environment_.reload(seed);
+  Environment replaced = environment_.reload(seed);
   noops_ = Noops(seed, settings_.noop_max);
   if (mode != environment_.mode()) environment_.set_mode(mode);
   if (difficulty != environment_.difficulty()) environment_.set_difficulty(difficulty);
+  return replaced;
 }
 
 void Slot::begin_episode() {

@@ -169,6 +169,10 @@ std::string_view row_of_field(std::string_view name) {
   return name;
 }
 
+bool shows_audio(const std::vector<Field>& fields) {
+  return std::ranges::any_of(fields, [](const Field& field) { return field.row->name == "audio"; });
+}
+
 Drawing drawing_of(const std::vector<Field>& fields, bool averaging) {
   Drawing most = Drawing::kNone;
   for (const Field& field : fields) most = std::min(most, field.row->looks_at);

@@ -43,6 +43,8 @@ std::vector<Field> parse_fields(Words words);
 // Which screens of an act the fields need, on a machine with colour averaging or without.
 Drawing drawing_of(const std::vector<Field>& fields, bool averaging);
 
+bool shows_audio(const std::vector<Field>& fields);
+
 // The greatest length of the fields in a reply about `machine`. Numbers count with a typical length.
 std::size_t text_size(const std::vector<Field>& fields, const Environment& machine);
 

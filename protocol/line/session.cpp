@@ -133,8 +133,9 @@ bool Session::has_enough() const {
 
 bool Session::pauses() const {
   if (pacer.in_progress() || out.empty() || input.empty()) return false;
-  return has_enough() || (statistics.requests - sent_requests_ >= kFewReplies &&
-                          input.lines(kLastRequests + 1) == kLastRequests);
+  return !admitted || has_enough() ||
+         (statistics.requests - sent_requests_ >= kFewReplies &&
+          input.lines(kLastRequests + 1) == kLastRequests);
 }
 
 bool Session::waits() const { return pacer.in_progress() && recording && recording->is_behind(); }

@@ -233,6 +233,8 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
       throw std::runtime_error("the client left in the middle of a request");
     } else if (next == Next::kPause) {
       co_await await_recording(client);
+    } else if (client.guesser) {
+      co_await hold_back(client);  // before the next token that was sent ahead
     }
   }
 }

@@ -187,6 +187,14 @@ TEST_CASE("A reset with a seed is what load with that seed gives, and keeps the 
   CHECK(state(played) == state(loaded));
 }
 
+TEST_CASE("The seeds of opened machines count up from that of the last reset with a seed") {
+  LineClient played, loaded;
+  played.say("load updraft seed=1 sticky=0.5 noop_max=20\nreset seed=77\nopen 3\n");
+  loaded.say("load updraft seed=77 sticky=0.5 noop_max=20\nopen 3\n");
+  for (const std::string request : {"settings", "step FIRE*9", "step UP*30 FIRE*30"})
+    CHECK(played.ask(request) == loaded.ask(request));
+}
+
 std::string ask_all(LineClient& client, std::initializer_list<const char*> requests) {
   std::string last;
   for (const char* const request : requests) {

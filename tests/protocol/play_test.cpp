@@ -326,6 +326,20 @@ TEST_CASE("Fields that can't be given are refused") {
   CHECK(client.ask("act NOOP") == "ok");
 }
 
+TEST_CASE("A game without sound is not loaded while audio is observed") {
+  LineClient client;
+  client.ask("observe lives audio");
+  CHECK(client.ask("load beamfall") ==
+        "error bad-arguments observe selects audio, which needs sound=1; load with it, or observe other "
+        "fields");
+  CHECK(code(client.ask("act NOOP")) == "no-game");
+  CHECK(code(client.ask("load beamfall sound=1")) == "");
+  CHECK(code(client.ask("load updraft sound=0")) == "bad-arguments");
+  CHECK(value(client.ask("settings"), "game") == "beamfall");
+  client.ask("observe lives");
+  CHECK(code(client.ask("load beamfall")) == "");
+}
+
 TEST_CASE("An episode that begins with no-ops begins differently, by the seed") {
   std::string frames;
   LineClient client;

@@ -121,6 +121,17 @@ class Tokens(Folder):
             self.assertTrue(say("127.0.0.2", right).startswith(b"ok "))
             self.assertLess(time.monotonic() - start, longest)
 
+    def test_tokens_that_are_sent_ahead_are_delayed_one_by_one(self):
+        wrong = b"hello token=" + OTHER.encode() + b"\n"
+        with self.serve() as server:
+            wire, start = connect_tcp(server.port()), time.monotonic()
+            wire.send(3 * wrong)
+            for delay in (0, 0.1, 0.1 + 0.2):
+                self.assertTrue(wire.line().startswith(b"error unauthorized that token is not"))
+                self.assertGreaterEqual(time.monotonic() - start, delay)
+            self.assertEqual(wire.rest(), b"")
+            wire.close()
+
     def test_who_has_no_token_makes_room_for_others(self):
         full = b"error busy there are 3 sessions, the limit of this server; "
         with self.serve("--max-sessions", "3") as server:

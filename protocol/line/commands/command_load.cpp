@@ -175,6 +175,9 @@ void run_load(Session& session, Words arguments) {
   PlaySettings settings;
   settings.machine.cpu = session.service.cpu;
   read_settings(words.settings, settings, kKeysOfImages);
+  if (shows_audio(session.fields) && !settings.machine.sound)
+    throw RequestError(ErrorCode::kBadArguments,
+                       "observe selects audio, which needs sound=1; load with it, or observe other fields");
   if (settings.machine.random_seed == 0) settings.machine.random_seed = fresh_seed();
   // The cache of resets belongs to the process, and would keep the image when the session is gone.
   settings.machine.copy_resets = arguments[0] != kInline;

@@ -8,8 +8,7 @@ namespace racebeam {
 namespace {
 
 void check_sound(const Session& session, const std::vector<Field>& fields) {
-  if (!session.loaded || session.settings.machine.sound) return;
-  if (std::ranges::any_of(fields, [](const Field& field) { return field.row->name == "audio"; }))
+  if (session.loaded && !session.settings.machine.sound && shows_audio(fields))
     throw RequestError(ErrorCode::kBadArguments, "audio needs a game that was loaded with sound=1");
 }
 
@@ -102,6 +101,7 @@ void run_reset(Session& session, Words arguments) {
   if (!arguments.empty()) seed = parse_seed(value_of(arguments[0], "seed", "reset"));
   session.allow_resets(1);
   loaded.slot().reset(seed);
+  if (seed) session.settings.machine.random_seed = *seed;
   loaded.slot().begin_request();
   session.out += "ok";
   loaded.append_view(session.out, session.raw);
