@@ -24,13 +24,22 @@ class Runner {
   void run(const Statement& statement) {
     switch (statement.kind) {
       case Statement::Kind::kAssign: return assign(statement.target, value(statement));
-      case Statement::Kind::kSelect: return host_.select(value(statement));
-      case Statement::Kind::kAct: return host_.act(statement.target, value(statement));
+      case Statement::Kind::kSelect: return host_.select(frames(statement));
+      case Statement::Kind::kAct: return host_.act(statement.target, frames(statement));
       case Statement::Kind::kSoftReset: return host_.soft_reset();
       case Statement::Kind::kWhile: return loop(statement);
       case Statement::Kind::kIf: return run(value(statement) != 0 ? statement.body : statement.otherwise);
       case Statement::Kind::kFail: give_up(statement.text);
     }
+  }
+
+  // The value, as a number of frames or acts that the program asks for.
+  int frames(const Statement& statement) {
+    const std::int32_t count = value(statement);
+    asked_ += std::max(count, 0);
+    if (asked_ > kModeFrames)
+      give_up("it asks for more than " + std::to_string(kModeFrames) + " frames and acts");
+    return count;
   }
 
   void loop(const Statement& statement) {
@@ -68,6 +77,7 @@ class Runner {
   ModeHost& host_;
   std::array<std::int32_t, kMaxModeVariables> variables_{};
   int turns_ = 0;
+  std::int64_t asked_ = 0;  // frames of `select` and acts
 };
 
 }  // namespace

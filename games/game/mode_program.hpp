@@ -45,6 +45,10 @@ struct ModeProgram {
 // program that takes more was not written for the image.
 constexpr int kModeTurns = 1000;
 
+// The most frames of `select`, and acts, of one run. The games of the catalogue take 871 at most
+// (video_cube).
+constexpr int kModeFrames = 20'000;
+
 // Selects `mode`. Throws InvalidInput if the running image does not reach it.
 void run_mode_program(const Game& game, Rule& rule, int mode, ModeHost& host);
 

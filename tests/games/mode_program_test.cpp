@@ -108,6 +108,18 @@ TEST_CASE("a mode program that does not end is stopped, with an error that names
   CHECK(host.log.size() == std::string("act 0 1; ").size() * kModeTurns);
 }
 
+TEST_CASE("a mode program that asks for too many frames is stopped before it runs them") {
+  for (const std::string setup :
+       {"select 2000000000", "act NOOP 20001", "while 1 { select 9000\nact NOOP 9000 }"}) {
+    const Game game = game_with_setup(setup);
+    Rule rule(game);
+    FakeHost host;
+    CHECK_THROWS_WITH(run_mode_program(game, rule, 5, host), Contains("more than 20000 frames and acts"));
+    CHECK(host.log.size() <= std::string("select 9000; act 0 9000; ").size());
+  }
+  CHECK(run("select 9000\nact NOOP 11000", 1) == "select 9000; act 0 11000; ");
+}
+
 TEST_CASE("an empty loop that does not end is stopped, too") {
   const Game game = game_with_setup("while 1 { while 0 { } }");
   Rule rule(game);
