@@ -1,5 +1,5 @@
 // Whether a frame that is not observed is followed without pixels or drawn all the same, whichever takes less
-// work. That depends on the game and the scene, so that a few frames of each period are run both ways.
+// time. That depends on the game and the scene, so that a few frames of each period are run both ways.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ class DeferredRenderPolicy {
   bool next_is_drawn() {
     number_ = (number_ + 1) % kPeriod;
     if (number_ == 0) work_.fill(std::numeric_limits<std::uint32_t>::max());
-    draws_ = number_ < kProbe || (number_ >= 2 * kProbe && work_[1] < work_[0]);
+    draws_ = number_ < kProbe || (number_ >= 2 * kProbe && work_[1] < work_[0] - work_[0] / kMargin);
     return draws_;
   }
 
@@ -25,6 +25,10 @@ class DeferredRenderPolicy {
 
  private:
   static constexpr unsigned kProbe = 4, kPeriod = 512;
+  // A frame is drawn if that takes less work by this part. The estimate counts instructions, and those that
+  // draw take longer: measured, games with equal estimates ran 5 to 12 % slower drawn (asterix, skiing,
+  // enduro).
+  static constexpr unsigned kMargin = 4;
 
   // Frames are followed at first. Drawing takes memory, which a machine that has only been switched on may
   // never need.
