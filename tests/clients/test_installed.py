@@ -72,6 +72,11 @@ class Installed(unittest.TestCase):
         run("cmake", "--build", agent / "built")
         self.assertRegex(run(agent / "built/agent"), r"^\d+\n$")
 
+    def test_another_version_of_gcc_can_link_it(self):
+        sections = run("objdump", "-h", self.libraries / "libracebeam_emulator.a")
+        self.assertIn(".text", sections)
+        self.assertNotIn(".gnu.lto", sections)
+
     def test_the_program_runs_where_it_is_installed(self):
         self.assertEqual(run(self.prefix / "bin/racebeam", "--version"), f"racebeam {VERSION}\n")
         self.assertIn("racebeam", os.readlink(self.prefix / "bin/racebeam-ale"))
