@@ -224,19 +224,11 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _drop_pending(self) -> None:
         """Receives what was sent and not received, and forgets it."""
-        pending = self._pending()
+        pending = int(self._machines.playing())
         if pending == 0:
             return
-        self._machines.receive(self._room(None, pending))
-        if isinstance(self._machines, SpreadMachines):
-            self._machines._lost_before |= self._machines.lost  # the next call tells it
-
-    def _pending(self) -> int:
-        """How many environments were sent and not received."""
-        machines = self._machines
-        if isinstance(machines, Halves):
-            return 0 if machines._awaited is None else self.num_envs
-        return int(machines.playing())
+        receive = self._machines.drop if isinstance(self._machines, Halves) else self._machines.receive
+        receive(self._room(None, pending))
 
     def step(self, actions: npt.ArrayLike, *, out: Pixels | None = None) -> Step:
         """An action for each environment; with batch_size, for each of those that the last call returned.

@@ -39,6 +39,17 @@ class Halves:
     _count: int
     _awaited: Callable[[Results], None] | None = None  # what receive() does
 
+    def playing(self) -> int:
+        """How many machines were sent and not received."""
+        return 0 if self._awaited is None else self._count
+
+    def drop(self, results: Results) -> None:
+        """Receives what was sent, whose results the caller forgets."""
+        self.receive(results)
+
+    def receive(self, results: Results) -> None:
+        raise NotImplementedError
+
     def _check_all(self, machines: Numbers) -> None:
         if not np.array_equal(machines, range(self._count)):
             raise InvalidInput(f"environments {machines} are to play; servers play all {self._count} together")

@@ -154,6 +154,10 @@ class SpreadMachines(Halves):
     def receive(self, results: Results) -> None:
         self._exchange(lambda results: self._take()(results), results, is_second=True)
 
+    def drop(self, results: Results) -> None:
+        self.receive(results)
+        self._lost_before |= self.lost  # the next call tells it
+
     def _words(self, actions: npt.NDArray[np.int64]) -> list[list[Any]]:
         return [part.machines.words(actions[part.rows]) for part in self._parts]
 
