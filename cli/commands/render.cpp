@@ -19,6 +19,7 @@
 #include "recording/media.hpp"
 #include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
+#include "system/printable.hpp"
 
 namespace racebeam {
 namespace {
@@ -126,6 +127,8 @@ void run(const RenderOptions& options) {
   fs::path to = options.to;
   if (!to.has_filename()) to = to.parent_path();  // NAME/
   check_place(to);
+  if (const std::string name = to.filename(); name[0] == '.' && media_kind(name.substr(1)))
+    throw UsageError("--to: '" + options.to + "' is only an ending; accepted are names such as a" + name);
   const std::string ending = to.extension();
   const auto kind = ending.empty() ? MediaKind::kPng : media_kind(ending.substr(1));
   if (!kind || ending == ".png") {
@@ -135,7 +138,7 @@ void run(const RenderOptions& options) {
         "for a folder of PNGs");
   }
   const std::int64_t frames = film(log, options, to.replace_extension(), *kind);
-  std::cout << options.to << ": " << frames << " frames\n";
+  std::cout << printable(options.to) << ": " << frames << " frames\n";
 }
 
 }  // namespace
