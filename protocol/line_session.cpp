@@ -6,7 +6,13 @@
 namespace racebeam {
 LineSession::LineSession(const LineService& service, Meter* meter)
     : session_(std::make_unique<Session>(service, command_table(), meter)) {}
-LineSession::~LineSession() = default;
+
+LineSession::~LineSession() {
+  session_->leave();
+  const auto disposal = session_->service.disposal;
+  const std::size_t bytes = session_->memory.bytes();
+  dispose(disposal, nullptr, bytes, std::move(session_));
+}
 
 void LineSession::set_columns(int columns) { session_->columns = columns; }
 std::size_t LineSession::longest_line() const { return session_->input.longest(); }

@@ -168,8 +168,11 @@ int serve(const ServeOptions& options, const SharedCaches& caches) {
   ThreadPool pool(serves(options, false) ? static_cast<unsigned>(options.server.threads) : 1,
                   options.server.busy_poll);
   Services services;
+  const auto disposal = std::make_shared<Disposal>();
   if (serves(options, true)) services.classic = classic_service(options);
   if (serves(options, false)) services.line = line_service(options, pool);
+  if (services.classic) std::get<ClassicService>(*services.classic).disposal = disposal;
+  if (services.line) std::get<LineService>(*services.line).disposal = disposal;
   limit_memory(services, options.server.max_memory, caches);
   return serve(options.server, services);
 }

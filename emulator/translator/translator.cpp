@@ -206,9 +206,11 @@ bool Translator::Impl::enter(Board& board, const void* start) {
 std::int32_t Translator::Impl::run_block(Board& board, const Entry& entry) {
   if (!budget.is_unlimited() && entry.profitability->is_unprofitable())
     return interpreted_run.next(entry.profitability->length());
-  const std::int32_t before = board.state.cycle - board.translated.waited;
+  const std::int32_t first = board.state.cycle;
+  const std::uint32_t waited_before = board.translated.waited;
   const bool interpret_next = enter(board, entry.start);
-  const std::int32_t cycles = board.state.cycle - board.translated.waited - before;
+  const auto waited = static_cast<std::int32_t>(board.translated.waited - waited_before);
+  const std::int32_t cycles = board.state.cycle - first - waited;
   if (!board.stop) entry.profitability->record(cycles);
   if (cycles >= translator::Profitability::kBreakEvenCycles) interpreted_run.reset();
   return interpret_next ? 1 : 0;

@@ -109,6 +109,10 @@ void Slot::run_act(const Act& act) {
     outcome_.over = outcome_.acts == 0;
     return;
   }
+  progress_.elapsed += frames;
+  progress_.terminated = environment_.terminal();
+  progress_.truncated = environment_.truncated();
+  progress_.finished = environment_.game_over();
   add_outcome(environment_.raw_rewards(), frames);
   progress_.blends = frames > 1;
   if (stack_) show(progress_.blends);
@@ -209,6 +213,8 @@ void Slot::restore(const Saved& saved) {
   progress_ = saved.progress;
   next_seed_.reset();
   progress_.lives = environment_.lives();  // a slot whose steps are acts does not count them
+  if (environment_.terminal()) progress_.finished = progress_.terminated = true;
+  if (settings_.steps == Steps::kActs) progress_.goes_on = false;
   if (saved.noops) noops_.set_generator(*saved.noops);
   look_at_ends();
   if (!stack_) return;

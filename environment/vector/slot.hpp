@@ -99,6 +99,7 @@ class Slot {
   void end_episode(std::optional<std::uint32_t> seed);
 
   bool finished() const;                             // the episode is over: act() does nothing
+  bool begins() const { return begins_ > 0; }        // this frame is one of those that begin an episode
   int elapsed() const { return progress_.elapsed; }  // frames of play in this game
   const Outcome& outcome() const { return outcome_; }
   std::int64_t score() const { return progress_.score; }
@@ -122,9 +123,9 @@ class Slot {
     std::int64_t score = 0;  // sum of player A's rewards in this game, before clamping
     int elapsed = 0;         // frames of play in this game
     int lives = 0;           // after the last step
-    bool finished = false;   // Steps::kFrames: the episode
+    bool finished = false;   // the episode
     bool goes_on = false;    // finished only by a lost life: the next episode continues the game
-    bool terminated = false, truncated = false;  // Steps::kFrames: how the last step ended
+    bool terminated = false, truncated = false;  // how the last step ended
     bool blends = false;  // the last step ran at least two frames, so its screen blends them
   };
 
@@ -180,6 +181,7 @@ class Slot {
   std::optional<ScreenStack> stack_;
   Drawing drawing_ = Drawing::kNone;
   std::int64_t reset_frames_ = 0;
+  int begins_ = 0;  // depth of begin_episode() and begin_life()
 };
 
 }  // namespace racebeam

@@ -8,6 +8,18 @@ namespace {
 
 constexpr int kNoop = 0, kFire = 1;
 
+// While it exists, an episode begins.
+class Beginning {
+ public:
+  explicit Beginning(int& depth) : depth_(depth) { ++depth_; }
+  ~Beginning() { --depth_; }
+  Beginning(const Beginning&) = delete;
+  Beginning& operator=(const Beginning&) = delete;
+
+ private:
+  int& depth_;
+};
+
 }  // namespace
 
 // With Steps::kActs the environment has begun an episode already. That suffices unless a mode, which takes
@@ -52,6 +64,7 @@ Environment Slot::reload(std::uint32_t seed) {
 
 void Slot::begin_episode() {
   const std::int64_t frames_before = pace_ != nullptr ? pace_->frames() : 0;
+  const Beginning beginning(begins_);
   draw_nothing();
   environment_.reset_game();
   const bool fire = has_fire();
@@ -79,6 +92,7 @@ void Slot::begin_episode() {
 void Slot::begin_life() {
   const int frames = environment_.episode_frame_number();
   const Progress before = progress_;
+  const Beginning beginning(begins_);
   const bool fire = has_fire();
   draw_nothing();
   switch (settings_.reset_order) {

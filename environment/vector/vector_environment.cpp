@@ -63,6 +63,8 @@ void VectorEnvironment::step_one(std::size_t number, const Act& act) {
   if (slot.finished() && autoreset_ == Autoreset::kNextStep) {
     slot.reset();
   } else {
+    // With same-step, only a restored state can have ended before.
+    if (slot.finished() && autoreset_ == Autoreset::kSameStep) slot.reset();
     slot.act(act);
     if (slot.finished() && autoreset_ == Autoreset::kSameStep) {
       host_.ended(number, slot);

@@ -11,6 +11,7 @@
 
 #include "environment/environment.hpp"
 #include "protocol/classic/classic.hpp"
+#include "protocol/running/disposal.hpp"
 #include "protocol/running/memory_budget.hpp"
 #include "protocol/running/pacer.hpp"
 
@@ -19,7 +20,8 @@ namespace racebeam {
 struct ClassicService {
   std::function<Environment(Pace* pace)> power_on;  // makes a machine for each session; thread-safe
   ClassicOptions options;
-  std::shared_ptr<MemoryBudget> memory;  // of all sessions; null: there is no limit
+  std::shared_ptr<MemoryBudget> memory;          // of all sessions; null: there is no limit
+  std::shared_ptr<Disposal> disposal = nullptr;  // of ended sessions; null: they are destroyed at once
 };
 
 class PacedClassic {
@@ -47,6 +49,8 @@ class PacedClassic {
   void rest() {  // releases caches; called when no request has come for a while
     if (machine_) machine_->rest();
   }
+  void leave() { pacer_.cancel(); }  // the destructor, on any thread, only frees memory then
+  std::size_t bytes() const { return memory_.bytes(); }
 
  private:
   void answer();

@@ -11,6 +11,7 @@
 #include "emulator/translator/translator.hpp"
 #include "protocol/line/images.hpp"
 #include "protocol/line/share.hpp"
+#include "protocol/running/disposal.hpp"
 #include "protocol/running/memory_budget.hpp"
 
 namespace racebeam {
@@ -47,6 +48,7 @@ struct LineService {
   Admission admission;                   // empty: no token is required
   CpuKind cpu = CpuKind::kAuto;          // of all machines
   std::shared_ptr<MemoryBudget> memory;  // of all sessions; null: there is no limit
+  std::shared_ptr<Disposal> disposal;    // of what sessions leave; null: they destroy it themselves
   bool strict = false;                   // the first error ends a session; for scripts
   std::shared_ptr<Shares> shares = std::make_shared<Shares>();
   bool share_all = false;  // sessions are shared from their first game on

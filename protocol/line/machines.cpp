@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <utility>
 
 #include "protocol/line/session.hpp"
 
@@ -35,7 +36,8 @@ class Machines::Host final : public VectorHost {
   Seat& seat(std::size_t number) { return *seats_[number]; }
   void observe(std::size_t number, const std::vector<Field>& fields);  // begins a view of them
   std::span<const std::unique_ptr<Seat>> seats() const { return seats_; }
-  std::size_t held() const;  // bytes of memory of the machines' parts of replies
+  std::size_t held() const;               // bytes of memory of the machines' parts of replies
+  std::vector<std::string> take_texts();  // those parts
 
   void run_all(std::size_t count, const std::function<void(std::size_t)>& task) override;
   Pace* pace(std::size_t number) override { return &seats_[number]->pacer; }
@@ -78,7 +80,11 @@ Machines::~Machines() = default;
 std::size_t Machines::size() const { return opened_ ? opened_->vector.size() : 0; }
 Slot& Machines::slot(std::size_t number) { return opened_->vector.slot(number); }
 Pacer& Machines::pacer(std::size_t number) { return opened_->host.seat(number).pacer; }
-void Machines::close() { opened_.reset(); }
+
+void Machines::close() {
+  if (empty()) return;
+  session_.discard(opened_, footprint(session_.fields));
+}
 
 std::size_t Machines::number_of(std::string_view text) const {
   if (empty()) throw RequestError(ErrorCode::kNoMachines, "machine= needs machines; open some first");
@@ -100,11 +106,11 @@ void Machines::observe(const std::vector<Field>& fields) {
 }
 
 void Machines::rest() {
-  for (std::size_t number = 0; number < size(); ++number) {
-    slot(number).environment().rest();
-    std::string().swap(opened_->host.seat(number).text);
-    std::string().swap(opened_->host.seat(number).raw);
-  }
+  if (empty()) return;
+  const std::size_t bytes = opened_->host.held();
+  for (std::size_t number = 0; number < size(); ++number) slot(number).environment().rest();
+  auto texts = opened_->host.take_texts();
+  session_.discard(texts, bytes);
 }
 
 // Checks whether `count` machines with these fields are possible. Throws RequestError if their replies would
@@ -135,6 +141,7 @@ void Machines::open(std::size_t count, const SlotSettings& settings, Autoreset a
   session_.allow_resets(count);
   auto opened = std::make_unique<Opened>(session_, count, settings, autoreset, reply_bytes);
   session_.stop_recording_machines();
+  close();
   opened_ = std::move(opened);
   session_.out += "ok";
   append_pair(session_.out, "machines", static_cast<std::int64_t>(count));
@@ -199,6 +206,15 @@ std::size_t Machines::Host::held() const {
   std::size_t bytes = 0;
   for (const auto& seat : seats_) bytes += seat->text.capacity() + seat->raw.capacity();
   return bytes;
+}
+
+std::vector<std::string> Machines::Host::take_texts() {
+  std::vector<std::string> texts;
+  for (const auto& seat : seats_) {
+    texts.push_back(std::exchange(seat->text, {}));
+    texts.push_back(std::exchange(seat->raw, {}));
+  }
+  return texts;
 }
 
 std::int64_t Machines::Host::frames() const {

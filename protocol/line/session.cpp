@@ -66,8 +66,21 @@ Session::Session(const LineService& with, const CommandTable& table, Meter* coun
 
 // The fiber and the recording use the other members, so they go first.
 Session::~Session() {
+  leave();
+  release_pages(out);
+  release_pages(raw);
+}
+
+void Session::leave() {
   pacer.cancel();
   recording.reset();
+  sharing.reset();
+  watching.clear();
+}
+
+void Session::discard(std::string& text) {
+  const std::size_t bytes = text.capacity();
+  dispose(service.disposal, service.memory, bytes, LongText(std::exchange(text, {})));
 }
 
 void Session::check_frames(std::int64_t acts, std::int64_t frames) const {
@@ -107,7 +120,7 @@ void Session::append_cut() {
 }
 
 void Session::stop_recording_machines() {
-  if (recording && !recording->shows(loaded->machine())) recording.reset();
+  if (recording && !recording->shows(loaded->slot())) recording.reset();
 }
 
 void Session::run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const {
@@ -325,9 +338,9 @@ void Session::rest() {
   if (loaded && sharing) publish();  // a session that pauses shows what it stopped at
   if (loaded) loaded->machine().rest();
   machines.rest();
-  if (out.empty()) out.shrink_to_fit();
-  raw.shrink_to_fit();
-  std::vector<Action>().swap(actions);
+  if (out.empty()) discard(out);
+  discard(raw);
+  discard(actions, actions.capacity() * sizeof(Action));
   std::vector<Act>().swap(step_acts);
   std::vector<std::string_view>().swap(words_);
   if (!pacer.in_progress()) memory.set(footprint());

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "protocol/line/line_reader.hpp"
@@ -76,7 +77,13 @@ class Session {
   void admit();                        // the client gave a valid token
   void count(const Outcome& outcome);  // adds it to the statistics
   void append_cut();                   // notes in the reply that the recording has ended early
-  void stop_recording_machines();      // stops a recording of machines of `open`, which are about to go
+  // Empties an object of about so many bytes, whose content is destroyed elsewhere if that takes long.
+  template <typename T>
+  void discard(T& object, std::size_t bytes) {
+    dispose(service.disposal, service.memory, bytes, std::exchange(object, T()));
+  }
+  void discard(std::string& text);
+  void stop_recording_machines();  // stops a recording of machines of `open`, which are about to go
   void run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
 
   std::span<char> space();
@@ -88,6 +95,7 @@ class Session {
   bool finished() const { return done_; }
   bool refused() const { return service.strict && statistics.errors > 0; }
   void cancel();
+  void leave();  // ends all that others notice; the destructor, on any thread, only frees memory then
   void rest();
 
  private:

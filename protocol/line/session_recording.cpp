@@ -6,17 +6,18 @@
 
 namespace racebeam {
 
-SessionRecording::SessionRecording(std::shared_ptr<Recording> recording, Environment& machine, Pacer& pacer)
-    : recording_(std::move(recording)), machine_(machine), pacer_(pacer) {
+SessionRecording::SessionRecording(std::shared_ptr<Recording> recording, Slot& slot, Pacer& pacer)
+    : recording_(std::move(recording)), slot_(slot), pacer_(pacer) {
   watch();
 }
 
-SessionRecording::~SessionRecording() { machine_.watch({}); }
+SessionRecording::~SessionRecording() { slot_.environment().watch({}); }
 
 void SessionRecording::watch() {
-  machine_.watch([this] {
+  slot_.environment().watch([this] {
+    if (slot_.begins()) return;
     await(*recording_, pacer_);
-    recording_->add(machine_);
+    recording_->add(slot_.environment());
   });
 }
 

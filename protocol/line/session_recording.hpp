@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "environment/environment.hpp"
+#include "environment/vector/slot.hpp"
 #include "protocol/running/pacer.hpp"
 #include "recording/recording.hpp"
 
@@ -12,14 +12,14 @@ namespace racebeam {
 
 class SessionRecording {
  public:
-  // Watches the machine, which outlives it, as `pacer` does, on which it runs.
-  SessionRecording(std::shared_ptr<Recording> recording, Environment& machine, Pacer& pacer);
+  // Watches the machine of the slot, which outlives it, as `pacer` does, on which it runs.
+  SessionRecording(std::shared_ptr<Recording> recording, Slot& slot, Pacer& pacer);
   ~SessionRecording();  // keeps what there is, without waiting for it
   SessionRecording(const SessionRecording&) = delete;
   SessionRecording& operator=(const SessionRecording&) = delete;
 
   void watch();  // the machine, again
-  bool shows(const Environment& machine) const { return &machine == &machine_; }
+  bool shows(const Slot& slot) const { return &slot == &slot_; }
   bool is_behind() const { return recording_->is_behind(); }
   Recording& recording() { return *recording_; }
   const std::string& names() const { return recording_->names(); }
@@ -29,7 +29,7 @@ class SessionRecording {
 
  private:
   std::shared_ptr<Recording> recording_;
-  Environment& machine_;
+  Slot& slot_;
   Pacer& pacer_;
   bool told_ = false;
 };

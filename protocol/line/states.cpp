@@ -22,9 +22,4 @@ void States::drop(std::string_view name) {
   by_name_.erase(found);
 }
 
-void States::clear() {
-  by_name_.clear();
-  footprint_ = 0;
-}
-
 }  // namespace racebeam

@@ -18,7 +18,6 @@ class States {
   bool contains(std::string_view name) const { return by_name_.contains(name); }
   void put(std::string_view name, Slot::Saved place);  // in the place of one of the same name
   void drop(std::string_view name);                    // if it is there
-  void clear();
 
   std::size_t size() const { return by_name_.size(); }
   bool empty() const { return by_name_.empty(); }

@@ -276,10 +276,31 @@ class Resting {
   Client& client_;
 };
 
+// A session of the classic protocol, which may leave thousands of states.
+class ClassicPlace {
+ public:
+  explicit ClassicPlace(const ClassicService& service)
+      : disposal_(service.disposal), session_(std::make_unique<PacedClassic>(service)) {}
+  ~ClassicPlace() {
+    session_->leave();
+    const std::size_t bytes = session_->bytes();
+    dispose(disposal_, nullptr, bytes, std::move(session_));
+  }
+  ClassicPlace(const ClassicPlace&) = delete;
+  ClassicPlace& operator=(const ClassicPlace&) = delete;
+
+  PacedClassic& session() { return *session_; }
+
+ private:
+  const std::shared_ptr<Disposal> disposal_;
+  std::unique_ptr<PacedClassic> session_;
+};
+
 template <typename Stream>
 net::awaitable<void> play(Stream& stream, Client& client, const ClassicService& service, Metrics& metrics) {
   count_admission(client, metrics);
-  PacedClassic session(service);
+  ClassicPlace place(service);
+  PacedClassic& session = place.session();
   co_await work(client, session);
   session.check_machine();
   log(client.name + ": " + describe(session.machine()), {{"client", client.name}, {"event", "came"}});

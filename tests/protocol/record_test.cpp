@@ -159,3 +159,16 @@ TEST_CASE("An invalid recording is refused, with what is accepted") {
   CHECK(studio.ask("record gif a machine=1") == "ok recording=a.gif");
   CHECK_THAT(studio.ask("record gif b"), Contains("a.gif has not been stopped; record stop does it"));
 }
+
+TEST_CASE("The frames that begin an episode are not recorded") {
+  Studio studio;
+  studio.ask("load beamfall seed=7 sticky=0 noop_max=30 autoreset=1 max_episode_frames=31");
+  studio.ask("record wav a");
+  for (const char* const request : {"reset", "reset", "reset seed=9", "reset"}) studio.ask(request);
+  studio.ask("act FIRE");
+  CHECK(value(studio.ask("record stop"), "frames") == "1");
+  studio.ask("open 2");
+  studio.ask("record wav b machine=1");
+  for (const char* const request : {"restart", "step NOOP", "restart"}) studio.ask(request);
+  CHECK(value(studio.ask("record stop"), "frames") == "1");
+}

@@ -338,6 +338,7 @@ class Memory(unittest.TestCase):
         with serve() as server:
             server.wait_for("memory: [0-9]+ bytes, limited by the (machine|control group)$")
 
+    @unittest.skipIf(sanitized() or thread_sanitized(), "a sanitizer needs more memory")
     def test_a_server_with_little_memory_has_small_caches(self):
         for memory, caches in (("64M", "28 resets, 699050 bytes"), ("512M", "128 resets, 4194304 bytes"),
                                ("16M", "7 resets, 174762 bytes")):

@@ -27,6 +27,19 @@ class Loan {
   const Slot::Saved undisturbed_;  // with generator and stack
 };
 
+// What is kept of the end of a branch.
+Slot::Saved leaf(const Slot::Saved& root, const BranchEnd& end,
+                 std::shared_ptr<const Environment::Saved> machine) {
+  Slot::Saved saved{std::move(machine), {}, root.with_random, root.progress};
+  saved.progress.score += end.reward;
+  saved.progress.elapsed += end.frames;
+  saved.progress.terminated = end.terminated;
+  saved.progress.truncated = end.truncated;
+  saved.progress.finished = end.terminated || end.truncated;
+  saved.progress.blends = false;
+  return saved;
+}
+
 class RewardRuns {  // the rewards of one act after the other, runs of equal ones together
  public:
   void add(std::int64_t reward) {
@@ -107,7 +120,7 @@ void play_branches(Session& session, const BranchRequest& request) {
       const std::string name = request.keep + std::to_string(i);
       append_pair(session.out, "state", name);
       const bool with_random = request.root.with_random;
-      kept.emplace_back(name, Slot::Saved{machine.save(with_random), {}, with_random, {}});
+      kept.emplace_back(name, leaf(request.root, end, machine.save(with_random)));
       session.memory.check(kept.back().second.footprint(), "a state");
     }
   }

@@ -195,7 +195,7 @@ void run_load(Session& session, Words arguments) {
   }
   session.recording.reset();
   session.machines.close();
-  session.states.clear();
+  session.discard(session.states, session.states.footprint());
   session.loaded = std::move(loaded);
   session.cartridge = std::move(cartridge);
   session.has_own_image = arguments[0] == kInline;

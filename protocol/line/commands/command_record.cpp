@@ -50,15 +50,15 @@ std::vector<MediaKind> parse_kinds(std::string_view words) {
 }
 
 struct Subject {  // of a recording
-  Environment& machine;
+  Slot& slot;
   Pacer& pacer;  // on which it runs
 };
 
 // The machine of `load`, or one of `open`.
 Subject subject_of(Session& session, Words arguments) {
-  if (arguments.empty()) return {session.loaded->machine(), session.loaded->pacer()};
+  if (arguments.empty()) return {session.loaded->slot(), session.loaded->pacer()};
   const std::size_t number = session.machines.number_of(value_of(arguments[0], "machine", "record"));
-  return {session.machines.slot(number).environment(), session.machines.pacer(number)};
+  return {session.machines.slot(number), session.machines.pacer(number)};
 }
 
 // To the server. What is written slowly may outlive the session by far.
@@ -81,8 +81,8 @@ std::shared_ptr<Recording> begin(const LineService& service, const std::vector<M
 }
 
 void start(Session& session, const std::vector<MediaKind>& kinds, std::string_view name, Subject subject) {
-  const auto recording = begin(session.service, kinds, name, subject.machine);
-  session.recording = std::make_unique<SessionRecording>(recording, subject.machine, subject.pacer);
+  const auto recording = begin(session.service, kinds, name, subject.slot.environment());
+  session.recording = std::make_unique<SessionRecording>(recording, subject.slot, subject.pacer);
   await(*recording, session.pacer);
   if (recording->finished()) {
     session.recording.reset();

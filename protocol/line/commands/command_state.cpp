@@ -160,19 +160,27 @@ void run_save(Session& session, Words arguments) {
   append_pair(session.out, "state", name);
 }
 
+// The settings of machines that `open` makes later: the mode and the difficulty may be those of the state.
+void follow(Session& session, const Environment& machine) {
+  PlaySettings& settings = session.settings;
+  if (machine.mode() != settings.mode.value_or(machine.game().default_mode)) settings.mode = machine.mode();
+  if (machine.difficulty() != settings.difficulty.value_or(0)) settings.difficulty = machine.difficulty();
+}
+
 void run_restore(Session& session, Words arguments) {
   const Slot::Saved& place = find_state(session, arguments[0]);
   if (arguments.size() == 2)
     return restore_machine(session, place, value_of(arguments[1], "machine", "restore"));
   session.loaded->slot().restore(place);
   session.loaded->slot().begin_request();
+  follow(session, session.loaded->machine());
   session.out += "ok";
   session.loaded->append_view(session.out, session.raw);
 }
 
 void run_drop(Session& session, Words arguments) {
   if (arguments.size() == 1 && arguments[0] == "all") {
-    session.states.clear();
+    session.discard(session.states, session.states.footprint());
   } else {
     std::size_t looked = 0;
     for (const std::string_view name : arguments) {

@@ -242,6 +242,19 @@ step = "score = 0; terminal = 0"
   CHECK(chosen.environment().difficulty() == 3);
 }
 
+TEST_CASE("A slot tells which acts begin an episode") {
+  SlotSettings settings = no_noops();
+  settings.noop_max = 30;
+  Slot slot(cartridge(), settings);
+  int beginning = 0, played = 0;
+  slot.environment().watch([&] { ++(slot.begins() ? beginning : played); });
+  for (const auto seed : {std::optional<std::uint32_t>(), std::optional(3U)}) slot.reset(seed);
+  CHECK(beginning > 0);
+  CHECK(played == 0);
+  slot.act({});
+  CHECK(played == slot.outcome().frames);
+}
+
 TEST_CASE("A reset that fails leaves a slot as it was") {
   struct Impatient final : Pace {
     void frame() override {

@@ -16,7 +16,7 @@ import urllib.request
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import test_access
-from harness import PATIENCE, SOURCE, Server, main, run
+from harness import PATIENCE, SOURCE, Server, main, run, sanitized, thread_sanitized
 from test_documents import conversations, pattern
 from test_hostile import ENDLESS, JUMP_TO_ITSELF, load_inline
 from web_socket import BINARY, CLOSE, PING, PONG, TEXT, Refused, WebSocket, frame, request
@@ -416,6 +416,7 @@ class Hostile(Case):
         for wire in crowd[::50]:
             self.assertTrue(wire.ask(b"hello").startswith(b"ok "))
 
+    @unittest.skipIf(sanitized() or thread_sanitized(), "a sanitizer needs more memory")
     def test_memory_is_limited(self):
         with Server("serve", "--listen", "ws://127.0.0.1:0", "--max-memory", "80M") as server, contextlib.ExitStack() as stack:
             wires, refused = [], 0

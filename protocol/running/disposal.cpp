@@ -1,0 +1,60 @@
+#include "protocol/running/disposal.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <system_error>
+
+namespace racebeam {
+
+Disposal::Disposal() {
+  try {
+    thread_ = std::thread([this] { run(); });
+  } catch (const std::system_error&) {
+    // Objects are destroyed at once.
+  }
+}
+
+Disposal::~Disposal() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  changed_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Disposal::take(std::shared_ptr<void> object) {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    objects_.push_back(std::move(object));
+  }
+  changed_.notify_one();
+}
+
+void Disposal::run() {
+  std::vector<std::shared_ptr<void>> taken;
+  for (std::unique_lock lock(mutex_);;) {
+    changed_.wait(lock, [this] { return ends_ || !objects_.empty(); });
+    if (objects_.empty()) return;
+    taken.swap(objects_);
+    lock.unlock();
+    taken.clear();
+    lock.lock();
+  }
+}
+
+void release_pages(std::string& text) {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  if (text.capacity() < 4 * kPiece) return;
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const auto first = reinterpret_cast<std::uintptr_t>(text.data());
+  const std::uintptr_t end = (first + text.capacity()) / page * page;
+  for (std::uintptr_t at = (first + page - 1) / page * page; at < end; at += kPiece)
+    ::madvise(reinterpret_cast<void*>(at), std::min<std::size_t>(kPiece, end - at), MADV_DONTNEED);
+}
+
+}  // namespace racebeam
