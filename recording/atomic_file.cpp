@@ -122,24 +122,72 @@ void AtomicFile::commit() {
   descriptor_ = -1;
 }
 
-// The name is always the same, so that what a kill left behind is overwritten by the next attempt.
-void replace_file(const std::string& path, std::string_view bytes, Durable durable) {
-  const fs::path whole(path);
-  std::string name = ".";
-  (name += whole.filename().string()) += ".part";
-  const std::string part = (whole.parent_path() / name).string();
-  const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor < 0) fail("make", path);
-  try {
-    write_all(descriptor, 0, bytes, path);
-    if (durable == Durable::kNow && ::syncfs(descriptor) != 0) fail("sync", path);
-  } catch (...) {
-    ::close(descriptor);
-    ::unlink(part.c_str());
-    throw;
+namespace {
+
+// The sticky bit, which means nothing to a file, marks one that is written aside.
+constexpr mode_t kAside = S_ISVTX | 0644, kWhole = 0644;
+
+// Whether a kill left the file behind when replace_file() wrote it.
+bool is_left_behind(const std::string& name) {
+  struct stat facts {};
+  return ::lstat(name.c_str(), &facts) == 0 && S_ISREG(facts.st_mode) && (facts.st_mode & S_ISVTX) != 0 &&
+         facts.st_uid == ::geteuid();
+}
+
+// A new file in the folder of `path`. Its name is always the same, so that what a kill left behind is
+// replaced by the next attempt; if another file has that name, it is one that no file has. The file is
+// removed unless it is renamed.
+class Aside {
+ public:
+  explicit Aside(const std::string& path) : name_(temporary_name(path)) {
+    std::string usual = name_;
+    usual.replace(usual.rfind('.'), std::string::npos, ".part");
+    if (is_left_behind(usual)) ::unlink(usual.c_str());
+    descriptor_ = ::open(usual.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kAside);
+    if (descriptor_ >= 0) {
+      name_ = usual;
+    } else if (errno == EEXIST) {
+      descriptor_ = ::mkostemp(name_.data(), O_CLOEXEC);
+    }
+    if (descriptor_ < 0) fail("make", path);
   }
-  ::close(descriptor);
-  if (::rename(part.c_str(), path.c_str()) != 0) fail("replace", path);
+  ~Aside() {
+    ::close(descriptor_);
+    if (!name_.empty()) ::unlink(name_.c_str());
+  }
+  Aside(const Aside&) = delete;
+  Aside& operator=(const Aside&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+  void rename_to(const std::string& path) {
+    if (::rename(name_.c_str(), path.c_str()) != 0) fail("replace", path);
+    name_.clear();
+    ::fchmod(descriptor_, kWhole);
+  }
+
+ private:
+  std::string name_;  // empty: renamed
+  int descriptor_ = -1;
+};
+
+// The file that a symbolic link names, be it there or not.
+std::string target_of(std::string path) {
+  constexpr int kMostLinks = 40;
+  std::error_code none;
+  for (int links = 0; links < kMostLinks && fs::is_symlink(path, none); ++links)
+    path = (fs::path(path).parent_path() / fs::read_symlink(path)).string();
+  return path;
+}
+
+}  // namespace
+
+void replace_file(const std::string& path, std::string_view bytes, Durable durable) {
+  const std::string target = target_of(path);
+  Aside aside(target);
+  write_all(aside.descriptor(), 0, bytes, path);
+  if (durable == Durable::kNow && ::syncfs(aside.descriptor()) != 0) fail("sync", path);
+  aside.rename_to(target);
 }
 
 AtomicFolder::AtomicFolder(std::string path, DiskBudget& budget)

@@ -71,8 +71,9 @@ enum class Durable {
   kNow     // where the new file is, so is all that was written to its disk before
 };
 
-// Writes a whole file aside, under the name .NAME.part, and renames it over what `path` was. One caller at a
-// time. Throws std::runtime_error; the file is then what it was before.
+// Writes a whole file aside, under the name .NAME.part if no other program has a file of that name, and
+// renames it over what `path` was, or the file that `path` links to. One caller at a time. Throws
+// std::runtime_error; the file is then what it was before.
 void replace_file(const std::string& path, std::string_view bytes, Durable durable);
 
 class AtomicFolder {

@@ -12,7 +12,8 @@ constexpr std::size_t kLarge = Disposal::kWorthwhile;
 
 // Tells the thread on which it was destroyed, after `may_go`.
 struct Probe {
-  Probe(std::promise<std::thread::id>& told, std::shared_future<void> go) : gone(&told), may_go(std::move(go)) {}
+  Probe(std::promise<std::thread::id>& told, std::shared_future<void> go)
+      : gone(&told), may_go(std::move(go)) {}
   ~Probe() {
     may_go.wait();
     gone->set_value(std::this_thread::get_id());
