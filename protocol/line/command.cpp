@@ -22,23 +22,30 @@ std::string usage(const Command& command) {
   return text;
 }
 
-const Command& CommandTable::find(std::string_view name) const {
+const Command* CommandTable::known(std::string_view name) const {
   const auto found = std::ranges::find(commands, name, &Command::name);
-  if (found != commands.end()) return *found;
+  if (found != commands.end()) return &*found;
   const auto alias = std::ranges::find(aliases, name, &Alias::name);
-  if (alias != aliases.end()) return find(alias->command);
+  return alias != aliases.end() ? known(alias->command) : nullptr;
+}
+
+const Command& CommandTable::find(std::string_view name) const {
+  if (const Command* const found = known(name)) return *found;
   refuse_name(ErrorCode::kUnknownCommand, "command", name, names_of(commands));
+}
+
+void refuse_without_token(std::string_view name) {
+  throw RequestError(ErrorCode::kUnauthorized,
+                     "this server requires a token before " + quote(name) + "; hello token=TOKEN");
 }
 
 void check(const Command& command, const Session& session, std::size_t arguments) {
   const std::string name(command.name);
+  if (command.needs >= Needs::kAdmission && !session.admitted) refuse_without_token(name);
   if (arguments < command.least || arguments > command.most) {
     throw RequestError(ErrorCode::kBadArguments, name + " takes " + count_text(command) + " arguments, not " +
                                                      std::to_string(arguments) + ": " + usage(command));
   }
-  if (command.needs >= Needs::kAdmission && !session.admitted)
-    throw RequestError(ErrorCode::kUnauthorized,
-                       "this server requires a token before " + name + "; hello token=TOKEN");
   if (command.needs >= Needs::kGame && !session.loaded)
     throw RequestError(ErrorCode::kNoGame, name + " needs a game; load one first");
   if (command.needs == Needs::kMachines && session.machines.empty())

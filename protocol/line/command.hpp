@@ -39,12 +39,16 @@ struct CommandTable {
   std::span<const Command> commands;
   std::span<const Alias> aliases;
 
-  // Finds a command by its name or an alias. Throws RequestError, with the names that exist.
+  const Command* known(std::string_view name) const;  // by its name or an alias; null: there is none
+  // The same. Throws RequestError, with the names that exist.
   const Command& find(std::string_view name) const;
   std::size_t row(const Command& command) const {
     return static_cast<std::size_t>(&command - commands.data());
   }
 };
+
+// Throws RequestError: the client must give a token before it asks for `name`.
+[[noreturn]] void refuse_without_token(std::string_view name);
 
 // Throws RequestError if the number of arguments is wrong, or another command must come first.
 void check(const Command& command, const Session& session, std::size_t arguments);

@@ -238,6 +238,7 @@ void Session::execute(std::string_view line) {
   check_bytes(line);
   read_words(line);
   if (words_.empty()) throw RequestError(ErrorCode::kBadLine, "the line is empty; help lists the commands");
+  if (!admitted && !table_.known(words_[0])) refuse_without_token(words_[0]);
   const Command& command = table_.find(words_[0]);
   command_ = table_.row(command);
   const Words arguments = Words(words_).subspan(1);
@@ -276,11 +277,11 @@ void Session::publish() {
   shown.game = machine.game().name;
   shown.format = machine.format();
   shown.frame = machine.frame_number();
-  shown.episode = statistics.episodes + (slot.finished() ? 0 : 1);
+  shown.episode = episode;
   shown.score = slot.score();
   shown.reward = slot.outcome().reward;
   shown.lives = machine.lives();
-  shown.action = actions.empty() ? 0 : actions.back().act.a;
+  shown.action = last_action;
   shown.over = slot.finished();
   shown.screen.assign(machine.screen().begin(), machine.screen().end());
   std::ranges::copy(machine.ram(), shown.ram.begin());

@@ -59,6 +59,8 @@ class Session {
   std::vector<Field> fields;  // selected by `observe`; they persist across `load`
   std::unique_ptr<LoadedMachine> loaded;
   States states;
+  std::int64_t episode = 1;                     // of the loaded machine, from 1
+  int last_action = 0;                          // of player A, played on it
   std::unique_ptr<SessionRecording> recording;  // null if nothing is being recorded
   std::unique_ptr<Sharing> sharing;             // null if the session is not shared
   Watching watching;                            // shared sessions that this one watches

@@ -172,3 +172,12 @@ TEST_CASE("The frames that begin an episode are not recorded") {
   for (const char* const request : {"restart", "step NOOP", "restart"}) studio.ask(request);
   CHECK(value(studio.ask("record stop"), "frames") == "1");
 }
+
+TEST_CASE("An act that begins the next episode tells, too, that the recording has ended") {
+  Studio studio(1'000'000);
+  studio.ask("load beamfall seed=7 sticky=0 autoreset=1 max_episode_frames=9");
+  studio.ask("record y4m a");
+  studio.ask("act FIRE*9");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // until the writer has met the limit
+  CHECK(value(studio.ask("act FIRE"), "recording_ended") == "limit");
+}

@@ -68,6 +68,39 @@ TEST_CASE("The score is that of the episode, also after a restore") {
   CHECK(value(server.seen_after("reset"), "episode") == "2");
 }
 
+TEST_CASE("Episodes are counted on the machine that is shared") {
+  Server server;
+  server.share();
+  server.player.say(
+      "load beamfall seed=7 sticky=0 max_episode_frames=1\nopen 4 autoreset=disabled\nstep 0\n");
+  CHECK(value(server.seen_after("look"), "episode") == "1");
+  server.player.say("act 0\nsave over\nreset\n");
+  CHECK(value(server.seen_after("reset"), "episode") == "3");  // also without an end before
+  CHECK(value(server.seen_after("restore over"), "episode") == "3");
+  server.player.ask("load beamfall seed=7");
+  CHECK(value(server.seen_after("restore over"), "episode") == "1");
+}
+
+TEST_CASE("The action shown is the last one that was played") {
+  Server server;
+  server.share();
+  server.player.ask("act RIGHT*3");
+  CHECK(value(server.seen_after("act LEFT 99"), "action") == "RIGHT");
+  server.player.session.rest();
+  CHECK(value(server.seen_after("settings"), "action") == "RIGHT");
+  CHECK(value(server.seen_after("load beamfall"), "action") == "NOOP");
+}
+
+TEST_CASE("A session can replace its own share under the same name") {
+  Server server;
+  server.share();
+  CHECK(server.player.ask("share room watchers=4") == "ok share=room watchers=4");
+  CHECK(code(server.player.ask("share room watchers=0")) == "bad-value");
+  CHECK_THAT(server.watcher.ask("watch room"), StartsWith("ok game=beamfall"));
+  server.watcher.ask("load beamfall");
+  CHECK(code(server.watcher.ask("share room")) == "bad-value");
+}
+
 TEST_CASE("Without news there is no picture") {
   Server server;
   server.share();

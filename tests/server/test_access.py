@@ -41,7 +41,7 @@ class Tokens(Folder):
     def test_only_who_gives_a_token_may_play(self):
         with self.serve() as server:
             wire = connect_tcp(server.port())
-            for request in (b"load beamfall", b"games", b"stats", b"act NOOP"):
+            for request in (b"load beamfall", b"games", b"stats", b"act NOOP", b"act", b"frob"):
                 self.assertTrue(ask(wire, request).startswith(b"error unauthorized "), request)
             self.assertIn(b" admitted=0 ", ask(wire, b"hello"))
             self.assertTrue(ask(wire, b"help load").startswith(b"ok load "))

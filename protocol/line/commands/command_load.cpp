@@ -200,6 +200,8 @@ void run_load(Session& session, Words arguments) {
   session.cartridge = std::move(cartridge);
   session.has_own_image = arguments[0] == kInline;
   session.settings = settings;
+  session.episode = 1;
+  session.last_action = 0;
   if (session.service.share_all && !session.sharing) {
     const auto& shares = session.service.shares;
     session.sharing = std::make_unique<Sharing>(shares, shares->open_next(kUsualWatchers));

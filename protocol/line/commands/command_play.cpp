@@ -102,6 +102,7 @@ void run_reset(Session& session, Words arguments) {
   session.allow_resets(1);
   loaded.slot().reset(seed);
   if (seed) session.settings.machine.random_seed = *seed;
+  ++session.episode;
   loaded.slot().begin_request();
   session.out += "ok";
   loaded.append_view(session.out, session.raw);
@@ -119,9 +120,13 @@ void run_act(Session& session, Words arguments) {
     if (actions.size() % 256 == 0) session.pacer.breathe();
   }
   session.check_frames(acts);
-  if (session.settings.autoreset && loaded.slot().finished()) return run_reset(session, {});
+  if (session.settings.autoreset && loaded.slot().finished()) {
+    run_reset(session, {});
+    return session.append_cut();
+  }
   loaded.slot().begin_request();
   play(loaded.slot(), actions);
+  session.last_action = actions.back().act.a;
   session.count(loaded.slot().outcome());
   session.out += "ok";
   session.append_cut();

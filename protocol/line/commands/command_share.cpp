@@ -80,6 +80,7 @@ void run_share(Session& session, Words arguments) {
     most = static_cast<int>(
         number_within(value_of(arguments[1], "watchers", "share"), "watchers", 1, kMostWatchers));
   }
+  if (session.sharing && session.sharing->share().name() == name) session.sharing.reset();
   const auto share = session.service.shares->open(name, most);
   if (!share) throw RequestError(ErrorCode::kBadValue, "the name " + quote(name) + " is taken");
   session.sharing = std::make_unique<Sharing>(session.service.shares, share);
