@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "server/web/origin.hpp"
 #include "system/resources.hpp"
@@ -227,6 +228,12 @@ void collect_endpoints(ServeOptions& options) {
   };
   if (std::ranges::count_if(options.server.endpoints, is_stdio) > 1)
     throw UsageError("serve: the standard streams can serve only one session: give --stdio once");
+  std::set<std::string> prefixes;
+  for (const Endpoint& endpoint : options.server.endpoints) {
+    const auto* const pipes = std::get_if<Pipes>(&endpoint.address);
+    if (pipes != nullptr && !prefixes.insert(pipes->prefix).second)
+      throw UsageError("serve: two pipes can serve only one session: give pipes:" + pipes->prefix + " once");
+  }
 }
 
 // An error of one client must not end a server with other clients.

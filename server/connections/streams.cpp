@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <stdexcept>
 #include <system_error>
@@ -41,7 +42,7 @@ int client_gone(const Halt& halt) {
 bool refuse_other_file(const std::string& path) {
   struct stat found {};
   if (::stat(path.c_str(), &found) != 0) return false;
-  if (!S_ISFIFO(found.st_mode)) throw std::runtime_error(path + " exists, but is not a named pipe");
+  if (!S_ISFIFO(found.st_mode)) throw AddressError(path + " exists, but is not a named pipe");
   return true;
 }
 
@@ -49,7 +50,7 @@ void make_if_missing(const std::string& path) {
   if (::mkfifo(path.c_str(), 0600) == 0) return log("made the pipe " + path);
   const int error = errno;
   if (!refuse_other_file(path))
-    throw std::runtime_error("cannot make the pipe " + path + ": " + std::generic_category().message(error));
+    throw AddressError("cannot make the pipe " + path + ": " + std::generic_category().message(error));
 }
 
 }  // namespace
@@ -157,8 +158,9 @@ StreamSession::StreamSession(const Endpoint& endpoint, const Service& service,
     ++metrics.sessions_classic;
   }
   if (const auto* pipes = std::get_if<Pipes>(&address_)) {
-    make_if_missing(pipes->prefix + "_out");
-    make_if_missing(pipes->prefix + "_in");
+    const std::array<std::string, 2> paths = {pipes->prefix + "_out", pipes->prefix + "_in"};
+    for (const std::string& path : paths) refuse_other_file(path);  // of both, before one is made
+    for (const std::string& path : paths) make_if_missing(path);
   }
 }
 

@@ -22,6 +22,21 @@ class Refusals(unittest.TestCase):
             self.assertIn(hint, errors[0])
 
 
+class PipeNames(Refusals):
+    def test_two_endpoints_cannot_have_the_same_pipes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pipes = f"pipes:{folder}/q"
+            self.check(["serve", "--listen", pipes, "--listen", pipes], 2, f"give {pipes} once")
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_pipes_beside_another_file_of_their_name_are_not_made(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "q_in"), "w"):
+                pass
+            self.check(["serve", "--pipes", f"{folder}/q"], 3, "q_in exists, but is not a named pipe")
+            self.assertEqual(os.listdir(folder), ["q_in"])
+
+
 class Images(Refusals):
     def check_image(self, data, *hints):
         """Every server refuses an image with these bytes, and creates nothing."""
