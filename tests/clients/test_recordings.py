@@ -79,6 +79,7 @@ class Recordings(unittest.TestCase):
             self.assertGreater(len(set(file.readframes(FRAMES * 512))), 1)
 
     def test_every_frame_of_an_act_is_recorded(self):
+        self.session.observe("rgb")
         self.session.load("beamfall", seed=1, frame_skip=4)
         self.session.record("png", "b")
         self.session.act("UP*3")
