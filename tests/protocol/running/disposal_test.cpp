@@ -53,6 +53,7 @@ TEST_CASE("A small object is destroyed at once, as are all without a disposal") 
 TEST_CASE("What is left is destroyed with the disposal") {
   std::atomic<int> destroyed = 0;
   struct Counter {
+    explicit Counter(std::atomic<int>* counted) : count(counted) {}
     ~Counter() { ++*count; }
     std::atomic<int>* count;
   };
