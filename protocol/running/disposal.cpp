@@ -50,11 +50,11 @@ void Disposal::run() {
 void release_pages(std::string& text) {
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   if (text.capacity() < 4 * kPiece) return;
-  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
-  const auto first = reinterpret_cast<std::uintptr_t>(text.data());
-  const std::uintptr_t end = (first + text.capacity()) / page * page;
-  for (std::uintptr_t at = (first + page - 1) / page * page; at < end; at += kPiece)
-    ::madvise(reinterpret_cast<void*>(at), std::min<std::size_t>(kPiece, end - at), MADV_DONTNEED);
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const std::size_t first = (page - reinterpret_cast<std::uintptr_t>(text.data()) % page) % page;
+  const std::size_t end = first + (text.capacity() - first) / page * page;
+  for (std::size_t at = first; at < end; at += kPiece)
+    ::madvise(text.data() + at, std::min(kPiece, end - at), MADV_DONTNEED);
 }
 
 }  // namespace racebeam
