@@ -61,6 +61,64 @@ std::string_view text_of(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+// The sticky bit, which means nothing to a file, marks one that is written aside.
+constexpr mode_t kAside = S_ISVTX | 0644;
+
+// Whether a kill left the file behind when replace_file() wrote it.
+bool is_left_behind(const std::string& name) {
+  struct stat facts {};
+  return ::lstat(name.c_str(), &facts) == 0 && S_ISREG(facts.st_mode) && (facts.st_mode & S_ISVTX) != 0 &&
+         facts.st_uid == ::geteuid();
+}
+
+// A new file beside `path`: .NAME.part, or .NAME.part1 and so on if another program has a file of that name.
+// What a kill left behind is replaced. The file is removed unless it is renamed.
+class Aside {
+ public:
+  explicit Aside(const std::string& path) {
+    const fs::path whole(path);
+    const std::string hidden = std::string(".").append(whole.filename().string()).append(".part");
+    const std::string first = (whole.parent_path() / hidden).string();
+    for (int number = 0; descriptor_ < 0 && number < kMostNames; ++number) {
+      name_ = number == 0 ? first : first + std::to_string(number);
+      if (is_left_behind(name_)) ::unlink(name_.c_str());
+      descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kAside);
+      if (descriptor_ < 0 && errno != EEXIST) break;
+    }
+    if (descriptor_ < 0) fail("make", path);
+  }
+  ~Aside() {
+    ::close(descriptor_);
+    if (!name_.empty()) ::unlink(name_.c_str());
+  }
+  Aside(const Aside&) = delete;
+  Aside& operator=(const Aside&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+  void rename_to(const std::string& path) {
+    if (::rename(name_.c_str(), path.c_str()) != 0) fail("replace", path);
+    name_.clear();
+    struct stat facts {};
+    if (::fstat(descriptor_, &facts) == 0) ::fchmod(descriptor_, facts.st_mode & 0777);
+  }
+
+ private:
+  static constexpr int kMostNames = 100;
+
+  std::string name_;  // empty: renamed
+  int descriptor_ = -1;
+};
+
+// The file that a symbolic link names, be it there or not.
+std::string target_of(std::string path) {
+  constexpr int kMostLinks = 40;
+  std::error_code none;
+  for (int links = 0; links < kMostLinks && fs::is_symlink(path, none); ++links)
+    path = (fs::path(path).parent_path() / fs::read_symlink(path)).string();
+  return path;
+}
+
 }  // namespace
 
 void DiskBudget::take(std::size_t bytes) {
@@ -121,66 +179,6 @@ void AtomicFile::commit() {
   ::close(descriptor_);
   descriptor_ = -1;
 }
-
-namespace {
-
-// The sticky bit, which means nothing to a file, marks one that is written aside.
-constexpr mode_t kAside = S_ISVTX | 0644, kWhole = 0644;
-
-// Whether a kill left the file behind when replace_file() wrote it.
-bool is_left_behind(const std::string& name) {
-  struct stat facts {};
-  return ::lstat(name.c_str(), &facts) == 0 && S_ISREG(facts.st_mode) && (facts.st_mode & S_ISVTX) != 0 &&
-         facts.st_uid == ::geteuid();
-}
-
-// A new file in the folder of `path`. Its name is always the same, so that what a kill left behind is
-// replaced by the next attempt; if another file has that name, it is one that no file has. The file is
-// removed unless it is renamed.
-class Aside {
- public:
-  explicit Aside(const std::string& path) : name_(temporary_name(path)) {
-    std::string usual = name_;
-    usual.replace(usual.rfind('.'), std::string::npos, ".part");
-    if (is_left_behind(usual)) ::unlink(usual.c_str());
-    descriptor_ = ::open(usual.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kAside);
-    if (descriptor_ >= 0) {
-      name_ = usual;
-    } else if (errno == EEXIST) {
-      descriptor_ = ::mkostemp(name_.data(), O_CLOEXEC);
-    }
-    if (descriptor_ < 0) fail("make", path);
-  }
-  ~Aside() {
-    ::close(descriptor_);
-    if (!name_.empty()) ::unlink(name_.c_str());
-  }
-  Aside(const Aside&) = delete;
-  Aside& operator=(const Aside&) = delete;
-
-  int descriptor() const { return descriptor_; }
-
-  void rename_to(const std::string& path) {
-    if (::rename(name_.c_str(), path.c_str()) != 0) fail("replace", path);
-    name_.clear();
-    ::fchmod(descriptor_, kWhole);
-  }
-
- private:
-  std::string name_;  // empty: renamed
-  int descriptor_ = -1;
-};
-
-// The file that a symbolic link names, be it there or not.
-std::string target_of(std::string path) {
-  constexpr int kMostLinks = 40;
-  std::error_code none;
-  for (int links = 0; links < kMostLinks && fs::is_symlink(path, none); ++links)
-    path = (fs::path(path).parent_path() / fs::read_symlink(path)).string();
-  return path;
-}
-
-}  // namespace
 
 void replace_file(const std::string& path, std::string_view bytes, Durable durable) {
   const std::string target = target_of(path);

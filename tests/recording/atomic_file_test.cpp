@@ -58,6 +58,14 @@ TEST_CASE("A file is replaced without regard to files of other names") {
   CHECK(contents(folder.path(".table.csv.part")) == "a user's own");
 }
 
+TEST_CASE("A file that replaces another has the mode that new files have") {
+  const Scratch folder;
+  const mode_t before = ::umask(0077);
+  replace_file(folder.path("private.csv"), "new", Durable::kLater);
+  ::umask(before);
+  CHECK(std::filesystem::status(folder.path("private.csv")).permissions() == std::filesystem::perms(0600));
+}
+
 TEST_CASE("A link stays, and the file that it names is replaced") {
   const Scratch folder;
   folder.write("old.csv", "old");
