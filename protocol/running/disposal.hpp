@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <string>
 #include <thread>
 #include <utility>
@@ -41,16 +42,20 @@ class Disposal {
 // `memory`, which may be null, until then.
 template <typename T>
 void dispose(const std::shared_ptr<Disposal>& disposal, const std::shared_ptr<MemoryBudget>& memory,
-             std::size_t bytes, T object) {
+             std::size_t bytes, T object) noexcept {
   if (disposal == nullptr || bytes < Disposal::kWorthwhile) return;
   struct Remains {
     Remains(const std::shared_ptr<MemoryBudget>& budget, T rest) : counted(budget), object(std::move(rest)) {}
     MemoryShare counted;
     T object;
   };
-  auto remains = std::make_shared<Remains>(memory, std::move(object));
-  remains->counted.set(bytes);
-  disposal->take(std::move(remains));
+  try {
+    auto remains = std::make_shared<Remains>(memory, std::move(object));
+    remains->counted.set(bytes);
+    disposal->take(std::move(remains));
+  } catch (const std::bad_alloc&) {
+    // The object is destroyed here.
+  }
 }
 
 // Releases the pages of a long text, whose content is lost, in pieces: threads that map memory meanwhile wait
