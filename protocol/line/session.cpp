@@ -144,6 +144,7 @@ bool Session::has_enough() const {
          out.size() >= std::min(kBytesOfReplies, limits(service).output);
 }
 
+// Whether replies are sent before the next request. The server delays tokens one by one.
 bool Session::pauses() const {
   if (pacer.in_progress() || out.empty() || input.empty()) return false;
   return !admitted || has_enough() ||

@@ -195,40 +195,6 @@ TEST_CASE("The seeds of opened machines count up from that of the last reset wit
     CHECK(played.ask(request) == loaded.ask(request));
 }
 
-TEST_CASE("Machines are opened in the mode and difficulty of the state that was restored last") {
-  LineClient client;
-  client.say("load beamfall seed=7 difficulty=1\nsave hard\nset difficulty=0\nrestore hard\nopen 1\n");
-  client.say("save opened machine=0\nset difficulty=0\nrestore opened\n");
-  CHECK(value(client.ask("difficulties"), "difficulty") == "1");
-}
-
-TEST_CASE("A state that has ended has ended in machines of other steps, too") {
-  LineClient client;
-  client.say("load beamfall seed=7 sticky=0 frame_skip=4 reward_min=1\nact FIRE*4000\nsave over\n");
-  client.say("observe reward terminated truncated frames\nopen 1 steps=frames autoreset=disabled\n");
-  CHECK(client.ask("restore over machine=0") == "ok reward=0 terminated=1 truncated=0 frames=0");
-  CHECK(client.ask("step 0") == "ok machines=1 | over=1 reward=0 terminated=1 truncated=0 frames=0");
-}
-
-TEST_CASE("Frames of acts count against the limit of an episode of steps") {
-  LineClient client;
-  client.say("load beamfall seed=7 sticky=0 frame_skip=4 max_episode_frames=20\nact 0*3\nsave three\n");
-  client.say("act 0*2\nsave cut\nobserve truncated\nopen 1 steps=frames autoreset=disabled\n");
-  CHECK(client.ask("restore cut machine=0") == "ok truncated=1");
-  CHECK(client.ask("restore three machine=0") == "ok truncated=0");
-  CHECK(client.ask("step 0") == "ok machines=1 | truncated=0");
-  CHECK(client.ask("step 0") == "ok machines=1 | truncated=1");
-  client.say("restore three\nsave root\nbranch root keep=leaf 0*2\n");
-  CHECK(client.ask("restore leaf0 machine=0") == "ok truncated=1");
-}
-
-TEST_CASE("A state that has ended does not end once more in a machine that resets itself") {
-  LineClient client;
-  client.say("load beamfall seed=7 sticky=0 frame_skip=4 max_episode_frames=8\nact 0*2\nsave over\n");
-  client.say("observe ends episode_frame\nopen 1 autoreset=same-step\nrestore over machine=0\n");
-  CHECK(client.ask("step 0") == "ok machines=1 | terminated=0 truncated=0 episode_frame=4");
-}
-
 std::string ask_all(LineClient& client, std::initializer_list<const char*> requests) {
   std::string last;
   for (const char* const request : requests) {
@@ -237,6 +203,35 @@ std::string ask_all(LineClient& client, std::initializer_list<const char*> reque
     CHECK(last.starts_with("ok"));
   }
   return last;
+}
+
+TEST_CASE("Machines are opened in the mode and difficulty of the state that was restored last") {
+  LineClient client;
+  ask_all(client, {"load beamfall seed=7 difficulty=1", "save hard", "set difficulty=0", "restore hard",
+                   "open 1", "save opened machine=0", "set difficulty=0", "restore opened"});
+  CHECK(value(client.ask("difficulties"), "difficulty") == "1");
+}
+
+TEST_CASE("A state that has ended has ended in machines of other kinds, too") {
+  LineClient client;
+  ask_all(client, {"load beamfall seed=7 sticky=0 frame_skip=4 reward_min=1", "act FIRE*4000", "save over",
+                   "observe reward terminated truncated frames", "open 1 steps=frames autoreset=disabled"});
+  CHECK(client.ask("restore over machine=0") == "ok reward=0 terminated=1 truncated=0 frames=0");
+  CHECK(client.ask("step 0") == "ok machines=1 | over=1 reward=0 terminated=1 truncated=0 frames=0");
+  ask_all(client, {"open 1 autoreset=same-step", "restore over machine=0"});
+  CHECK(client.ask("step 0") == "ok machines=1 | reward=1 terminated=0 truncated=0 frames=4");
+}
+
+TEST_CASE("Frames of acts count against the limit of an episode of steps") {
+  LineClient client;
+  ask_all(client, {"load beamfall seed=7 sticky=0 frame_skip=4 max_episode_frames=20", "act 0*3",
+                   "save three", "branch three keep=leaf 0*2", "act 0*2", "save cut", "observe truncated",
+                   "open 1 steps=frames autoreset=disabled"});
+  for (const std::string over : {"cut", "leaf0"})
+    CHECK(client.ask("restore " + over + " machine=0") == "ok truncated=1");
+  CHECK(client.ask("restore three machine=0") == "ok truncated=0");
+  CHECK(client.ask("step 0") == "ok machines=1 | truncated=0");
+  CHECK(client.ask("step 0") == "ok machines=1 | truncated=1");
 }
 
 constexpr const char* kStacked = "load beamfall seed=5 sticky=0.5 noop_max=20 max_episode_frames=90";

@@ -86,6 +86,8 @@ TEST_CASE("The action shown is the last one that was played") {
   server.share();
   server.player.ask("act RIGHT*3");
   CHECK(value(server.seen_after("act LEFT 99"), "action") == "RIGHT");
+  server.player.say("load beamfall seed=7 max_episode_frames=1\nact RIGHT\n");
+  CHECK(value(server.seen_after("act LEFT"), "action") == "RIGHT");  // the episode is over
   server.player.session.rest();
   CHECK(value(server.seen_after("settings"), "action") == "RIGHT");
   CHECK(value(server.seen_after("load beamfall"), "action") == "NOOP");

@@ -126,7 +126,7 @@ void run_act(Session& session, Words arguments) {
   }
   loaded.slot().begin_request();
   play(loaded.slot(), actions);
-  session.last_action = actions.back().act.a;
+  if (loaded.slot().outcome().acts > 0) session.last_action = actions.back().act.a;
   session.count(loaded.slot().outcome());
   session.out += "ok";
   session.append_cut();
