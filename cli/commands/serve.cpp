@@ -83,7 +83,7 @@ void check_folder(const std::string& option, const std::string& path) {
     throw FolderError(option + " " + path + " is not a folder");
 }
 
-ClassicService classic_service(const ServeOptions& options) {
+ClassicService classic_service(const ServeOptions& options, const std::shared_ptr<Disposal>& disposal) {
   const auto tell = [](const std::string& sentence) { log_warning(sentence); };
   const auto power_on_one = [options, cartridge = open_cartridge(options.machine, tell)](Pace* pace) {
     MachineOptions machine = options.machine;
@@ -91,10 +91,11 @@ ClassicService classic_service(const ServeOptions& options) {
     machine.settings.random_seed = resolve_seed(machine.settings.random_seed);
     return power_on(cartridge, machine, pace);
   };
-  return {power_on_one, options.protocol, nullptr};
+  return {power_on_one, options.protocol, nullptr, disposal};
 }
 
-LineService line_service(const ServeOptions& options, ThreadPool& pool) {
+LineService line_service(const ServeOptions& options, ThreadPool& pool,
+                         const std::shared_ptr<Disposal>& disposal) {
   check_folder("--roms", options.roms);
   check_folder("--record-dir", options.record_folder);
   const auto images = std::make_shared<Images>();
@@ -102,6 +103,7 @@ LineService line_service(const ServeOptions& options, ThreadPool& pool) {
     images->add_file(options.machine.rom, options.machine.game, options.machine.game_file);
   if (!options.roms.empty()) images->add_folder(options.roms);
   LineService service;
+  service.disposal = disposal;
   service.version = RACEBEAM_VERSION;
   service.images = images;
   service.limits = options.limits;
@@ -169,10 +171,8 @@ int serve(const ServeOptions& options, const SharedCaches& caches) {
                   options.server.busy_poll);
   Services services;
   const auto disposal = std::make_shared<Disposal>();
-  if (serves(options, true)) services.classic = classic_service(options);
-  if (serves(options, false)) services.line = line_service(options, pool);
-  if (services.classic) std::get<ClassicService>(*services.classic).disposal = disposal;
-  if (services.line) std::get<LineService>(*services.line).disposal = disposal;
+  if (serves(options, true)) services.classic = classic_service(options, disposal);
+  if (serves(options, false)) services.line = line_service(options, pool, disposal);
   limit_memory(services, options.server.max_memory, caches);
   return serve(options.server, services);
 }

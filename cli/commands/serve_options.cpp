@@ -223,16 +223,11 @@ void collect_endpoints(ServeOptions& options) {
   }
   if (addresses.empty())
     throw UsageError("serve: no address to serve: give --stdio, --pipes PREFIX or --listen ADDRESS");
-  const auto is_stdio = [](const Endpoint& endpoint) {
-    return std::holds_alternative<StandardStreams>(endpoint.address);
-  };
-  if (std::ranges::count_if(options.server.endpoints, is_stdio) > 1)
-    throw UsageError("serve: the standard streams can serve only one session: give --stdio once");
-  std::set<std::string> prefixes;
+  std::set<std::string> streams;
   for (const Endpoint& endpoint : options.server.endpoints) {
-    const auto* const pipes = std::get_if<Pipes>(&endpoint.address);
-    if (pipes != nullptr && !prefixes.insert(pipes->prefix).second)
-      throw UsageError("serve: two pipes can serve only one session: give pipes:" + pipes->prefix + " once");
+    const std::string name = to_string(endpoint.address);
+    if (is_stream(endpoint.address) && !streams.insert(name).second)
+      throw UsageError("serve: " + name + " can serve only one session: give it once");
   }
 }
 

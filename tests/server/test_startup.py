@@ -26,7 +26,7 @@ class PipeNames(Refusals):
     def test_two_endpoints_cannot_have_the_same_pipes(self):
         with tempfile.TemporaryDirectory() as folder:
             pipes = f"pipes:{folder}/q"
-            self.check(["serve", "--listen", pipes, "--listen", pipes], 2, f"give {pipes} once")
+            self.check(["serve", "--listen", pipes, "--listen", pipes], 2, f"{pipes} can serve only one session: give it once")
             self.assertEqual(os.listdir(folder), [])
 
     def test_pipes_beside_another_file_of_their_name_are_not_made(self):
@@ -113,7 +113,7 @@ class CommandLine(Refusals):
 
     def test_a_transport_is_needed(self):
         self.check(["serve", "--classic", "--rom", GAME], 2, "--stdio, --pipes PREFIX or --listen ADDRESS")
-        self.refuse("--listen", "stdio", hint="standard streams can serve only one session")
+        self.refuse("--listen", "stdio", hint="stdio can serve only one session: give it once")
 
     def test_what_the_client_says_in_the_line_protocol_is_refused(self):
         for words in (["--seed", "1"], ["--frame-skip", "4"], ["--sticky", "0"], ["--full-screen"], ["--mode", "0"]):
