@@ -148,7 +148,7 @@ class Experiment(unittest.TestCase):
                 (["no"], 1, "there is no plan 'no'; shipped are paper, hour, smoke, baselines, "),
                 (["./none.toml"], 1, "plan ./none.toml: there is no such file"),
                 (["paper"], 1, "no image is here of: asterix, beam_rider, freeway, seaquest, space_invaders, alien, "),
-                *((["smoke", "--shard", shard, *more], 2, f"--shard: '{shard}' is no part; accepted is K/N, with K from 1 to N")
+                *((["smoke", "--shard", shard, *more], 2, f"--shard: '{shard}' is not a shard; accepted is K/N, with K from 1 to N")
                   for shard in ("3/2", "0/2", "x", "") for more in ([], ["--dry-run"])),
                 (["smoke", "--threads", "-1"], 2, "--threads: '-1' is not a whole number from 0 to 1024")):
             found = run("experiment", *words, "--into", str(self.place / "bad"))

@@ -247,7 +247,7 @@ class Whole(Slurm):
         job = self.cluster.submit("--array=0", "--output", self.results / "said", SCRIPTS / "experiment.sbatch", "smoke",
                                   self.results / "shared")
         self.assertEqual(self.cluster.wait_for_end(job), {"FAILED"})
-        self.assertEqual((self.results / "said").read_text(), "racebeam: --shard is '0/0'; it takes K/N, with K from 1 to N\n")
+        self.assertEqual((self.results / "said").read_text(), "racebeam: --shard: '0/0' is not a shard; accepted is K/N, with K from 1 to N\n")
         self.assertFalse((self.results / "shared").exists())
 
     def test_two_hundred_servers_of_one_array(self):
