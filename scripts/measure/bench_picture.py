@@ -1,4 +1,4 @@
-"""Draws ratios as SVG: a bar for each game, the shortest first."""
+"""Draws ratios as SVG: of all games, a bar for each, the shortest first; and a summary, a bar for each setting."""
 import html
 import math
 
@@ -31,4 +31,21 @@ def draw(ratios, heading):
         parts += [text(LEFT - 6, y + ROW - GAP, game, anchor="end"),
                   f'<rect x="{LEFT}" y="{y + 1}" width="{ratio * scale:.1f}" height="{ROW - GAP}" fill="{BAR}"/>',
                   text(LEFT + ratio * scale + 4, y + ROW - GAP, f"{ratio:.2f}", 10)]
+    return "\n".join([*parts, "</svg>"]) + "\n"
+
+
+def draw_summary(means, games):
+    """Returns a picture of the geometric means as SVG text. means: {setting's heading: ratio to the reference}."""
+    row, left, width = 30, 230, 520
+    scale = width / max(means.values())
+    height = 44 + (len(means) + 1) * row
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{left + width + RIGHT}" height="{height}" '
+             f'font-family="sans-serif">', '<rect width="100%" height="100%" fill="white"/>',
+             text(10, 24, f"Frames a second on one core, as multiples of ALE's: means of {games} games", 14, weight="bold")]
+    bars = [("ALE 0.12, in any setting", 1.0, LINE), *((f"racebeam: {heading}", mean, BAR) for heading, mean in means.items())]
+    for number, (heading, ratio, colour) in enumerate(bars):
+        y = 40 + number * row
+        parts += [text(left - 8, y + 16, heading, anchor="end"),
+                  f'<rect x="{left}" y="{y + 2}" width="{ratio * scale:.1f}" height="{row - 10}" fill="{colour}"/>',
+                  text(left + ratio * scale + 6, y + 17, f"{ratio:.1f}", 12, weight="bold")]
     return "\n".join([*parts, "</svg>"]) + "\n"

@@ -1,4 +1,4 @@
-"""Writes the results of scripts/bench core: a summary in a document, each game's figures in another, and a picture."""
+"""Writes the results of scripts/bench core: a summary in a document, each game's figures in another, and two pictures."""
 import math
 import os
 import pathlib
@@ -14,6 +14,7 @@ from bench_settings import SETTINGS
 PAGE = cartridges.ROOT / "docs/performance.md"
 FIGURES = cartridges.ROOT / "docs/performance/figures.md"
 PICTURE = cartridges.ROOT / "docs/performance/core.svg"
+SUMMARY = cartridges.ROOT / "docs/performance/summary.svg"
 BEGIN, END = "<!-- scripts/bench core --write: begin -->", "<!-- end -->"
 HEADINGS = {name: setting.heading for name, setting in SETTINGS.items()}
 
@@ -137,5 +138,7 @@ def write(results):
     if names:
         ratios = {game: found[names[0]]["ratio"] for game, found in results["games"].items()}
         PICTURE.write_text(bench_picture.draw(ratios, HEADINGS[names[0]]))
+        means = {HEADINGS[name]: summary(results)[HEADINGS[name]][0] for name in names}
+        SUMMARY.write_text(bench_picture.draw_summary(means, len(ratios)))
         picture = f"![{HEADINGS[names[0]]}: ratio to ALE, by game]({PICTURE.relative_to(PAGE.parent)})\n\n"
     PAGE.write_text(f"{before}{BEGIN}\n{picture}{page(results)}\n{END}{after}")
