@@ -11,6 +11,8 @@ import { Track, type Outcome } from "./track.js";
 export class Deck {
   readonly element = copyOf("deck");
   readonly episode: Episode;
+  /** Whether the server records films. */
+  records = false;
   /** Called when the user closes the deck. */
   closed: () => void = () => {};
   /** Called with the sound of a frame that follows the one shown before. */
@@ -57,6 +59,7 @@ export class Deck {
     progress.hidden = false;
     const { session, limits } = await this.#server.open();
     this.#end = () => session.disconnect();
+    this.records = limits.recording === 1;
     this.#track = new Track(session, this.episode, limits.max_states);
     this.#outcome = await this.#track.prepare((done) => (progress.value = done));
     this.#screen.become(await session.palette(), String(this.#track.loaded.format), this.#track.loaded.height);

@@ -66,6 +66,7 @@ export class ReplayView {
     }
     this.#speaker.rate = deck.soundRate;
     byId("transport", HTMLElement).hidden = false;
+    this.#offerFilm(deck.records);
     this.#changed();
   }
 
@@ -172,6 +173,11 @@ export class ReplayView {
 
   #drawMarks(): void {
     drawMarks(byId("marks", HTMLCanvasElement), this.#decks.map((deck) => deck.rewards), Math.max(1, this.#frames));
+  }
+
+  #offerFilm(possible: boolean): void {
+    byId("film", HTMLButtonElement).disabled = byId("film-kind", HTMLSelectElement).disabled = !possible;
+    tell(byId("link-told", HTMLElement), possible ? "" : "This server makes no films: it was started without --record-dir.");
   }
 
   /** Makes a film of the first episode. */

@@ -142,3 +142,18 @@ describe("the view Replay", () => {
     await until(async () => (await facts() ?? "").startsWith(`score 0 of ${score} `), "the score of the episode");
   });
 });
+
+test("a server that does not record offers no film", async () => {
+  const [server, tabs] = [new Server(), new Tabs()];
+  try {
+    const [log] = recordedEpisodes(server.folder, 0, 1);
+    await server.start();
+    const page = await tabs.open(`${server.address}#replay`);
+    await page.locator("#log").setInputFiles(log!);
+    await page.locator("#link-told").filter({ hasText: "started without --record-dir" }).waitFor();
+    assert.ok(await page.locator("#film").isDisabled());
+  } finally {
+    await tabs.close();
+    await server.remove();
+  }
+});
