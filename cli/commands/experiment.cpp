@@ -66,7 +66,8 @@ std::optional<Shard> shard_of(std::string_view text) {
 }
 
 std::string check_shard(const std::string& text) {
-  return shard_of(text) ? std::string() : quote(text) + " is not a shard; accepted is K/N, with K from 1 to N";
+  return shard_of(text) ? std::string()
+                        : quote(text) + " is not a shard; accepted is K/N, with K from 1 to N";
 }
 
 std::string hours(double seconds) {

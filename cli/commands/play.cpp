@@ -63,11 +63,30 @@ void check_for_page(const ServeOptions& options) {
   if (options.classic) refuse("--classic");
 }
 
-void check_game(const std::string& name) {
+std::string places(const ServeOptions& options) {
+  std::string all = "the program's own games";
+  if (!options.machine.rom.empty()) all += ", --rom " + options.machine.rom;
+  return all + (options.roms.empty() ? "; --roms DIR names a folder of images" : ", --roms " + options.roms);
+}
+
+void check_game(const std::string& name, const ServeOptions& options) {
+  const Images images = offered_images(options);
+  if (images.find(name) != nullptr) return;
   const auto names = game_names();
-  if (name.empty() || std::ranges::find(names, name) != names.end()) return;
+  if (std::ranges::find(names, name) != names.end())
+    throw UsageError("GAME: there is no image of " + name + " in these places: " + places(options));
   throw UsageError("GAME: there is no game '" + name + "';" + did_you_mean(name, names) +
                    " racebeam games lists them");
+}
+
+// The game to begin with: GAME, else that of --rom, else an empty text.
+std::string first_game(const PlayOptions& options) {
+  const MachineOptions& machine = options.serve.machine;
+  if (!options.game.empty()) {
+    check_game(options.game, options.serve);
+    return options.game;
+  }
+  return machine.rom.empty() ? std::string() : open_cartridge(machine, [](const std::string&) {}).game->name;
 }
 
 // The address of the page, with the token in the part that a browser does not send.
@@ -144,7 +163,7 @@ int play_here(PlayOptions& options, const std::vector<Setting>& settings) {
 
 int run(PlayOptions& options, const std::vector<Setting>& settings) {
   check_for_page(options.serve);
-  check_game(options.game);
+  options.game = first_game(options);
   if (is_default(settings, "log_level")) options.serve.log_level = LogLevel::kWarning;
   return options.terminal ? play_here(options, settings) : play_in_browser(options, settings);
 }

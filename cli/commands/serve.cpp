@@ -96,16 +96,11 @@ ClassicService classic_service(const ServeOptions& options, const std::shared_pt
 
 LineService line_service(const ServeOptions& options, ThreadPool& pool,
                          const std::shared_ptr<Disposal>& disposal) {
-  check_folder("--roms", options.roms);
   check_folder("--record-dir", options.record_folder);
-  const auto images = std::make_shared<Images>();
-  if (!options.machine.rom.empty())
-    images->add_file(options.machine.rom, options.machine.game, options.machine.game_file);
-  if (!options.roms.empty()) images->add_folder(options.roms);
   LineService service;
   service.disposal = disposal;
   service.version = RACEBEAM_VERSION;
-  service.images = images;
+  service.images = std::make_shared<Images>(offered_images(options));
   service.limits = options.limits;
   if (!options.record_folder.empty()) service.recorder = std::make_shared<Recorder>(options.record_folder);
   service.threads = static_cast<std::size_t>(options.server.threads);
@@ -189,6 +184,15 @@ int fail(LogFormat format, const std::string& sentence, int status) {
 }
 
 }  // namespace
+
+Images offered_images(const ServeOptions& options) {
+  check_folder("--roms", options.roms);
+  Images images;
+  if (!options.machine.rom.empty())
+    images.add_file(options.machine.rom, options.machine.game, options.machine.game_file);
+  if (!options.roms.empty()) images.add_folder(options.roms);
+  return images;
+}
 
 int run_server(ServeOptions& options, const std::vector<Setting>& settings) {
   return_large_blocks();

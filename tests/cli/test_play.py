@@ -12,7 +12,7 @@ import time
 import unittest
 import urllib.request
 
-from harness import BINARY, PATIENCE, Server, main, run
+from harness import BINARY, PATIENCE, SOURCE, Server, main, run
 from web.web_socket import WebSocket
 
 
@@ -55,6 +55,15 @@ class Play(unittest.TestCase):
         session.close()
         self.end(process)
 
+    def test_it_begins_with_the_image_of_the_command_line(self):
+        image = os.path.join(self.folder, "image")
+        os.mkdir(image)
+        shutil.copy(os.path.join(SOURCE, "games/homebrew/updraft.bin"), os.path.join(image, "mine.bin"))
+        process = self.start("--rom", os.path.join(image, "mine.bin"))
+        self.assertRegex(process.stdout.readline(), r"/\?game=updraft#token=")
+        shutil.rmtree(image)
+        self.end(process)
+
     def test_a_desktop_opens_the_page(self):
         opener = os.path.join(self.folder, "bin")
         os.mkdir(opener)
@@ -69,7 +78,9 @@ class Play(unittest.TestCase):
         self.end(process)
 
     def test_what_it_cannot_do_is_refused(self):
-        for words, hint in ((["beamfal"], "did you mean beamfall?"), (["--stdio"], "requires racebeam serve"),
+        for words, hint in ((["beamfal"], "did you mean beamfall?"),
+                            (["pong", "--roms", self.folder], f"there is no image of pong in these places: the program's own games, --roms {self.folder}"),
+                            (["--stdio"], "requires racebeam serve"),
                             (["--announce", "x"], "requires racebeam serve")):
             status, output, errors = run("play", *words)
             self.assertEqual((status, output, len(errors)), (2, b"", 1), errors)
