@@ -16,6 +16,9 @@ function Socket:send(line)
   self.socket:send(line .. "\n") -- if this fails, receive() tells why
 end
 
+-- What a read waits for, by what it says: TLS may have to write first.
+local WAITS = { timeout = "reads", wantread = "reads", wantwrite = "writes" }
+
 -- What arrives next: not empty; or nil and "timeout" or another sentence.
 function Socket:piece()
   while true do
@@ -27,10 +30,11 @@ function Socket:piece()
     local piece = all or some
     if piece and #piece > 0 then
       return piece
-    elseif problem ~= "timeout" and problem ~= "wantread" then
+    elseif not WAITS[problem] then
       return nil, problem
     end
-    self.select({ self.socket }, nil, left)
+    local sockets = { [WAITS[problem]] = { self.socket } }
+    self.select(sockets.reads, sockets.writes, left)
   end
 end
 

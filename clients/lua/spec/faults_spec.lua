@@ -72,6 +72,24 @@ describe("a session", function()
     assert.equal("the session has ended: the server sent what is no reply: '\\x1b[31mred\\xff'", problem)
   end)
 
+  it("waits until TLS can write, if a read has to write first", function()
+    local game = prepared("ok reward=1\n")
+    local receive, waited = game.connection.socket.receive, {}
+    local wanted = { "wantwrite", "wantread" }
+    game.connection.socket.receive = function(...)
+      local problem = table.remove(wanted, 1)
+      if problem then
+        return nil, problem, ""
+      end
+      return receive(...)
+    end
+    game.connection.select = function(reads, writes)
+      waited[#waited + 1] = (reads and "reads" or "") .. (writes and "writes" or "")
+    end
+    assert.equal(1, game:request("act FIRE")[1].reward)
+    assert.equal("writes reads", table.concat(waited, " "))
+  end)
+
   it("whose server dies in mid-line ends", function()
     local game, peer = prepared("ok rew")
     peer:close()
