@@ -129,11 +129,20 @@ public final class Session implements AutoCloseable {
       ByteBuffer raw = ByteBuffer.wrap(connection.readBytes(takeRaw(groups)));
       return new Outcome(new Reply(fields.follow(List.of(request.strip().split(" +")), groups, raw), line), null);
     } catch (IOException failure) {
+      refuseIfClosed(failure);
       close(); // half a reply may have been read
       throw failure;
     } catch (RuntimeException damaged) {
+      refuseIfClosed(damaged);
       close();
       throw new IOException("a reply of the server is damaged: " + printable(damaged.getMessage()), damaged);
+    }
+  }
+
+  /** What a read of a connection says that another thread closes depends on the kind of connection. */
+  private void refuseIfClosed(Exception failure) throws IOException {
+    if (closed) {
+      throw new IOException("another thread has closed the session", failure);
     }
   }
 

@@ -10,7 +10,9 @@ import java.net.SocketTimeoutException;
 import java.net.StandardProtocolFamily;
 import java.net.UnixDomainSocketAddress;
 import java.nio.ByteBuffer;
+import java.nio.channels.AsynchronousCloseException;
 import java.nio.channels.Channels;
+import java.nio.channels.ClosedSelectorException;
 import java.nio.channels.SelectionKey;
 import java.nio.channels.Selector;
 import java.nio.channels.SocketChannel;
@@ -190,7 +192,7 @@ final class Transports {
     Connection.Source source = (data, at, length, limit) -> {
       int read;
       while ((read = channel.read(ByteBuffer.wrap(data, at, length))) == 0) {
-        await(readable, limit);
+        await(channel, readable, limit);
       }
       return read;
     };
@@ -204,7 +206,7 @@ final class Transports {
       public void write(byte[] data, int at, int length) throws IOException {
         ByteBuffer rest = ByteBuffer.wrap(data, at, length);
         while (channel.write(rest) == 0 || rest.hasRemaining()) {
-          await(writable, milliseconds(options.timeout()));
+          await(channel, writable, milliseconds(options.timeout()));
         }
       }
     };
@@ -215,11 +217,24 @@ final class Transports {
     }, options);
   }
 
-  private static void await(Selector selector, int limit) throws IOException {
-    if (selector.select(limit) == 0) {
-      throw new SocketTimeoutException("the server did not answer in time");
+  /** Another thread that closes the channel, or interrupts this one, wakes the selector, too. */
+  private static void await(SocketChannel channel, Selector selector, int limit) throws IOException {
+    try {
+      int ready = selector.select(limit);
+      if (Thread.interrupted()) {
+        Thread.currentThread().interrupt();
+        throw new java.io.InterruptedIOException("interrupted while waiting for the server");
+      }
+      if (!channel.isOpen()) {
+        throw new AsynchronousCloseException();
+      }
+      if (ready == 0) {
+        throw new SocketTimeoutException("the server did not answer in time");
+      }
+      selector.selectedKeys().clear();
+    } catch (ClosedSelectorException closed) {
+      throw (IOException) new AsynchronousCloseException().initCause(closed);
     }
-    selector.selectedKeys().clear();
   }
 
   private static Connection pipes(String prefix, Options options) throws IOException {

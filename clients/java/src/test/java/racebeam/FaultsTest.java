@@ -24,6 +24,7 @@ import java.time.Duration;
 import java.util.Map;
 import java.util.NoSuchElementException;
 import java.util.concurrent.CompletableFuture;
+import java.util.concurrent.TimeUnit;
 import java.util.function.Function;
 import org.junit.jupiter.api.Test;
 import org.junit.jupiter.api.io.TempDir;
@@ -240,33 +241,67 @@ class FaultsTest {
     }
   }
 
+  private static void closeWhileItWaits(Session session) throws Exception {
+    CompletableFuture<IOException> waiting = CompletableFuture.supplyAsync(
+        () -> assertThrows(IOException.class, () -> session.request("act FIRE")));
+    Thread.sleep(100);
+    session.close();
+    assertEquals("another thread has closed the session", waiting.get(20, TimeUnit.SECONDS).getMessage());
+    assertEquals("the session has ended", assertThrows(IOException.class, () -> session.request("act FIRE")).getMessage());
+  }
+
   @Test
   void closingWakesAThreadThatWaits() throws Exception {
-    try (Server server = new Server(line -> ""); Session session = server.connect(Options.DEFAULT)) {
-      CompletableFuture<Void> waiting = CompletableFuture.runAsync(
-          () -> assertThrows(IOException.class, () -> session.request("act FIRE")));
-      Thread.sleep(100);
-      session.close();
-      waiting.get(20, java.util.concurrent.TimeUnit.SECONDS);
+    for (Options options : new Options[] {Options.DEFAULT, Options.DEFAULT.withTimeout(Duration.ofSeconds(60))}) {
+      try (Server server = new Server(line -> ""); Session session = server.connect(options)) {
+        closeWhileItWaits(session);
+      }
+    }
+  }
+
+  /** A server on a Unix socket that sends the greeting, and nothing more. */
+  private static ServerSocketChannel silent(Path path) throws IOException {
+    var listener = ServerSocketChannel.open(StandardProtocolFamily.UNIX).bind(UnixDomainSocketAddress.of(path));
+    CompletableFuture.runAsync(() -> {
+      try (var channel = listener.accept()) {
+        channel.write(ByteBuffer.wrap(HELLO.getBytes(StandardCharsets.US_ASCII)));
+        while (channel.read(ByteBuffer.allocate(100)) >= 0) {
+          continue;
+        }
+      } catch (IOException ended) {
+        return;
+      }
+    });
+    return listener;
+  }
+
+  @Test
+  void closingWakesAThreadThatWaitsForAUnixSocket(@TempDir Path folder) throws Exception {
+    for (Options options : new Options[] {Options.DEFAULT.withTimeout(null), Options.DEFAULT.withTimeout(Duration.ofSeconds(60))}) {
+      Path path = folder.resolve("socket" + options.timeout());
+      try (var listener = silent(path); Session session = Racebeam.connect("unix:" + path, options)) {
+        closeWhileItWaits(session);
+      }
+    }
+  }
+
+  @Test
+  void aThreadThatIsInterruptedIsNotToldThatTheServerIsLate(@TempDir Path folder) throws Exception {
+    Path path = folder.resolve("socket");
+    try (var listener = silent(path);
+        Session session = Racebeam.connect("unix:" + path, Options.DEFAULT.withTimeout(Duration.ofSeconds(60)))) {
+      Thread.currentThread().interrupt();
+      IOException failure = assertThrows(IOException.class, () -> session.request("act FIRE"));
+      assertTrue(Thread.interrupted());
+      assertEquals("interrupted while waiting for the server", failure.getMessage());
     }
   }
 
   @Test
   void aUnixSocketHasATimeLimit(@TempDir Path folder) throws IOException {
     Path path = folder.resolve("socket");
-    try (var listener = ServerSocketChannel.open(StandardProtocolFamily.UNIX).bind(UnixDomainSocketAddress.of(path))) {
-      CompletableFuture.runAsync(() -> {
-        try (var channel = listener.accept()) {
-          channel.write(ByteBuffer.wrap(HELLO.getBytes(StandardCharsets.US_ASCII)));
-          channel.read(ByteBuffer.allocate(100));
-          Thread.sleep(20_000);
-        } catch (IOException | InterruptedException ended) {
-          return;
-        }
-      });
-      try (Session session = Racebeam.connect("unix:" + path, Options.DEFAULT.withTimeout(TIMEOUT))) {
-        assertThrows(SocketTimeoutException.class, () -> session.request("act FIRE"));
-      }
+    try (var listener = silent(path); Session session = Racebeam.connect("unix:" + path, Options.DEFAULT.withTimeout(TIMEOUT))) {
+      assertThrows(SocketTimeoutException.class, () -> session.request("act FIRE"));
     }
     assertThrows(IOException.class, () -> Racebeam.connect("unix:" + folder.resolve("nothing")));
   }
