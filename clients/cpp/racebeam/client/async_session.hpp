@@ -32,7 +32,8 @@ class AsyncSession : public Commands<AsyncSession> {
   AsyncSession& operator=(AsyncSession&& other) noexcept = default;
   ~AsyncSession() { close(); }
 
-  /// Ends the session. More than once does nothing.
+  /// Ends the session. More than once does nothing. It does not wait for a server of its own, which a thread
+  /// kills if it has not ended after 10 seconds.
   void close() noexcept {
     if (lines_) lines_->close();
     ended_ = true;
@@ -56,6 +57,10 @@ class AsyncSession : public Commands<AsyncSession> {
  private:
   friend class Commands<AsyncSession>;
   friend class Session;
+
+  void await_end() noexcept {
+    if (lines_) lines_->await_end();
+  }
 
   using Outcome = std::variant<Reply, Refused>;
 

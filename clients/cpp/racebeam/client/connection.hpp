@@ -27,9 +27,11 @@
 
 #include <chrono>
 #include <csignal>
+#include <future>
 #include <memory>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "racebeam/client/address.hpp"
@@ -48,8 +50,10 @@ class Connection {
   virtual asio::awaitable<void> open() = 0;
   virtual asio::awaitable<std::size_t> read(asio::mutable_buffer into) = 0;
   virtual asio::awaitable<void> write(asio::const_buffer data) = 0;
-  /// What waits fails. More than once does nothing.
+  /// What waits fails. More than once does nothing. It does not block.
   virtual void close() noexcept = 0;
+  /// After close(): waits for the end of a process that was started for the connection.
+  virtual void await_end() noexcept {}
 };
 
 /// A connection over one stream of Boost.Asio. `open` is left to each kind.
@@ -199,15 +203,37 @@ class ProcessConnection final : public StreamConnection<asio::local::stream_prot
 
   void close() noexcept override {
     StreamConnection::close();
-    if (process_ <= 0) return;
-    for (int tries = 0; tries < 1000 && ::waitpid(process_, nullptr, WNOHANG) == 0; ++tries) {
-      if (tries == 999) ::kill(process_, SIGKILL);
-      ::usleep(10'000);
+    const pid_t process = std::exchange(process_, 0);
+    if (process <= 0) return;
+    try {
+      std::packaged_task<void()> task([process] { end(process, kPatience); });
+      ended_ = task.get_future();
+      std::thread(std::move(task)).detach();
+    } catch (const std::exception&) {  // there is no room for a thread
+      end(process, {});
     }
-    process_ = 0;
+  }
+
+  void await_end() noexcept override {
+    if (ended_.valid()) ended_.wait();
   }
 
  private:
+  static constexpr std::chrono::seconds kPatience{10};
+
+  /// A process whose input has ended. It is killed if it goes on for longer than `patience`.
+  static void end(pid_t process, std::chrono::seconds patience) noexcept {
+    const auto until = std::chrono::steady_clock::now() + patience;
+    while (::waitpid(process, nullptr, WNOHANG) == 0) {
+      if (std::chrono::steady_clock::now() >= until) {
+        ::kill(process, SIGKILL);
+        ::waitpid(process, nullptr, 0);
+        return;
+      }
+      ::usleep(5'000);
+    }
+  }
+
   void start(int socket) {
     std::vector<char*> words;
     for (std::string& word : command_) words.push_back(word.data());
@@ -228,6 +254,7 @@ class ProcessConnection final : public StreamConnection<asio::local::stream_prot
 
   std::vector<std::string> command_;
   pid_t process_ = 0;
+  std::future<void> ended_;  // of the process, after close()
 };
 
 /// Keeps the calling thread from SIGPIPE, which a write to a pipe without reader raises.

@@ -25,6 +25,7 @@ class Lines : public std::enable_shared_from_this<Lines> {
     const Watch watch(*this);
     try {
       co_await connection_->open();
+      check_in_time();
     } catch (const boost::system::system_error& failure) {
       lose(failure);
     }
@@ -34,6 +35,7 @@ class Lines : public std::enable_shared_from_this<Lines> {
     const Watch watch(*this);
     try {
       co_await connection_->write(asio::buffer(line));
+      check_in_time();
     } catch (const boost::system::system_error& failure) {
       lose(failure);
     }
@@ -67,41 +69,51 @@ class Lines : public std::enable_shared_from_this<Lines> {
   }
 
   void close() noexcept { connection_->close(); }
+  void await_end() noexcept { connection_->await_end(); }
 
  private:
   /// Closes the connection if the time is over before it is destroyed.
   class Watch {
    public:
-    explicit Watch(Lines& lines) : timer_(lines.timer_) {
+    explicit Watch(Lines& lines) : lines_(lines) {
       if (!lines.options_.timeout) return;
-      timer_.expires_after(*lines.options_.timeout);
-      timer_.async_wait([weak = lines.weak_from_this()](boost::system::error_code stopped) {
+      lines.timer_.expires_after(*lines.options_.timeout);
+      lines.timer_.async_wait([weak = lines.weak_from_this(), number = lines.watch_](auto stopped) {
         const auto self = stopped ? nullptr : weak.lock();
-        if (!self) return;
+        if (!self || self->watch_ != number) return;
         self->late_ = true;
         self->close();
       });
     }
-    ~Watch() { timer_.cancel(); }
+    ~Watch() {
+      ++lines_.watch_;  // what the timer has posted already cannot be cancelled
+      lines_.timer_.cancel();
+    }
     Watch(const Watch&) = delete;
     Watch& operator=(const Watch&) = delete;
 
    private:
-    asio::steady_timer& timer_;
+    Lines& lines_;
   };
 
   [[noreturn]] void lose(const boost::system::system_error& failure) {
+    check_in_time();
+    if (failure.code() == asio::error::eof) throw Lost("the server has closed the connection");
+    throw Lost(std::string("the connection failed: ").append(failure.what()));
+  }
+
+  /// What arrives together with the end of the time is late, too: the connection is closed.
+  void check_in_time() const {
     if (late_)
       throw TimedOut("the server did not answer in " + std::to_string(options_.timeout->count()) +
                      " milliseconds");
-    if (failure.code() == asio::error::eof) throw Lost("the server has closed the connection");
-    throw Lost(std::string("the connection failed: ").append(failure.what()));
   }
 
   asio::awaitable<void> read_more() {
     make_room();
     try {
       filled_ += co_await connection_->read(asio::buffer(data_.data() + filled_, data_.size() - filled_));
+      check_in_time();
     } catch (const boost::system::system_error& failure) {
       lose(failure);
     }
@@ -124,6 +136,7 @@ class Lines : public std::enable_shared_from_this<Lines> {
   std::unique_ptr<Connection> connection_;
   Options options_;
   asio::steady_timer timer_;
+  std::size_t watch_ = 0;  // number of the Watch that is there, or comes next
   bool late_ = false;
   std::vector<char> data_;
   std::size_t begin_ = 0, filled_ = 0;

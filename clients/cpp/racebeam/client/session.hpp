@@ -25,11 +25,13 @@ class Session : public Commands<Session> {
   Session(Session&&) noexcept = default;
   Session& operator=(Session&&) noexcept = default;
 
-  /// Ends the session. More than once does nothing. Another thread that waits for a reply gets Lost.
+  /// Ends the session, and waits for a server of its own to end: it is killed after 10 seconds. More than
+  /// once does nothing. Another thread that waits for a reply gets Lost.
   void close() {
     boost::asio::post(state_->loop, [state = state_.get()] { state->session->close(); });
-    const std::unique_lock lock(state_->mutex, std::try_to_lock);
-    if (lock.owns_lock()) state_->run();
+    const std::lock_guard lock(state_->mutex);  // a thread that waits for a reply has it, or has lost it
+    state_->run();
+    state_->session->await_end();
   }
 
   /// Sends any request, and returns its reply. Replies of requests that were sent ahead stay to be received.
@@ -49,6 +51,15 @@ class Session : public Commands<Session> {
     boost::asio::io_context loop{1};
     std::mutex mutex;
     std::optional<AsyncSession> session;
+
+    State() = default;
+    ~State() {
+      if (!session) return;
+      session->close();
+      session->await_end();
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
 
     void run() {
       loop.restart();
