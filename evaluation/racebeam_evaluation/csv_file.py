@@ -36,8 +36,9 @@ class Source:
     sha256: str  # the digest of its bytes, in hexadecimal
 
 
-def read(path: pathlib.Path, columns: dict[str, Kind]) -> tuple[pd.DataFrame, Source]:
-    """Returns the columns of the file at `path` that `columns` names, and the digest of the file.
+def read(path: pathlib.Path, columns: dict[str, Kind], may_be_empty: bool = False) -> tuple[pd.DataFrame, Source]:
+    """Returns the columns of the file at `path` that `columns` names, and the digest of the file. It has rows, unless it may
+    be empty.
 
     Cells of the kinds TEXT and NAME become categories, WHOLE int64, the others float64; nothing is NaN.
     The row of index i is on line i + 2. Other columns are ignored. Raises BadInput, which names the file, and the line where there is one."""
@@ -45,7 +46,7 @@ def read(path: pathlib.Path, columns: dict[str, Kind]) -> tuple[pd.DataFrame, So
         content = path.read_bytes()
     except OSError as error:
         raise BadInput(f"{path} cannot be read: {error.strerror}; expected a CSV file") from error
-    _check_shape(path, content, columns)
+    _check_shape(path, content, columns, 0 if may_be_empty else 1)
     types = {name: "category" if kind in _TEXTS else "str" for name, kind in columns.items()}
     frame = pd.read_csv(io.BytesIO(content), usecols=list(columns), dtype=types, keep_default_na=False,
                         quoting=csv.QUOTE_NONE)
@@ -62,8 +63,8 @@ def digest(path: pathlib.Path) -> Source:
     return Source(path.name, hashlib.sha256(path.read_bytes()).hexdigest())
 
 
-def _check_shape(path: pathlib.Path, content: bytes, columns: dict[str, Kind]) -> None:
-    """Checks that the header has `columns`, and that each line has as many fields as the header."""
+def _check_shape(path: pathlib.Path, content: bytes, columns: dict[str, Kind], fewest: int) -> None:
+    """Checks that the header has `columns`, each line as many fields as the header, and the file so many rows."""
     try:
         content.decode()
     except UnicodeDecodeError as error:
@@ -77,7 +78,7 @@ def _check_shape(path: pathlib.Path, content: bytes, columns: dict[str, Kind]) -
         fields = line.count(b",") + 1
         if fields != len(header):
             raise BadInput(f"{path}, line {number}, has {fields} fields; expected {len(header)}, as the header has")
-    if len(lines) < 2:
+    if len(lines) - 1 < fewest:
         raise BadInput(f"{path} has no rows; expected at least one below the header")
 
 

@@ -1,8 +1,11 @@
-"""The games: the paper's two sets and order, the 26 games of Atari 100k, and scores of human players."""
+"""The games: racebeam's names, the paper's two sets and order, the 26 games of Atari 100k, and scores of human players."""
 
+import difflib
 import pathlib
 
 import pandas as pd
+
+from .errors import BadInput
 
 DATA = pathlib.Path(__file__).parent / "data"
 
@@ -22,6 +25,18 @@ def published(name: str) -> pd.DataFrame:
 
 PAPER = published("paper2013/games")  # the paper's 55 games in its order: set, title
 HUMAN = published("human")            # random, human: published mean scores of 57 games
+CATALOGUE = tuple(published("catalogue").index)  # the names of all games that racebeam has
+
+
+def check_games(path: pathlib.Path, games: pd.Series, others: set[str]) -> None:
+    """Raises BadInput if one of the games of a file's rows is neither racebeam's nor one of `others`."""
+    known = {*CATALOGUE, *others}
+    for row, game in enumerate(games.astype("str")):
+        if game not in known:
+            close = difflib.get_close_matches(game.lower(), known, n=1)
+            raise BadInput(f"{path}, line {row + 2}: there is no game '{game}'; " +
+                           (f"did you mean {close[0]}?" if close else "expected a name that racebeam games lists, or that the "
+                            "folder's plan.toml has under [images]"))
 
 
 def in_order(games: list[str]) -> list[str]:

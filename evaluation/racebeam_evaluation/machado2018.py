@@ -22,7 +22,7 @@ _LONGEST = 18_000  # frames of an episode, which is how far short of a checkpoin
 def evaluate(results: Results, _: Bootstrap) -> Report:
     """The report of training episodes. Raises BadInput if there are none."""
     if results.curves is None:
-        raise BadInput("the report machado2018 is of training episodes, and no RESULTS have curves.csv; expected one or more")
+        raise BadInput("the report machado2018 is of training episodes, and no curves.csv of RESULTS has one; expected learners")
     sources = results.curve_sources
     report = Report("Evaluation as in Machado et al. 2018", list(results.notes), sources)
     report.add_table(Table("machado2018", f"Mean score of the last {_LAST} training episodes at four numbers of frames, and its "

@@ -3,6 +3,7 @@
 from .bootstrap import FEWEST_TRIALS
 from .normalise import Ranges
 from .paired import Pair
+from .results import Results
 from .scores import Group, Scores
 
 
@@ -25,6 +26,18 @@ def of_aggregates(scores: Scores, group: Group, ranges: list[Ranges]) -> tuple[s
             sentences.append(f"No {each.name} score (n/a) in {_listed(without)}: the range is unknown or empty.")
         sentences += each.notes
     return (*sentences, *of_trials(scores, group))
+
+
+def of_left_out(scores: Scores, results: Results) -> list[str]:
+    """The tables that the report does not have."""
+    groups = [group.name for group in scores.groups]
+    lacking = [f"There are no {role}: the tables {group}-... are left out."
+               for role, group in (("learners", "learning"), ("planners", "planning")) if group not in groups]
+    if groups == ["baselines"]:
+        lacking.append("There are only baselines: the tables groups, -tests, -means and -improvement are left out.")
+    if results.curves is None:
+        lacking.append("There are no training episodes: the learning curves are left out.")
+    return lacking
 
 
 def of_trials(scores: Scores, group: Group) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ _OWN_FIGURES = ("random", "baseline", "inter-algorithm")  # the normalisations t
 def evaluate(results: Results, bootstrap: Bootstrap) -> Report:
     """The report of results."""
     scores = scores_of(results)
-    report = Report("Evaluation", list(scores.notes), results.sources)
+    report = Report("Evaluation", [*scores.notes, *notes.of_left_out(scores, results)], results.sources)
     report.add_table(Table("beside-published", "Scores beside those of the paper and of its successors.", beside_published(scores),
                            results.sources, digits=1))
     add_groups(report, scores, bootstrap)

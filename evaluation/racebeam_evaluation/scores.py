@@ -14,7 +14,7 @@ from .results import DIVERGED, Results
 BASELINES = 37                                   # Random, and one Const and one Perturb policy for each of 18 actions
 BASELINE_VIEWS = ("random", "const", "perturb")  # const and perturb: the best of 18 in each game
 _BASELINE = re.compile("random|(const|perturb)[-_].+")  # such as const_noop
-# In the order of tables. A planner must be here; other agents that are not here are learners, after those that are.
+# In the order of tables. Other agents follow those of their role, which agents.csv says; without it, they are learners.
 _LEARNERS = ("basic", "bass", "disco", "lsh", "ram", "blob_prost")
 _PLANNERS = ("full_tree", "uct", "iw1")
 
@@ -40,12 +40,13 @@ class Scores:
     views: pd.DataFrame                  # scores of BASELINE_VIEWS: a row for each game
     notes: tuple[str, ...] = ()          # sentences on what was left out
     other_rewards: tuple[str, ...] = ()  # games whose rewards were others than those of today
+    planners: tuple[str, ...] = _PLANNERS
 
     @property
     def groups(self) -> list[Group]:
         """Learners and planners, each if there are some. Without both, the baselines."""
-        planners = tuple(agent for agent in self.means if agent in _PLANNERS)
-        learners = tuple(agent for agent in self.means if agent not in _PLANNERS)
+        planners = tuple(agent for agent in self.means if agent in self.planners)
+        learners = tuple(agent for agent in self.means if agent not in self.planners)
         named = [Group("learning", learners), Group("planning", planners)]
         return [group for group in named if group.agents] or [Group("baselines", tuple(self.views))]
 
@@ -74,30 +75,42 @@ def scores_of(results: Results) -> Scores:
     trials = counted.groupby(["game", "agent", "trial"])["score"].mean()
     means = trials.groupby(["game", "agent"]).mean().unstack("agent")
     means = means.reindex(index=in_order(list(set(results.episodes["game"]))))
-    references = means[[name for name in means if _view_of(name)]]
+    roles = {name: results.roles.get(name) or _usual_role(name) for name in means}
+    references = means[[name for name in means if roles[name] == "baseline"]]
     lost_trials = [f"Trial {row.trial} of {row.agent} on {row.game} diverged, and is in no mean." for row in lost.itertuples()]
-    return Scores(means=means[_agents_in_order(means)], trials=_by_agent_and_game(trials), references=references,
-                  views=_views(references), notes=(*results.notes, *lost_trials))
+    return Scores(means=means[_agents_in_order(roles)], trials=_by_agent_and_game(trials), references=references,
+                  views=_views(references), notes=(*results.notes, *lost_trials),
+                  planners=tuple(name for name in means if roles[name] == "planner"))
 
 
 def _by_agent_and_game(trials: pd.Series) -> Trials:
     return {(agent, game): scores.to_numpy() for (game, agent), scores in trials.groupby(["game", "agent"])}
 
 
-def _view_of(agent: str) -> str:
-    """The view that the scores of a baseline belong to; "" of another agent."""
-    found = _BASELINE.fullmatch(agent)
-    return found[1] or agent if found else ""
+def _usual_role(agent: str) -> str:
+    """That of an agent of racebeam; the role of another is said by agents.csv."""
+    if _BASELINE.fullmatch(agent):
+        return "baseline"
+    return "planner" if agent in _PLANNERS else "learner"
 
 
-def _agents_in_order(means: pd.DataFrame) -> list[str]:
-    agents = [name for name in means if not _view_of(name)]
-    known = [*_LEARNERS, *_PLANNERS]
-    others = sorted(name for name in agents if name not in known)
-    return [name for name in _LEARNERS if name in agents] + others + [name for name in _PLANNERS if name in agents]
+def _view_of(baseline: str) -> str:
+    """The view that the scores of a baseline belong to."""
+    found = _BASELINE.fullmatch(baseline)
+    return found[1] or baseline if found else baseline
+
+
+def _agents_in_order(roles: dict[str, str]) -> list[str]:
+    """Learners, then planners; the known ones of each first."""
+    order: list[str] = []
+    for role, known in (("learner", _LEARNERS), ("planner", _PLANNERS)):
+        agents = sorted(name for name in roles if roles[name] == role)
+        order += [name for name in known if name in agents] + [name for name in agents if name not in known]
+    return order
 
 
 def _views(references: pd.DataFrame) -> pd.DataFrame:
-    """Random, and the best Const and Perturb policy of each game."""
-    best = {view: references[[name for name in references if _view_of(name) == view]].max(axis=1) for view in BASELINE_VIEWS}
+    """Random, the best Const and Perturb policy of each game, and other baselines."""
+    names = [*BASELINE_VIEWS, *sorted({_view_of(name) for name in references} - set(BASELINE_VIEWS))]
+    best = {view: references[[name for name in references if _view_of(name) == view]].max(axis=1) for view in names}
     return pd.DataFrame(best, index=references.index).dropna(axis=1, how="all")

@@ -88,6 +88,21 @@ class BadInput(unittest.TestCase):
         self.refused("curves.csv, line 3: frames is 'many'; expected a whole number from 0 to 2147483647")
         self.assertIn("frames", CURVES)
 
+    def test_a_game_that_there_is_not(self):
+        for name, sentence in (("space_invader", "line 3: there is no game 'space_invader'; did you mean space_invaders?"),
+                               ("Pong", "line 3: there is no game 'Pong'; did you mean pong?"),
+                               ("xyz", "line 3: there is no game 'xyz'; expected a name that racebeam games lists, or that the "
+                                       "folder's plan.toml has under [images]")):
+            self.lines(result("pong", "basic", 0, 0, 1), result(name, "basic", 0, 0, 1))
+            self.refused(f"results.csv, {sentence}")
+
+    def test_a_role_that_there_is_not(self):
+        folder = self.lines(*results_of(GOOD))
+        (folder / "agents.csv").write_text("agent,role\nbasic,learner\nbass,teacher\n")
+        self.refused("agents.csv, line 3: role is 'teacher'; expected learner, planner or baseline")
+        (folder / "agents.csv").write_text("agent,role\nbasic,learner\nbasic,planner\n")
+        self.refused("agents.csv, line 3: basic is a planner, and a learner before; expected one role of each agent")
+
     def test_an_episode_twice(self):
         self.lines(*results_of(GOOD), result("pong", "bass", 1, 0, 5))
         self.refused("evaluation episode 0 of trial 1 of bass on pong occurs twice; expected each episode once")
@@ -115,7 +130,7 @@ class BadInput(unittest.TestCase):
 
     def test_reports_of_what_is_not_there(self):
         folder = self.lines(*results_of({("basic", "beamfall"): [[1], [2]]}))
-        self.refused("no RESULTS have curves.csv", folder, "--report", "machado2018")
+        self.refused("no curves.csv of RESULTS has one; expected learners", folder, "--report", "machado2018")
         self.refused("no game of RESULTS is one of Atari 100k; expected some of alien, amidar", folder, "--report", "atari100k")
 
     def test_every_trial_diverged(self):

@@ -11,7 +11,7 @@ import package
 
 package.require()
 
-from made_results import curve, evaluate, results_of, tables, write  # noqa: E402
+from made_results import CURVES, curve, evaluate, results_of, tables, write  # noqa: E402
 
 GAMES = ("asterix", "freeway", "boxing", "pong")
 GROUPS = ("scores", "times-best", "normalised", "aggregates", "distribution", "profiles")
@@ -124,10 +124,52 @@ class Reports(unittest.TestCase):
         self.assertIn("set,game,random,const\n", found["baselines-scores.csv"])
         self.assertNotIn("baselines-tests.csv", found)
 
+    def test_experiments_without_learners(self):
+        for kinds, groups, sentences in (
+                (("random", "const"), {"baselines"}, ("There are no learners: the tables learning-... are left out.",
+                                                      "There are no planners: the tables planning-... are left out.",
+                                                      "There are only baselines: the tables groups, -tests,")),
+                (("full", "uct"), {"planning"}, ("There are no learners: the tables learning-... are left out.",)),
+                (("random", "full", "uct"), {"planning"}, ("There are no learners: the tables learning-... are left out.",))):
+            lines = results_of({key: value for key, value in made_up().items() if key[0].split("_")[0] in kinds})
+            name = "-".join(kinds)
+            folder = write(self.root / name, lines)
+            (folder / "curves.csv").write_text(CURVES + "\n")  # as racebeam experiment leaves it
+            files = self.evaluated(name + "-report", folder)
+            tables = {file.split("/")[1] for file in files if file.startswith("tables/")}
+            self.assertEqual({group for group in ("learning", "planning", "baselines") if f"{group}-scores.csv" in tables}, groups)
+            self.assertNotIn("learning-curves.csv", tables)
+            report = files["report.md"].decode()
+            for sentence in (*sentences, "There are no training episodes: the learning curves are left out."):
+                self.assertIn(sentence, report)
+        self.assertNotIn("left out", self.files["report.md"].decode())
+
+    def test_roles_come_with_the_results(self):
+        scores = {("mine", "pong"): [[1], [2]], ("uct", "pong"): [[3], [5]], ("scripted", "pong"): [[2], [4]], ("random", "pong"): [[0]],
+                  ("his", "pong"): [[5], [7]]}
+        folder = write(self.root / "roles", results_of(scores))
+        found = tables(folder)
+        self.assertIn("set,game,his,mine,scripted,random\n", found["learning-scores.csv"])
+        (folder / "agents.csv").write_text("agent,role\nmine,planner\nscripted,baseline\nuct,planner\nnobody,learner\n")
+        found = tables(folder)
+        self.assertIn("set,game,his,random,scripted\n", found["learning-scores.csv"])
+        self.assertIn("set,game,uct,mine,best_learner,best_baseline\n", found["planning-scores.csv"])
+
     def test_one_agent_in_a_game_of_ours(self):
         found = tables(write(self.root / "small", results_of({("basic", "beamfall"): [[1], [2]]})))
         self.assertIn("other,beamfall,1.5\n", found["learning-scores.csv"])
         self.assertNotIn("learning-tests.csv", found)
+
+    def test_a_game_of_the_users_is_one_of_the_plan(self):
+        folder = write(self.root / "own", results_of({("basic", "mine"): [[1], [2]]}))
+        (folder / "plan.toml").write_text('games = ["mine"]\n\n[images]\nmine = "00"\n')
+        self.assertIn("other,mine,1.5\n", tables(folder)["learning-scores.csv"])
+
+    def test_the_games_are_those_of_the_catalogue(self):
+        from racebeam_evaluation.games import CATALOGUE
+
+        files = (pathlib.Path(__file__).resolve().parents[2] / "games/catalogue").glob("*.toml")
+        self.assertEqual(list(CATALOGUE), sorted(file.stem for file in files))
 
     def test_groups_that_have_no_game_in_common(self):
         found = tables(write(self.root / "apart", results_of({("basic", "pong"): [[1], [2]], ("ram", "boxing"): [[3], [4]]})))
