@@ -3,19 +3,17 @@
 import numpy as np
 import pandas as pd
 
-from .bootstrap import FEWEST_TRIALS, Bootstrap, Estimate, Matrix, aggregates, improvement, profile
+from .bootstrap import FEWEST_TRIALS, Bootstrap, Estimate, Matrix, aggregates, improvement, padded, profile, trials_of
 from .games import sets
 from .normalise import Ranges
 from .scores import Group, Scores
 
 
 def matrix(scores: Scores, agent: str, games: list[str]) -> Matrix:
-    """The agent's trials, a row each, in each game; as many as the game with the fewest has. Without trials, the means."""
+    """The agent's trials, a row each, in each game; NaN where a game has fewer. Without trials, the means."""
     if scores.trials is None or agent in scores.views:
         return np.array([scores.columns((agent,)).loc[games, agent]], dtype=float)
-    trials = [scores.trial_scores(agent, game) for game in games]
-    fewest = min(len(each) for each in trials)
-    return np.array([each[:fewest] for each in trials], dtype=float).T
+    return padded([scores.trial_scores(agent, game) for game in games])
 
 
 def normalised_matrix(scores: Scores, ranges: Ranges, agent: str, games: list[str]) -> Matrix:
@@ -86,7 +84,7 @@ def improvement_rows(scores: Scores, group: Group, bootstrap: Bootstrap) -> pd.D
             if not games:
                 continue
             matrices = [matrix(scores, agent, games) for agent in (first, second)]
-            if min(map(len, matrices)) < FEWEST_TRIALS:
+            if min(int(trials_of(each).min()) for each in matrices) < FEWEST_TRIALS:
                 continue
             estimate = bootstrap.estimate(improvement, *matrices)
             rows.append({"first": first, "second": second, "games": len(games), **_interval("probability", estimate, 0)})

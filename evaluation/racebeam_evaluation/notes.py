@@ -48,7 +48,7 @@ def of_trials(scores: Scores, group: Group) -> tuple[str, ...]:
         if counts and min(counts) < FEWEST_TRIALS:
             sentences.append(f"{agent} has a game with {min(counts)} trial: no interval (n/a).")
         elif counts and min(counts) < max(counts):
-            sentences.append(f"{agent} has {min(counts)} to {max(counts)} trials: rliable's statistics use {min(counts)}.")
+            sentences.append(f"{agent} has {min(counts)} to {max(counts)} trials: each game counts the same.")
     return tuple(sentences)
 
 

@@ -43,7 +43,7 @@ class Results:
 def read_results(folders: list[pathlib.Path]) -> Results:
     """Reads the results of all folders. Raises BadInput if one cannot be read, or if two contradict each other."""
     episodes, sources = zip(*(_episodes(folder) for folder in folders))
-    found = [(frame, source) for frame, source in map(_curves, folders) if frame is not None]
+    found = [curves for folder in folders if (curves := _curves(folder))]
     together = _joined(list(episodes))
     _check_once(together, "evaluation")
     _check_images(together)
@@ -65,13 +65,13 @@ def _episodes(folder: pathlib.Path) -> tuple[pd.DataFrame, Source]:
     return frame, source
 
 
-def _curves(folder: pathlib.Path) -> tuple[pd.DataFrame | None, Source | None]:
+def _curves(folder: pathlib.Path) -> tuple[pd.DataFrame, Source] | None:
     """None if no agent was trained: `racebeam experiment` then writes a file without rows."""
     path = folder / "curves.csv"
     if not path.exists():
-        return None, None
+        return None
     frame, source = read(path, _CURVES, may_be_empty=True)
-    return (frame, source) if len(frame) else (None, None)
+    return (frame, source) if len(frame) else None
 
 
 def _roles(folders: list[pathlib.Path]) -> dict[str, str]:

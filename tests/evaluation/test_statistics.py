@@ -177,12 +177,33 @@ class Bootstrap(unittest.TestCase):
         estimate = FEW.estimate(bootstrap.aggregates, constant_in_each_game)
         self.assertEqual(estimate.low.tolist(), estimate.value.tolist())
 
-    def test_uneven_trials_are_cut_to_the_fewest(self):
+    def test_uneven_trials_are_all_used(self):
         scores = scores_of(results_of({("basic", "pong"): [[1], [2], [3]], ("basic", "boxing"): [[4], [5]]}))
-        self.assertEqual(aggregate.matrix(scores, "basic", ["pong", "boxing"]).tolist(), [[1, 4], [2, 5]])
+        np.testing.assert_array_equal(aggregate.matrix(scores, "basic", ["pong", "boxing"]), [[1, 4], [2, 5], [3, np.nan]])
         ranges = Ranges("made", pd.Series({"pong": 1., "boxing": 0}), pd.Series({"pong": 3., "boxing": 10}))
-        self.assertEqual(aggregate.normalised_matrix(scores, ranges, "basic", ["pong", "boxing"]).tolist(),
-                         [[0, 0.4], [0.5, 0.5]])
+        np.testing.assert_array_equal(aggregate.normalised_matrix(scores, ranges, "basic", ["pong", "boxing"]),
+                                      [[0, 0.4], [0.5, 0.5], [1, np.nan]])
+
+    def test_games_with_different_numbers_of_trials_count_the_same(self):
+        games = self.first[:4, :3]  # three games of four trials; the second has each of two twice
+        games[2:, 1] = games[:2, 1]
+        uneven = bootstrap.padded([games[:, 0], games[:2, 1], games[:, 2]])
+        for function in (bootstrap.aggregates, bootstrap.profile(np.array([0., 1, 2])),
+                         lambda scores: bootstrap.improvement(scores, self.second[:, :3]),
+                         lambda scores: bootstrap.improvement(self.second[:, :3], scores)):
+            np.testing.assert_allclose(function(uneven), function(games))
+
+    def test_uneven_trials_have_intervals_which_the_seed_decides(self):
+        uneven = bootstrap.padded([self.first[:, 0], self.second[:, 1], self.first[:2, 2]])
+        one, same, other = (bootstrap.Bootstrap(seed, 200).estimate(bootstrap.aggregates, uneven) for seed in (1, 1, 2))
+        self.assertTrue((one.low < one.value).all() and (one.value < one.high).all())
+        self.assertEqual((one.low.tolist(), one.high.tolist()), (same.low.tolist(), same.high.tolist()))
+        self.assertNotEqual(one.low.tolist(), other.low.tolist())
+        constant = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(5), np.full(3, 2.)]))
+        self.assertEqual(constant.low.tolist(), constant.high.tolist())
+        alone = FEW.estimate(bootstrap.aggregates, bootstrap.padded([np.ones(1), np.array([1., 2, 3])]))
+        self.assertAlmostEqual(alone.value[0], (5 / 6 * 1 + 1 / 6 * 2))  # of the weights 4/3, 1/3 and 1/3, the middle half
+        self.assertTrue(np.isnan(alone.low).all())
 
 
 class Curves(unittest.TestCase):
