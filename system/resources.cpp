@@ -1,6 +1,5 @@
 #include "system/resources.hpp"
 
-#include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -10,12 +9,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
+
+#include "system/affinity.hpp"
 
 namespace racebeam {
 namespace {
@@ -131,25 +131,13 @@ void limit(Allowance& allowance, std::uint64_t amount, const char* by) {
   if (amount < allowance.amount) allowance = {amount, by};
 }
 
-// 0: unknown. The system refuses a set for too few processors, so larger ones are tried.
-std::uint64_t processors_of_affinity() {
-  for (std::size_t most = CPU_SETSIZE; most <= 1 << 20; most *= 2) {
-    const auto free_set = [](cpu_set_t* set) { CPU_FREE(set); };
-    const std::unique_ptr<cpu_set_t, decltype(free_set)> set(CPU_ALLOC(most), free_set);
-    const std::size_t size = CPU_ALLOC_SIZE(most);
-    if (::sched_getaffinity(0, size, set.get()) == 0)
-      return static_cast<std::uint64_t>(CPU_COUNT_S(size, set.get()));
-  }
-  return 0;
-}
-
 std::uint64_t system_value(int name) { return static_cast<std::uint64_t>(std::max(1L, ::sysconf(name))); }
 
 }  // namespace
 
 Allowance usable_processors(const std::string& root) {
   Allowance allowance{system_value(_SC_NPROCESSORS_ONLN), kMachine};
-  if (const std::uint64_t pinned = processors_of_affinity(); pinned > 0) limit(allowance, pinned, kAffinity);
+  if (const std::size_t pinned = allowed_processors().size(); pinned > 0) limit(allowance, pinned, kAffinity);
   for (const Group& group : all_groups(root, "cpu"))
     if (const auto quota = processors_of(group))
       limit(allowance, static_cast<std::uint64_t>(std::ceil(*quota)), kControlGroup);

@@ -4,9 +4,12 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <system_error>
 
+#include "system/affinity.hpp"
+#include "system/invalid_input.hpp"
 #include "system/resources.hpp"
 
 namespace racebeam {
@@ -16,12 +19,15 @@ unsigned number_of_threads(unsigned asked) {
   return asked != 0 ? asked : static_cast<unsigned>(usable_processors().amount);
 }
 
-// If the process may not use the processor, the thread stays unbound.
 void bind_to(std::jthread& thread, unsigned processor) {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  CPU_SET(processor % std::max(1U, std::thread::hardware_concurrency()), &set);
-  pthread_setaffinity_np(thread.native_handle(), sizeof set, &set);
+  const auto free_set = [](cpu_set_t* set) { CPU_FREE(set); };
+  const std::unique_ptr<cpu_set_t, decltype(free_set)> set(CPU_ALLOC(processor + 1), free_set);
+  const std::size_t size = CPU_ALLOC_SIZE(processor + 1);
+  CPU_ZERO_S(size, set.get());
+  CPU_SET_S(processor, size, set.get());
+  if (const int error = pthread_setaffinity_np(thread.native_handle(), size, set.get()); error != 0)
+    throw InvalidInput("a thread could not be bound to processor " + std::to_string(processor) + ": " +
+                       std::generic_category().message(error));
 }
 
 }  // namespace
@@ -65,11 +71,7 @@ class ThreadPool::Round final : public Job {
 ThreadPool::ThreadPool(unsigned threads, std::chrono::microseconds busy_poll, int first_processor)
     : count_(number_of_threads(threads)), busy_poll_(busy_poll) {
   try {
-    start(count_, first_processor);
-  } catch (const std::system_error& error) {
-    stop();
-    throw std::system_error(error.code(), "thread " + std::to_string(threads_.size() + 2) + " of " +
-                                              std::to_string(count_) + " could not be started");
+    start(first_processor);
   } catch (...) {
     stop();
     throw;
@@ -79,10 +81,22 @@ ThreadPool::ThreadPool(unsigned threads, std::chrono::microseconds busy_poll, in
 ThreadPool::~ThreadPool() { stop(); }
 
 // The caller of run() is the first thread.
-void ThreadPool::start(unsigned threads, int first_processor) {
-  for (unsigned thread = 1; thread < threads; ++thread) {
+void ThreadPool::start(int first_processor) {
+  const std::vector<unsigned> allowed = first_processor >= 0 ? allowed_processors() : std::vector<unsigned>();
+  for (unsigned thread = 1; thread < count_; ++thread) {
+    start_one(thread);
+    if (allowed.empty()) continue;
+    const std::size_t number = static_cast<std::size_t>(first_processor) + thread - 1;
+    bind_to(threads_.back(), allowed[number % allowed.size()]);
+  }
+}
+
+void ThreadPool::start_one(unsigned thread) {
+  try {
     threads_.emplace_back([this, thread] { help(thread); });
-    if (first_processor >= 0) bind_to(threads_.back(), static_cast<unsigned>(first_processor) + thread - 1);
+  } catch (const std::system_error& error) {
+    throw std::system_error(error.code(), "thread " + std::to_string(thread + 1) + " of " +
+                                              std::to_string(count_) + " could not be started");
   }
 }
 

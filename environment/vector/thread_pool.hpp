@@ -32,9 +32,11 @@ class ThreadPool {
   using Task = std::function<void(std::size_t number)>;
 
   // threads: how many, counting the caller of run(); 0: one for each processor that the process may use.
-  // Throws std::system_error if one of them cannot be started; the others have ended then. busy_poll: how
-  // long a thread polls for the next job before it sleeps. first_processor: the pool's own threads are bound
-  // to this processor and those after it; -1: to none.
+  // Throws std::system_error if one of them cannot be started, and InvalidInput if it cannot be bound; the
+  // others have ended then.
+  // busy_poll: how long a thread polls for the next job before it sleeps. first_processor: the pool's own
+  // threads are bound to this processor and those after it, counted from 0 among the processors that the
+  // caller may use; after the last comes the first. -1: to none.
   explicit ThreadPool(unsigned threads, std::chrono::microseconds busy_poll = {}, int first_processor = -1);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -79,7 +81,8 @@ class ThreadPool {
   class Round;
 
   void stop();  // the threads end after the tasks they have begun
-  void start(unsigned threads, int first_processor);
+  void start(int first_processor);
+  void start_one(unsigned thread);
   void add(Job& job);
   void remove(Job& job);  // waits for its helpers
   void announce();        // wakes threads, since there is more to do

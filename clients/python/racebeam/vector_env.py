@@ -57,8 +57,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     game: its name, as racebeam.games() has it, or a list of one for each environment. Several games need the same number
         of actions, which full_action_space gives them.
     num_envs: how many; with a list of games, its length. batch_size: recv() waits for so many; 0: for all.
-    num_threads: 0: one for each processor that the process may use. thread_affinity_offset: threads are bound to this
-        processor and those after it; -1: to none.
+    num_threads: 0: one for each processor that the process may use. thread_affinity_offset: threads are bound to the
+        processor of this number, among those that the process may use, and to those after it; -1: to none.
     max_num_frames_per_episode, repeat_action_probability, full_action_space, continuous, continuous_action_threshold,
         mode, difficulty: as AtariEnv has them.
     autoreset_mode: NEXT_STEP, SAME_STEP or DISABLED, as Gymnasium defines them, or their names.

@@ -1,14 +1,20 @@
 #include "environment/vector/thread_pool.hpp"
 
+#include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <map>
+#include <mutex>
 #include <numeric>
+#include <set>
 #include <system_error>
 #include <thread>
+
+#include "system/affinity.hpp"
 
 using namespace racebeam;
 using namespace std::chrono_literals;
@@ -74,6 +80,45 @@ TEST_CASE("A queue that goes drops what was not begun, and awaits what was") {
   }
   CHECK(begun == ended);
   CHECK(begun < kTasks);
+}
+
+TEST_CASE("Threads are bound to the processors that the process may use") {
+  const std::vector<unsigned> allowed = allowed_processors();
+  cpu_set_t before, last;
+  REQUIRE(::sched_getaffinity(0, sizeof before, &before) == 0);
+  CPU_ZERO(&last);
+  CPU_SET(allowed.back(), &last);
+  REQUIRE(::sched_setaffinity(0, sizeof last, &last) == 0);
+  CHECK(allowed_processors() == std::vector{allowed.back()});
+  std::mutex mutex;
+  std::set<std::vector<unsigned>> seen;
+  {
+    ThreadPool pool(3, 0us, GENERATE(0, 1, 5));
+    std::atomic<int> inside = 0;
+    pool.run(3, [&](std::size_t) {
+      for (++inside; inside < 3;) std::this_thread::yield();  // each on its own thread
+      const std::lock_guard lock(mutex);
+      seen.insert(allowed_processors());
+    });
+  }
+  REQUIRE(::sched_setaffinity(0, sizeof before, &before) == 0);
+  CHECK(seen == std::set{std::vector{allowed.back()}});
+}
+
+TEST_CASE("Threads are bound one after the other, and to the first after the last") {
+  const std::vector<unsigned> allowed = allowed_processors();
+  const auto threads = static_cast<unsigned>(2 * allowed.size() + 1);
+  ThreadPool pool(threads, 0us, 1);
+  std::mutex mutex;
+  std::map<std::vector<unsigned>, int> seen;
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<unsigned> inside = 0;
+  pool.run(threads, [&](std::size_t) {
+    for (++inside; inside < threads;) std::this_thread::yield();
+    const std::lock_guard lock(mutex);
+    if (std::this_thread::get_id() != caller) ++seen[allowed_processors()];
+  });
+  for (const unsigned processor : allowed) CHECK(seen[{processor}] == 2);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && \
