@@ -124,7 +124,8 @@ struct Batch::Impl final : VectorHost {
   void play(std::size_t number);
   std::size_t busy() const;
   std::span<const std::size_t> await(std::size_t count);
-  [[noreturn]] void rethrow_failure();
+  void settle(std::span<const std::size_t> numbers, auto which);
+  void throw_failure_of(std::span<const std::size_t> numbers);
 
   struct Job {
     Act act;
@@ -226,7 +227,8 @@ void Batch::Impl::play(std::size_t number) {
   one_is_done.notify_one();
 }
 
-// Meanwhile the caller's thread runs machines, too.
+// The machines that have finished first; settle() takes them away. Meanwhile the caller's thread runs
+// machines, too.
 std::span<const std::size_t> Batch::Impl::await(std::size_t count) {
   refuse_unless(busy() >= count, [&] {
     return count_of(busy(), "machines play, and a receive takes ") + std::to_string(count) +
@@ -242,16 +244,24 @@ std::span<const std::size_t> Batch::Impl::await(std::size_t count) {
     lock.lock();
     if (!worked) one_is_done.wait_for(lock, Lookout::kInterval, enough);
   }
-  const auto end = done.begin() + static_cast<std::ptrdiff_t>(count);
-  received.assign(done.begin(), end);
-  done.erase(done.begin(), end);
+  received.assign(done.begin(), done.begin() + static_cast<std::ptrdiff_t>(count));
   if (batch_size == vector.size())
     std::ranges::sort(received, {}, [this](std::size_t number) { return jobs[number].place; });
-  for (const std::size_t number : received) playing[number] = 0;
   return received;
 }
 
-void Batch::Impl::rethrow_failure() {
+// Those of the machines for which which(number) is true have been received.
+void Batch::Impl::settle(std::span<const std::size_t> numbers, auto which) {
+  for (const std::size_t number : numbers)
+    if (which(number)) playing[number] = 0;
+  const std::lock_guard lock(mutex);
+  std::erase_if(done, [this](std::size_t number) { return playing[number] == 0; });
+}
+
+void Batch::Impl::throw_failure_of(std::span<const std::size_t> numbers) {
+  const auto has_failed = [this](std::size_t number) { return jobs[number].failed; };
+  if (std::ranges::none_of(numbers, has_failed)) return;
+  settle(numbers, has_failed);
   const std::exception_ptr failure = [this] {
     const std::lock_guard lock(mutex);
     return last_failure;
@@ -353,14 +363,15 @@ std::size_t Batch::playing() const { return impl_->busy(); }
 
 void Batch::receive(const BatchArrays& out, std::size_t count) {
   const auto numbers = impl_->await(count);
+  impl_->throw_failure_of(numbers);
   for (std::size_t position = 0; position < numbers.size(); ++position) {
     const std::size_t number = numbers[position];
-    if (impl_->jobs[number].failed) impl_->rethrow_failure();
     const Slot& slot = impl_->vector.slot(number);
     impl_->layout.write(slot, number, position, out);
     const bool ended = slot.outcome().finished && impl_->settings.autoreset == Autoreset::kSameStep;
     if (ended) impl_->finals[number].write(position, out);
   }
+  impl_->settle(numbers, [](std::size_t) { return true; });
 }
 
 }  // namespace racebeam

@@ -84,8 +84,8 @@ class Batch {
   // begins a step of each machine in `machines`; none of them may be playing. send_resets() begins a reset of
   // every machine. receive() waits for the `count` machines that finish first, and writes their results. If
   // batch_size() is size(), they follow each other as they were sent. All throw InvalidInput, and do nothing,
-  // if that is impossible. receive() also throws if one of its machines has failed: what the last failure
-  // was.
+  // if that is impossible. receive() also throws if some of its machines have failed: what the last failure
+  // was. Those have been received then; the results of the others are still to be received.
   void send(std::span<const Act> acts, std::span<const std::int32_t> machines);
   void send(std::span<const int> actions, std::span<const std::int32_t> machines);
   void send_resets(std::span<const std::int64_t> seeds = {});

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <new>
 #include <random>
+#include <set>
 
 #include "emulator/console.hpp"
 #include "emulator/translator/translator.hpp"
@@ -17,9 +18,11 @@
 namespace {
 
 std::atomic<long> allocations = 0, bytes_in_use = 0;
+std::atomic<long> until_failure = -1;  // how many allocations succeed before one fails; negative: all do
 
 void* counted(std::size_t size, std::size_t alignment) {
   ++allocations;
+  if (until_failure >= 0 && until_failure-- == 0) throw std::bad_alloc();
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;
   void* const memory =
       alignment <= alignof(std::max_align_t) ? std::malloc(size) : std::aligned_alloc(alignment, whole);
@@ -140,6 +143,44 @@ TEST_CASE("A machine of a batch takes less than 64 KiB beside its pictures") {
   INFO(of_one << " bytes");
   CHECK(of_one > kPictures);
   CHECK(of_one - kPictures < 64 * 1024);
+}
+
+// How many machines have results among the first `count`, each counted once, that have played.
+std::size_t received(const BatchResults& results, std::size_t count) {
+  std::set<std::int32_t> machines;
+  for (std::size_t place = 0; place < count; ++place)
+    if (results.acts[place] == 1) machines.insert(results.numbers[place]);
+  return machines.size();
+}
+
+TEST_CASE("A machine that fails takes no results of others with it, whichever allocation fails") {
+  constexpr std::size_t kMachines = 4;
+  int failed_machines = 0, failures = 0;
+  for (bool succeeds = false; !succeeds; ++failures) {
+    REQUIRE(failures < 1000);
+    BatchSettings settings;
+    settings.threads = 1;
+    settings.screens = true;
+    EpisodeState play(settings, kMachines);
+    play.batch.send(std::vector<int>(kMachines), std::vector<std::int32_t>{0, 1, 2, 3});
+    until_failure = failures;
+    try {
+      play.batch.receive(play.results.arrays());
+      succeeds = true;
+    } catch (const std::bad_alloc&) {
+      until_failure = -1;
+      const std::size_t left = play.batch.playing();
+      INFO("allocation " << failures << ", left " << left);
+      REQUIRE(left >= kMachines - 1);
+      failed_machines += static_cast<int>(kMachines - left);
+      play.batch.receive(play.results.arrays(), left);
+      CHECK(received(play.results, left) == left);
+      CHECK(play.batch.playing() == 0);
+      play.step(2);  // and all of them go on
+    }
+    until_failure = -1;
+  }
+  CHECK(failed_machines > 0);
 }
 
 TEST_CASE("The count is one of allocations") {
