@@ -1,0 +1,63 @@
+"""One interpreter of a process uses racebeam; a second one is told so, and breaks nothing."""
+
+import subprocess
+import sys
+import unittest
+
+import package
+
+package.require("numpy")
+
+# A second interpreter, which shares the GIL with the first. The modules that make one have had several names.
+SECOND = """
+try:
+    import _interpreters as interpreters
+    second = interpreters.create("legacy")
+except ImportError:
+    import _xxsubinterpreters as interpreters
+    second = interpreters.create(isolated=False)
+
+def in_second(text):
+    interpreters.run_string(second, text)
+"""
+
+IMPORT = """
+try:
+    import racebeam
+except ImportError as error:
+    print("refused:", error, flush=True)
+else:
+    print(type(racebeam.ALEInterface()).__name__, flush=True)
+"""
+
+REFUSED = ("refused: another interpreter of this process has imported racebeam, and its objects work in one interpreter only; "
+           "import it in the same interpreter, or in another process")
+
+
+class Interpreters(unittest.TestCase):
+    def printed(self, program):
+        done = subprocess.run([sys.executable, "-W", "error", "-c", SECOND + program], capture_output=True, text=True, timeout=120)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout.splitlines()
+
+    def test_a_second_interpreter_is_refused_and_the_first_goes_on(self):
+        self.assertEqual(self.printed(f"""
+import racebeam
+in_second({IMPORT!r})
+in_second({IMPORT!r})
+ale = racebeam.ALEInterface()
+ale.setInt("random_seed", 1)
+ale.loadROM("builtin:beamfall")
+print(ale.getInt("random_seed"), ale.getScreen().shape, ale.act(racebeam.Action.NOOP), "beamfall" in racebeam.games())
+try:
+    ale.loadROM("/nowhere")
+except RuntimeError as error:
+    print(type(error).__name__)
+"""), [REFUSED, REFUSED, "1 (210, 160) 0 True", "InvalidInput"])
+
+    def test_the_interpreter_that_is_first_has_it(self):
+        self.assertEqual(self.printed(f"in_second({IMPORT!r})\nexec({IMPORT!r})"), ["ALEInterface", REFUSED])
+
+
+if __name__ == "__main__":
+    package.main()
