@@ -124,6 +124,9 @@ int run(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     std::cerr << "racebeam: " << racebeam::printable(explain(app, error)) << "\n";
     return racebeam::kExitUsage;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "racebeam: there is too little memory: the machine or a limit (ulimit -v) refuses more\n";
+    return racebeam::kExitFailure;
   } catch (const std::exception& error) {
     std::cerr << "racebeam: " << racebeam::printable(error.what()) << "\n";
     return racebeam::kExitFailure;

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <system_error>
@@ -75,19 +76,49 @@ int open_input_file(const std::string& what, const std::string& path) {
   return file.release();
 }
 
+void each_piece(const std::string& what, const std::string& path,
+                const std::function<void(std::string_view)>& visit) {
+  const Descriptor file(open_input_file(what, path));
+  std::array<char, 1 << 16> piece;
+  for (;;) {
+    const ssize_t count = ::read(file.get(), piece.data(), piece.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) Named{what, path}.fail();
+    if (count == 0) return;
+    visit({piece.data(), static_cast<std::size_t>(count)});
+  }
+}
+
 // The size that the system reports is not used: files of /proc report none.
 std::string read_input_file(const std::string& what, const std::string& path, std::size_t most) {
-  const Named named{what, path};
-  const Descriptor file(open_input_file(what, path));
   std::string text;
-  std::array<char, 1 << 16> piece;
-  while (text.size() <= most) {
-    const ssize_t count = ::read(file.get(), piece.data(), piece.size());
-    if (count < 0) named.fail();
-    if (count == 0) return text;
-    text.append(piece.data(), static_cast<std::size_t>(count));
-  }
-  named.refuse("larger than " + std::to_string(most) + " bytes");
+  each_piece(what, path, [&](std::string_view piece) {
+    if (piece.size() > most - text.size())
+      Named{what, path}.refuse("larger than " + std::to_string(most) + " bytes");
+    text += piece;
+  });
+  return text;
+}
+
+void each_line(const std::string& what, const std::string& path, std::size_t most,
+               const std::function<void(std::string_view, bool)>& visit) {
+  std::string line;  // what has been read of one that began in an earlier piece
+  std::size_t number = 1;
+  each_piece(what, path, [&](std::string_view piece) {
+    for (std::size_t end; !piece.empty(); piece.remove_prefix(end)) {
+      end = std::min(piece.find('\n'), piece.size());
+      if (line.size() + end > most)
+        Named{what, path}.refuse("line " + std::to_string(number) + " has more than " + std::to_string(most) +
+                                 " bytes");
+      line += piece.substr(0, end);
+      if (end == piece.size()) return;
+      visit(line, true);
+      line.clear();
+      ++number;
+      ++end;
+    }
+  });
+  if (!line.empty()) visit(line, false);
 }
 
 }  // namespace racebeam

@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cstddef>
-#include <stdexcept>
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "system/invalid_input.hpp"
 
@@ -22,5 +23,14 @@ int open_input_file(const std::string& what, const std::string& path);
 
 // Returns the whole contents. Throws InputFileError, also if there are more than `most` bytes.
 std::string read_input_file(const std::string& what, const std::string& path, std::size_t most);
+
+// Calls visit() with the contents, a piece of at most 64 KiB at a time. Throws InputFileError.
+void each_piece(const std::string& what, const std::string& path,
+                const std::function<void(std::string_view piece)>& visit);
+
+// Calls visit() with each line, and with whether a newline ends it, as only the last may lack. Throws
+// InputFileError, also for a line of more than `most` bytes.
+void each_line(const std::string& what, const std::string& path, std::size_t most,
+               const std::function<void(std::string_view line, bool ends)>& visit);
 
 }  // namespace racebeam

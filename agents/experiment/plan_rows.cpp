@@ -1,5 +1,7 @@
 #include "agents/experiment/plan_rows.hpp"
 
+#include <algorithm>
+
 #include "protocol/line/words.hpp"
 
 namespace racebeam {
@@ -8,29 +10,27 @@ std::size_t PlanRows::Own::rows() const {
   return diverged ? 1 : static_cast<std::size_t>(unit->agent->length.evaluation_episodes);
 }
 
-PlanRows::PlanRows(const std::vector<Unit>& units, const std::vector<ResultRow>& rows) {
+PlanRows::PlanRows(const std::vector<Unit>& units) {
   own_.reserve(units.size());
+  std::size_t count = 0;
   for (const Unit& unit : units) {
     by_name_.emplace(unit.name, own_.size());
-    own_.push_back({.unit = &unit});
-  }
-  for (const ResultRow& row : rows) {
-    const auto found = by_name_.find(row[0]);
-    if (found == by_name_.end() || field(row, "end") != "diverged") continue;
-    Own& own = own_[found->second];
-    own.diverged = own.unit->agent->kind->role == Role::kLearner;
-  }
-  std::size_t count = 0;
-  for (Own& own : own_) {
-    own.first = count;
-    count += own.rows();
+    own_.push_back({.unit = &unit, .first = count});
+    count += std::max<std::size_t>(own_.back().rows(), 1);  // it may have diverged
   }
   marked_.resize(count);
 }
 
-std::optional<PlanRows::Place> PlanRows::find(const ResultRow& row) const {
+void PlanRows::note(const ResultRow& row) {
+  if (field(row, "end") != "diverged") return;
   const auto found = by_name_.find(row[0]);
-  const std::string& text = field(row, "episode");
+  if (found == by_name_.end()) return;
+  Own& own = own_[found->second];
+  own.diverged = own.unit->agent->kind->role == Role::kLearner;
+}
+
+std::optional<PlanRows::Place> PlanRows::find(std::string_view unit, std::string_view text) const {
+  const auto found = by_name_.find(unit);
   const auto episode = parse_number<int>(text);
   if (found == by_name_.end() || !episode || std::to_string(*episode) != text) return std::nullopt;
   const Own& own = own_[found->second];

@@ -15,8 +15,10 @@ namespace racebeam {
 
 class PlanRows {
  public:
-  // A trial of a learner with a row of divergence in `rows` has that row alone. `units` must outlive this.
-  PlanRows(const std::vector<Unit>& units, const std::vector<ResultRow>& rows);
+  explicit PlanRows(const std::vector<Unit>& units);  // `units` must outlive this
+
+  // Every row is noted before the first is looked for: a trial of a learner that diverged has one row.
+  void note(const ResultRow& row);
 
   // A row of the plan.
   struct Place {
@@ -24,9 +26,11 @@ class PlanRows {
     int episode;        // 0: the trial diverged
     std::size_t index;  // among all rows of the plan
   };
-  std::optional<Place> find(const ResultRow& row) const;  // nothing: the plan has no such row
+  std::optional<Place> find(std::string_view unit, std::string_view episode) const;  // nothing: no such row
 
+  bool has(std::string_view unit) const { return by_name_.contains(unit); }
   bool mark(const Place& place);  // returns false if the row was marked before
+  bool is_marked(const Place& place) const { return marked_[place.index]; }
   void each_unmarked(const std::function<void(const Unit& unit, int episode)>& visit) const;
 
  private:

@@ -1,8 +1,10 @@
 #include "agents/experiment/results.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "protocol/line/words.hpp"
+#include "system/input_file.hpp"
 #include "system/invalid_input.hpp"
 
 namespace racebeam {
@@ -23,14 +25,18 @@ std::string_view seed_of(std::string_view settings) {
   return "";
 }
 
-std::vector<std::string> fields_of(std::string_view line) {
-  std::vector<std::string> fields;
-  for (std::size_t from = 0;;) {
-    const std::size_t comma = line.find(',', from);
-    fields.emplace_back(line.substr(from, comma - from));
-    if (comma == std::string_view::npos) return fields;
-    from = comma + 1;
+ResultRow row_of_line(std::string_view line, const auto& refuse) {
+  const auto fields = static_cast<std::size_t>(std::ranges::count(line, ',')) + 1;
+  ResultRow row;
+  if (fields != row.size())
+    refuse("the row has " + std::to_string(fields) + " fields; there are " + std::to_string(row.size()) +
+           " columns");
+  for (std::string& value : row) {
+    const std::size_t comma = std::min(line.find(','), line.size());
+    value = line.substr(0, comma);
+    line.remove_prefix(std::min(comma + 1, line.size()));
   }
+  return row;
 }
 
 }  // namespace
@@ -58,6 +64,15 @@ ResultRow row_of(const EpisodeLog& log, const std::string& digest) {
           hex_of(log.hashes.back()),
           digest,
           log.origin.version};
+}
+
+std::string_view name_of(Role role) {
+  switch (role) {
+    case Role::kBaseline: return "baseline";
+    case Role::kLearner: return "learner";
+    case Role::kPlanner: return "planner";
+  }
+  return "";
 }
 
 ResultRow row_of_plan(const Plan& plan, const Unit& unit, int episode) {
@@ -100,27 +115,24 @@ std::size_t place_of(std::string_view column) {
 const std::string& field(const ResultRow& row, std::string_view column) { return row.at(place_of(column)); }
 std::string& field(ResultRow& row, std::string_view column) { return row.at(place_of(column)); }
 
-std::vector<ResultRow> parse_results(const std::string& name, std::string_view text) {
+void each_result(const std::string& path, const RowVisitor& visit) {
+  constexpr std::size_t kMostLineBytes = 1 << 16;
   const std::string columns = line_of(kResultColumns);
-  if (!text.starts_with(columns))
-    throw InvalidInput(name + ": its first line must name the columns " +
-                       columns.substr(0, columns.size() - 1));
-  std::vector<ResultRow> rows;
-  std::size_t line = 2;
-  for (text.remove_prefix(columns.size()); !text.empty(); ++line) {
-    const std::size_t end = text.find('\n');
-    if (end == std::string_view::npos)
-      throw InvalidInput(name + ":" + std::to_string(line) +
-                         ": the last line does not end; the file was cut");
-    const std::vector<std::string> fields = fields_of(text.substr(0, end));
-    if (fields.size() != kResultColumns.size())
-      throw InvalidInput(name + ":" + std::to_string(line) + ": the row has " +
-                         std::to_string(fields.size()) + " fields; there are " +
-                         std::to_string(kResultColumns.size()) + " columns");
-    std::ranges::copy(fields, rows.emplace_back().begin());
-    text.remove_prefix(end + 1);
-  }
-  return rows;
+  std::size_t number = 0;
+  const auto refuse = [&](const std::string& reason) {
+    throw InvalidInput("results.csv:" + std::to_string(number) + ": " + reason);
+  };
+  const auto check_columns = [&](std::string_view line) {
+    if (line != std::string_view(columns).substr(0, columns.size() - 1))
+      throw InvalidInput("results.csv: its first line must name the columns " +
+                         columns.substr(0, columns.size() - 1));
+  };
+  each_line("results", path, kMostLineBytes, [&](std::string_view line, bool ends) {
+    if (++number == 1) check_columns(line);
+    if (!ends) refuse("the last line does not end; the file was cut");
+    if (number > 1) visit(row_of_line(line, refuse), number);
+  });
+  if (number == 0) check_columns("");
 }
 
 }  // namespace racebeam

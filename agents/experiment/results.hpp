@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "agents/experiment/episode_log.hpp"
 #include "agents/experiment/plan.hpp"
@@ -27,6 +27,10 @@ constexpr std::array<std::string_view, 8> kCurveColumns = {"unit",    "game",  "
 constexpr std::array<std::string_view, 6> kTimeColumns = {
     "unit",           "training_seconds", "training_frames", "evaluation_seconds", "evaluation_frames",
     "searched_frames"};
+
+// The columns of agents.csv: a row for each agent of results.csv, in the plan's order.
+constexpr std::array<std::string_view, 2> kAgentColumns = {"agent", "role"};
+std::string_view name_of(Role role);  // "learner", "planner" or "baseline"
 
 template <std::size_t kSize>
 std::string line_of(const std::array<std::string_view, kSize>& columns) {
@@ -50,8 +54,10 @@ std::string curve_line(const Unit& unit, int episode, const EpisodeEnd& end);
 const std::string& field(const ResultRow& row, std::string_view column);
 std::string& field(ResultRow& row, std::string_view column);
 
-// The rows of results.csv. Throws InvalidInput for columns that lack or differ, and rows that do not fit.
-std::vector<ResultRow> parse_results(const std::string& name, std::string_view text);
+// Visits the rows of results.csv, each with the number of its line. Of a file of any size, one row is in
+// memory. Throws InvalidInput for columns that lack or differ, and rows that do not fit.
+using RowVisitor = std::function<void(const ResultRow& row, std::size_t line)>;
+void each_result(const std::string& path, const RowVisitor& visit);
 
 // Paths in a folder of results.
 class ResultsFolder {
@@ -63,6 +69,7 @@ class ResultsFolder {
   std::string results() const { return root_ + "/results.csv"; }
   std::string curves() const { return root_ + "/curves.csv"; }
   std::string times() const { return root_ + "/times.csv"; }
+  std::string agents() const { return root_ + "/agents.csv"; }
   std::string units() const { return root_ + "/units"; }  // finished ones
   std::string unit(const std::string& name, std::string_view table) const {
     return (units() + '/' + name + '.').append(table) + ".csv";

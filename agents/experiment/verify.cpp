@@ -1,12 +1,11 @@
 #include "agents/experiment/verify.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
 
 #include "agents/base/sealed_file.hpp"
+#include "agents/experiment/log_judge.hpp"
 #include "agents/experiment/plan_rows.hpp"
-#include "agents/experiment/play.hpp"
 #include "environment/vector/thread_pool.hpp"
 #include "protocol/line/words.hpp"
 #include "system/input_file.hpp"
@@ -17,35 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostTableBytes = std::size_t{1} << 32;
-
-enum class Judgement { kConfirmed, kWrong, kUnchecked };
-
-struct RowVerdict {
-  Judgement judgement = Judgement::kWrong;
-  std::string reason;
-  std::int64_t frames = 0;
-};
+// Rows that are in memory at a time.
+constexpr std::size_t kRowsAtATime = 4096;
 
 std::string name_of_row(const ResultRow& row, std::size_t line) {
   return "results.csv:" + std::to_string(line) + " (" + row[0] + ", episode " + field(row, "episode") + ")";
-}
-
-// "score is 5; its log says 4", for the first column that differs; empty: none.
-std::string first_difference(const ResultRow& row, const ResultRow& truth, const std::string& source) {
-  for (std::size_t i = 0; i < row.size(); ++i)
-    if (row[i] != truth[i])
-      return std::string(kResultColumns[i]) + " is '" + row[i] + "'; " + source + " '" + truth[i] + "'";
-  return "";
-}
-
-// Decisions, counted from 1, in which the state first differs.
-std::string first_stretch(const EpisodeLog& log, const Replay& played) {
-  const auto [ours, theirs] = std::ranges::mismatch(log.hashes, played.hashes);
-  if (ours == log.hashes.end()) return "; every state is the same";
-  const std::int64_t from = (ours - log.hashes.begin()) * kDecisionsPerStretch;
-  return "; the first stretch that differs: decisions " + std::to_string(from + 1) + " to " +
-         std::to_string(std::min(from + kDecisionsPerStretch, log.end.decisions));
 }
 
 // The first setting of a log that is not the plan's.
@@ -69,10 +44,11 @@ std::string first_difference_of_words(const std::string& ours, const std::string
   return "";
 }
 
-class Verifier {
+// Judges rows by the plan, and by their logs.
+class RowJudge {
  public:
-  Verifier(const Plan& plan, const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu)
-      : plan_(plan), folder_(folder), images_(images), replayer_(threads, cpu) {}
+  RowJudge(const Plan& plan, const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu)
+      : plan_(plan), folder_(folder), logs_(images, threads, cpu) {}
 
   RowVerdict judge(const ResultRow& row, const PlanRows::Place& place) {
     try {
@@ -109,9 +85,7 @@ class Verifier {
       return {Judgement::kWrong, reason};
     if (const std::string reason = wrong_settings(log, place); !reason.empty())
       return {Judgement::kWrong, reason};
-    const Cartridge* const cartridge = images_.find(log.image_md5);
-    if (!cartridge) return {Judgement::kUnchecked, "no image with MD5 " + log.image_md5 + " is here"};
-    return play_again(row, log, {cartridge->image, game_of(log, *cartridge)});
+    return logs_.judge(row, log);
   }
 
   // Settings that the log leaves out have their defaults, as in a replay.
@@ -123,57 +97,11 @@ class Verifier {
     return first_difference_of_words(ours, theirs);
   }
 
-  static std::shared_ptr<const Game> game_of(const EpisodeLog& log, const Cartridge& cartridge) {
-    if (cartridge.game->name == log.game) return cartridge.game;
-    auto game = find_game(log.game);
-    if (!game) throw InvalidInput("its log is of the game '" + log.game + "', which is not in the catalogue");
-    return game;
-  }
-
-  RowVerdict play_again(const ResultRow& row, const EpisodeLog& log, const Cartridge& cartridge) {
-    const Replay played = replayer_.play(log, cartridge);
-    EpisodeLog truth = log;
-    truth.end = played.end;
-    truth.hashes = played.hashes;
-    std::string reason = first_difference(row, row_of(truth, field(row, "log_digest")), "the replay gives");
-    if (reason.empty() && log.hashes != played.hashes) reason = "the end is the same, the way is not";
-    if (!reason.empty()) return {Judgement::kWrong, reason + first_stretch(log, played), played.end.frames};
-    if (!played.over)
-      return {Judgement::kWrong, "the episode is not over after its last action; the log was cut short",
-              played.end.frames};
-    return {Judgement::kConfirmed, "", played.end.frames};
-  }
-
   const Plan& plan_;
   const ResultsFolder& folder_;
-  const Images& images_;
-  Replayer replayer_;
+  LogJudge logs_;
   const Environment any_machine_{load_image("builtin:beamfall"), find_game("beamfall"), Settings{}};
 };
-
-// What is missing, doubled or too many. The place in the plan of each row that may be judged is returned.
-std::vector<std::optional<PlanRows::Place>> compare_with_plan(PlanRows& wanted,
-                                                              const std::vector<ResultRow>& rows,
-                                                              Verdict& verdict, const Finding& finding) {
-  const auto tell = [&](const std::string& line) {
-    ++verdict.wrong;
-    finding(line);
-  };
-  std::vector<std::optional<PlanRows::Place>> places(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto place = wanted.find(rows[i]);
-    if (!place)
-      tell(name_of_row(rows[i], i + 2) + ": is not in the plan");
-    else if (!wanted.mark(*place))
-      tell(name_of_row(rows[i], i + 2) + ": stands twice");
-    else
-      places[i] = place;
-  }
-  wanted.each_unmarked([&](const Unit& unit, int episode) {
-    tell("results.csv: the row of " + unit.name + ", episode " + std::to_string(episode) + " is missing");
-  });
-  return places;
-}
 
 // The plan of results, which has the images and the version.
 Plan plan_of(const ResultsFolder& folder) {
@@ -186,60 +114,125 @@ Plan plan_of(const ResultsFolder& folder) {
   return plan;
 }
 
-void find_surplus_logs(const ResultsFolder& folder, const std::vector<ResultRow>& rows, Verdict& verdict,
-                       const Finding& finding) {
-  std::set<std::string> wanted;
-  for (const ResultRow& row : rows) wanted.insert(folder.log(row[0], field(row, "episode")));
-  std::set<std::string> surplus;
-  std::error_code none;
-  const auto holds_logs = [&](const fs::directory_entry& entry) {
-    const std::string inside = entry.path().string() + '/';
-    const auto first = wanted.lower_bound(inside);
-    return first != wanted.end() && first->starts_with(inside);
-  };
-  for (const auto& entry : fs::recursive_directory_iterator(folder.logs(), none)) {
-    const bool is_folder = entry.is_directory() && !(entry.is_symlink() && !holds_logs(entry));
-    if (!is_folder && !wanted.contains(entry.path().string())) surplus.insert(entry.path().string());
-  }
-  for (const std::string& path : surplus) {
-    ++verdict.wrong;
-    finding(path + ": no row of results.csv has this log");
-  }
+// A link could lead to any folder of the system.
+void refuse_link(const std::string& path) {
+  if (fs::is_symlink(fs::symlink_status(path)))
+    throw InvalidInput(path + ": this is a link, which is not followed; accepted is a folder");
 }
+
+class Verification {
+ public:
+  Verification(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
+               const Finding& finding)
+      : folder_(folder),
+        plan_(plan_of(folder)),
+        units_(units_of(plan_)),
+        wanted_(units_),
+        pool_(threads),
+        judge_(plan_, folder_, images, pool_.threads(), cpu),
+        finding_(finding) {}
+
+  // The table is read twice, so that a table that does not fit is refused before a log is played.
+  Verdict all() {
+    each_result(folder_.results(), [&](const ResultRow& row, std::size_t) { wanted_.note(row); });
+    each_result(folder_.results(), [&](const ResultRow& row, std::size_t line) { take(row, line); });
+    judge_taken();
+    wanted_.each_unmarked([&](const Unit& unit, int episode) {
+      wrong("results.csv: the row of " + unit.name + ", episode " + std::to_string(episode) + " is missing");
+    });
+    find_surplus_logs();
+    return verdict_;
+  }
+
+ private:
+  struct Taken {
+    ResultRow row;
+    std::size_t line;
+    std::optional<PlanRows::Place> place;  // nothing: `found` has been told
+    RowVerdict found;
+  };
+
+  void wrong(const std::string& line) {
+    ++verdict_.wrong;
+    finding_(line);
+  }
+
+  // A row that is not in the plan, or stands twice, is not judged.
+  void take(const ResultRow& row, std::size_t line) {
+    const auto place = wanted_.find(row[0], field(row, "episode"));
+    Taken taken{row, line, place, {}};
+    if (!place) {
+      const std::string log = folder_.log(row[0], field(row, "episode"));
+      std::error_code none;
+      if (fs::exists(fs::symlink_status(log, none))) logs_of_strangers_.insert(log);
+      taken.found.reason = ": is not in the plan";
+    } else if (!wanted_.mark(*place)) {
+      taken.place.reset();
+      taken.found.reason = ": stands twice";
+    }
+    taken_.push_back(std::move(taken));
+    if (taken_.size() == kRowsAtATime) judge_taken();
+  }
+
+  void judge_taken() {
+    pool_.run(taken_.size(), [&](std::size_t i) {
+      if (Taken& one = taken_[i]; one.place) one.found = judge_.judge(one.row, *one.place);
+    });
+    for (const Taken& one : taken_) count(one);
+    taken_.clear();
+  }
+
+  void count(const Taken& one) {
+    const std::string name = name_of_row(one.row, one.line);
+    verdict_.frames += one.found.frames;
+    if (!one.place) return wrong(name + one.found.reason);
+    switch (one.found.judgement) {
+      case Judgement::kConfirmed: ++verdict_.confirmed; return;
+      case Judgement::kWrong: return wrong(name + ": not confirmed: " + one.found.reason);
+      case Judgement::kUnchecked:
+        ++verdict_.unchecked;
+        return finding_(name + ": could not be checked: " + one.found.reason);
+    }
+  }
+
+  void find_surplus_logs() {
+    std::set<std::string> surplus;
+    std::error_code none;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.logs(), none))
+      if (!is_wanted(entry)) surplus.insert(entry.path().string());
+    for (const std::string& path : surplus) wrong(path + ": no row of results.csv has this log");
+  }
+
+  // Folders are, but for links to them. The logs of a unit may lie elsewhere.
+  bool is_wanted(const fs::directory_entry& entry) const {
+    const fs::path& path = entry.path();
+    if (entry.is_directory())
+      return !entry.is_symlink() ||
+             (path.parent_path() == folder_.logs() && wanted_.has(path.filename().string()));
+    const std::string unit = path.parent_path().filename().string(), episode = path.stem().string();
+    if (path == folder_.log(unit, episode))
+      if (const auto place = wanted_.find(unit, episode); place && wanted_.is_marked(*place)) return true;
+    return logs_of_strangers_.contains(path.string());
+  }
+
+  const ResultsFolder& folder_;
+  const Plan plan_;
+  const std::vector<Unit> units_;
+  PlanRows wanted_;
+  ThreadPool pool_;
+  RowJudge judge_;
+  const Finding& finding_;
+  std::vector<Taken> taken_;
+  std::set<std::string> logs_of_strangers_;  // of rows that are not in the plan
+  Verdict verdict_;
+};
 
 }  // namespace
 
 Verdict verify(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
                const Finding& finding) {
-  const Plan plan = plan_of(folder);
-  const auto rows =
-      parse_results("results.csv", read_input_file("results", folder.results(), kMostTableBytes));
-  const std::vector<Unit> units = units_of(plan);
-  PlanRows wanted(units, rows);
-
-  Verdict verdict;
-  const auto places = compare_with_plan(wanted, rows, verdict, finding);
-  std::vector<RowVerdict> verdicts(rows.size());
-  ThreadPool pool(threads);
-  Verifier verifier(plan, folder, images, pool.threads(), cpu);
-  pool.run(rows.size(), [&](std::size_t i) {
-    if (places[i]) verdicts[i] = verifier.judge(rows[i], *places[i]);
-  });
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!places[i]) continue;
-    const RowVerdict& found = verdicts[i];
-    verdict.frames += found.frames;
-    if (found.judgement == Judgement::kConfirmed) {
-      ++verdict.confirmed;
-      continue;
-    }
-    ++(found.judgement == Judgement::kWrong ? verdict.wrong : verdict.unchecked);
-    finding(name_of_row(rows[i], i + 2) +
-            (found.judgement == Judgement::kWrong ? ": not confirmed: " : ": could not be checked: ") +
-            found.reason);
-  }
-  find_surplus_logs(folder, rows, verdict, finding);
-  return verdict;
+  refuse_link(folder.logs());
+  return Verification(folder, images, threads, cpu, finding).all();
 }
 
 }  // namespace racebeam

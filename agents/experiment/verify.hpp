@@ -16,11 +16,12 @@ struct Verdict {
   std::int64_t frames = 0;    // that were played
 };
 
-// One line for each row, log or unit that is not confirmed. From one thread at a time, in the order of the
-// results.
+// One line for each row that is not confirmed, in the order of the results; then one for each row that is
+// missing, and for each log that is too many. From one thread at a time.
 using Finding = std::function<void(const std::string& line)>;
 
-// Throws InvalidInput if the folder's plan or results.csv cannot be read.
+// Needs little memory, however many rows there are. Throws InvalidInput if the folder's plan or results.csv
+// cannot be read, or its folder of logs is a link.
 Verdict verify(const ResultsFolder& folder, const Images& images, unsigned threads, CpuKind cpu,
                const Finding& finding);
 

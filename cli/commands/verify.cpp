@@ -7,6 +7,7 @@
 #include <string>
 
 #include "agents/base/sealed_file.hpp"
+#include "agents/experiment/log_judge.hpp"
 #include "agents/experiment/verify.hpp"
 #include "cli/arguments/image_options.hpp"
 #include "cli/arguments/options.hpp"
@@ -22,11 +23,14 @@ Each row that is not confirmed gets a line. With --table, also says whether a ta
 these results: it must contain the SHA-256 of results.csv or of curves.csv. The numbers in a table are not checked,
 nor is curves.csv, since episodes of training leave no logs.
 
+RESULTS may be one log, whose name ends with .episode: what it says of itself is confirmed, without a plan.
+
 Exit status: 0 all rows are confirmed; 1 rows, logs or tables are wrong, missing or too many; 2 nothing is wrong,
 but some rows could not be checked, such as those of a game without an image.
 
-Example:
-  racebeam verify results --roms ~/atari)";
+Examples:
+  racebeam verify results --roms ~/atari
+  racebeam verify results/logs/pong-uct-1/1.episode --roms ~/atari)";
 
 constexpr std::size_t kMostTableBytes = std::size_t{1} << 30;
 
@@ -42,9 +46,7 @@ struct Digests {
 };
 
 Digests digests_of(const ResultsFolder& folder) {
-  const auto digest = [](const std::string& path) {
-    return sha256_of(read_input_file("table", path, kMostTableBytes));
-  };
+  const auto digest = [](const std::string& path) { return sha256_of_file("table", path); };
   return {digest(folder.results()), std::filesystem::exists(folder.curves()) ? digest(folder.curves()) : ""};
 }
 
@@ -62,21 +64,56 @@ bool check_table(const std::string& path, const Digests& digests) {
   return has(digests.results) || has(digests.curves);
 }
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+int status_of(const Verdict& verdict, bool tables) {
+  if (verdict.wrong > 0 || !tables) return 1;
+  return verdict.unchecked > 0 ? 2 : 0;
+}
+
+bool is_log(const std::string& path) {
+  return path.ends_with(".episode") && !std::filesystem::is_directory(path);
+}
+
+int verify_log(const VerifyOptions& options) {
+  if (!options.tables.empty())
+    throw UsageError("--table needs the folder of the results, and this is one log");
+  const std::string name = std::filesystem::path(options.results).filename().string();
+  const std::string bytes = read_input_file("episode log", options.results, kMostLogBytes);
+  const EpisodeLog log = log_of(name, bytes);
+  const Images images = images_of(options.images);
+  const auto start = Clock::now();
+  const RowVerdict found = LogJudge(images, 1, options.images.cpu).judge(row_of(log, sha256_of(bytes)), log);
+  const Verdict verdict{.confirmed = found.judgement == Judgement::kConfirmed,
+                        .wrong = found.judgement == Judgement::kWrong,
+                        .unchecked = found.judgement == Judgement::kUnchecked};
+  std::string line =
+      name + " (" + log.game + ", " + log.origin.agent + ", score " + std::to_string(log.end.score) + "): ";
+  line += verdict.confirmed ? "confirmed" : verdict.wrong ? "not confirmed: " : "could not be checked: ";
+  std::printf("%s; %lld frames in %.1f s\n", printable(line + found.reason).c_str(),
+              static_cast<long long>(found.frames), seconds_since(start));
+  return status_of(verdict, true);
+}
+
 int run(const VerifyOptions& options) {
+  if (is_log(options.results)) return verify_log(options);
   const ResultsFolder folder(options.results);
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   const Verdict verdict =
       verify(folder, images_of(options.images), threads_of(options.images), options.images.cpu,
              [](const std::string& line) { std::printf("%s\n", printable(line).c_str()); });
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const double seconds = seconds_since(start);
   bool tables = true;
   const Digests digests = digests_of(folder);
   for (const std::string& path : options.tables) tables = check_table(path, digests) && tables;
   std::printf("%zu rows confirmed, %zu wrong, %zu could not be checked; %lld frames in %.1f s\n",
               verdict.confirmed, verdict.wrong, verdict.unchecked, static_cast<long long>(verdict.frames),
-              seconds.count());
-  if (verdict.wrong > 0 || !tables) return 1;
-  return verdict.unchecked > 0 ? 2 : 0;
+              seconds);
+  return status_of(verdict, tables);
 }
 
 }  // namespace
@@ -85,7 +122,7 @@ void add_verify(Subcommand& program) {
   const auto options = std::make_shared<VerifyOptions>();
   Subcommand command = program.add_subcommand(
       "verify", "Play the episodes of an experiment again, and confirm its scores", kVerifyFooter);
-  command.option("RESULTS", options->results, "The folder of the results").required();
+  command.option("RESULTS", options->results, "The folder of the results, or one log").required();
   command.option("--table", options->tables, "A table or report that was made from them; may be repeated")
       .one_a_time();
   add_image_options(command, options->images);

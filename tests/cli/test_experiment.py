@@ -170,6 +170,52 @@ class Experiment(unittest.TestCase):
                  for name in re.findall(r'"(\w+)"', re.search(rf"(?m)^{group} = \((.*?)\)", scores)[1])]
         self.assertEqual(sorted(agents), sorted(known))
 
+    def test_verification_takes_no_memory_for_the_rows(self):
+        self.plan.write_text('games = ["beamfall"]\nagents = ["random"]\nevaluation_episodes = 2\n')
+        self.assertEqual(self.experiment("results")[0], 0)
+        folder = self.place / "results"
+        rows = (folder / "results.csv").read_text().splitlines(keepends=True)
+        with (folder / "results.csv").open("w") as table:
+            table.writelines(rows)
+            for _ in range(300):
+                table.write(rows[1] * 1000)
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (512 << 20, 512 << 20))
+
+        with (self.place / "printed").open("w+") as printed:
+            done = subprocess.run([BINARY, "verify", str(folder), "--threads", "1"], stdout=printed, stderr=subprocess.PIPE,
+                                  preexec_fn=limit, text=True, timeout=10 * PATIENCE)
+            printed.seek(0)
+            last = printed.readlines()[-1]
+        self.assertEqual((done.returncode, done.stderr), (1, ""))
+        self.assertRegex(last, "^2 rows confirmed, 300000 wrong, 0 could not be checked; ")
+
+    def test_too_little_memory_is_a_sentence(self):
+        plan = 'games = "paper"\nagents = ["const"]\ntrials = 1\nevaluation_episodes = 1\n'
+        self.plan.write_text(plan)
+        errors = set()
+        for most in range(16, 80, 4):
+            limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (most << 20, most << 20))  # noqa: B023
+            status, _, error = run("experiment", str(self.plan), "--dry-run", preexec_fn=limit)
+            if status == 1:
+                errors.add(error)
+        self.assertNotIn("racebeam: std::bad_alloc\n", errors)
+
+    def test_one_log_is_verified_too(self):
+        self.plan.write_text('games = ["beamfall"]\nagents = ["random"]\nevaluation_episodes = 2\n')
+        self.assertEqual(self.experiment("results")[0], 0)
+        logs = self.place / "results/logs/beamfall-random-1"
+        status, printed, errors = run("verify", str(logs / "1.episode"))
+        self.assertEqual((status, errors), (0, ""))
+        self.assertRegex(printed, r"^1\.episode \(beamfall, random, score \d+\): confirmed; \d+ frames in [0-9.]+ s\n$")
+        (self.place / "cut.episode").write_bytes((logs / "1.episode").read_bytes()[:-1])
+        status, printed, errors = run("verify", str(self.place / "cut.episode"))
+        self.assertEqual((status, printed), (1, ""))
+        self.assertEqual(errors, "racebeam: episode log cut.episode: its checksum is wrong; it was cut or altered\n")
+        status, _, errors = run("verify", str(logs / "1.episode"), "--table", str(self.plan))
+        self.assertEqual((status, errors), (2, "racebeam: --table needs the folder of the results, and this is one log\n"))
+
     def test_the_results_in_the_tree_are_confirmed(self):
         kept = [plan.parent for plan in sorted((ROOT / "docs/results").glob("*/plan.toml"))]
         self.assertIn(ROOT / "docs/results/own-games", kept)

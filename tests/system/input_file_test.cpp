@@ -47,6 +47,30 @@ TEST_CASE("a file is read whole, up to the limit") {
   check_refused(path, "larger than 100 bytes");
 }
 
+TEST_CASE("lines are visited one by one, however long the file is") {
+  const Folder folder;
+  const std::string path = folder / "file";
+  const std::string line(1000, 'x');
+  {
+    std::ofstream file(path);
+    file << "\n";
+    for (int number = 0; number < 1000; ++number) file << line << number << '\n';
+    file << "end";
+  }
+  std::size_t seen = 0;
+  std::string last;
+  each_line("table", path, 1004, [&](std::string_view text, bool ends) {
+    if (seen > 0 && ends) CHECK(text == line + std::to_string(seen - 1));
+    CHECK(ends == (seen < 1001));
+    ++seen;
+    last = text;
+  });
+  CHECK(seen == 1002);
+  CHECK(last == "end");
+  CHECK_THROWS_MATCHES(each_line("table", path, 1001, [](std::string_view, bool) {}), InputFileError,
+                       Message("table " + path + ": line 12 has more than 1001 bytes"));
+}
+
 TEST_CASE("a link to a file is followed") {
   const Folder folder;
   std::ofstream(folder / "file") << "text";

@@ -98,7 +98,7 @@ TEST_CASE("A unit that another process runs is named, and the rest is done") {
     CHECK_THROWS_WITH(run(plan, folder),
                       Catch::StartsWith("beamfall-random-1 is being run by another process"));
   }
-  CHECK(parse_results("", contents(folder.results())).size() == 38);
+  CHECK(rows_of(contents(folder.results())).size() == 38);
   run(plan, folder);
   CHECK(verified(folder).verdict.confirmed == 40);
 }
@@ -147,7 +147,7 @@ TEST_CASE("What is finished is in the tables, even if a unit fails") {
   fs::create_directories(folder.work());
   write(folder.checkpoint("beamfall-basic-1"), "RBCHECKP");
   CHECK_THROWS_WITH(run(bound_plan(kPlan), folder), Catch::StartsWith("checkpoint beamfall-basic-1"));
-  CHECK(parse_results("", contents(folder.results())).size() == 38);
+  CHECK(rows_of(contents(folder.results())).size() == 38);
 }
 
 TEST_CASE("What ends a run early is handed on, and what is finished is in the tables") {
@@ -164,7 +164,7 @@ TEST_CASE("What ends a run early is handed on, and what is finished is in the ta
   CHECK_THROWS_AS(run_experiment(plan, Images(), folder, settings,
                                  [&](const Progress& at) { finished += at.unit_finished; }),
                   Ended);
-  const std::size_t rows = parse_results("", contents(folder.results())).size();
+  const std::size_t rows = rows_of(contents(folder.results())).size();
   CHECK(rows >= 10);
   CHECK(rows < 40);
   run(plan, folder);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "agents/experiment/experiment.hpp"
 #include "agents/experiment/plan.hpp"
@@ -23,6 +24,19 @@ inline std::string contents(const std::string& path) {
 
 inline void write(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
+}
+
+// The rows of a table of results, which is in order.
+inline std::vector<ResultRow> rows_of(const std::string& table) {
+  std::istringstream lines(table);
+  std::string line;
+  std::getline(lines, line);  // the columns
+  std::vector<ResultRow> rows;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    for (std::string& value : rows.emplace_back()) std::getline(fields, value, ',');
+  }
+  return rows;
 }
 
 inline Cartridge beamfall() { return {load_image("builtin:beamfall"), find_game("beamfall")}; }

@@ -35,7 +35,7 @@ inline Verified verified(const ResultsFolder& folder, const Images& images = Ima
 // `table` with another value; `line` counts rows from 0.
 inline std::string altered_field(const std::string& table, std::size_t line, std::size_t column,
                                  const std::string& value) {
-  std::vector<ResultRow> rows = parse_results("", table);
+  std::vector<ResultRow> rows = rows_of(table);
   rows.at(line).at(column) = value;
   std::string text = line_of(kResultColumns);
   for (const ResultRow& row : rows) text += line_of(row);
@@ -45,7 +45,7 @@ inline std::string altered_field(const std::string& table, std::size_t line, std
 // Alters the log of a row, seals it again, and makes the row fit.
 inline void reseal(const ResultsFolder& folder, std::size_t line,
                    const std::function<void(EpisodeLog& log)>& alter) {
-  std::vector<ResultRow> rows = parse_results("", contents(folder.results()));
+  std::vector<ResultRow> rows = rows_of(contents(folder.results()));
   ResultRow& row = rows.at(line);
   const std::string path = folder.log(row[0], field(row, "episode"));
   EpisodeLog log = log_of(path, contents(path));

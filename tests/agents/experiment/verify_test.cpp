@@ -82,6 +82,24 @@ TEST_CASE("An experiment's results are confirmed, and every alteration is named"
     CHECK(verified(folder).verdict.confirmed == 40);
     CHECK(verified(folder).verdict.wrong == 0);
   }
+  SECTION("a folder of logs that is a link") {
+    fs::rename(folder.logs(), place.path("elsewhere"));
+    for (const std::string target : {place.path("elsewhere"), std::string("/usr"), std::string("nowhere")}) {
+      fs::create_directory_symlink(target, folder.logs());
+      CHECK_THROWS_WITH(verified(folder), folder.logs() +
+                                              ": this is a link, which is not followed; "
+                                              "accepted is a folder");
+      fs::remove(folder.logs());
+    }
+  }
+  SECTION("a log of a row that is not in the plan, which is there") {
+    fs::rename(folder.log("beamfall-random-1", "1"), folder.log("beamfall-random-1", "9"));
+    write(folder.results(), altered_field(table, 0, 5, "9"));
+    const Verified found = verified(folder);
+    CHECK_THAT(found.findings, Catch::Contains("episode 1 is missing") &&
+                                   !Catch::Contains("no row of results.csv has this log"));
+    CHECK(found.verdict.wrong == 2);
+  }
   SECTION("rows that are missing, doubled and too many") {
     const std::size_t last = table.rfind('\n', table.size() - 2) + 1;
     write(folder.results(), table.substr(0, last));
@@ -138,7 +156,7 @@ TEST_CASE("A trial that diverges has one row, which is never averaged") {
                  "[agent.basic]\nalpha = 100\nlambda = 1\nleast_trace = 0\ntraining_episodes = 50\n"
                  "reward_scale = \"none\"\n");
   run(plan, folder);
-  const auto rows = parse_results("", contents(folder.results()));
+  const auto rows = rows_of(contents(folder.results()));
   REQUIRE(rows.size() == 39);
   CHECK(field(rows[38], "end") == "diverged");
   CHECK(field(rows[38], "score") == "");
