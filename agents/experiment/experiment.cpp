@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "agents/base/file_lock.hpp"
@@ -46,14 +47,15 @@ void make_folder(const std::string& path) {
   if (error) throw std::runtime_error("cannot make the folder " + path + ": " + error.message());
 }
 
-// A lock in the folder `work`, which the process that finishes the last unit removes.
+// A lock in the folder `work`, which every process removes that finds all units finished.
 auto with_lock(const ResultsFolder& folder, const std::string& name, const auto& lock) {
+  constexpr int kMostAttempts = 10'000;
   for (int attempt = 1;; ++attempt) {
     make_folder(folder.work());
     try {
       return lock(folder.lock(name));
     } catch (const std::system_error& error) {
-      if (error.code() != std::errc::no_such_file_or_directory || attempt == 10) throw;
+      if (error.code() != std::errc::no_such_file_or_directory || attempt == kMostAttempts) throw;
     }
   }
 }
@@ -73,7 +75,7 @@ bool is_own(const fs::path& file) {
 fs::path foreign_file(const ResultsFolder& folder) {
   std::error_code none;
   for (const std::string& path :
-       {folder.results(), folder.curves(), folder.times(), folder.units(), folder.logs()})
+       {folder.results(), folder.curves(), folder.times(), folder.agents(), folder.units(), folder.logs()})
     if (fs::exists(fs::symlink_status(path, none))) return path;
   if (fs::is_symlink(folder.work(), none)) return folder.work();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.work(), none))
@@ -92,7 +94,9 @@ void refuse_foreign_files(const ResultsFolder& folder) {
 std::ptrdiff_t lines_of(const std::string& path) {
   std::error_code none;
   if (!fs::exists(path, none)) return 0;
-  return std::ranges::count(read_input_file("table", path, kMostTableBytes), '\n');
+  std::ptrdiff_t lines = 0;
+  each_piece("table", path, [&](std::string_view piece) { lines += std::ranges::count(piece, '\n'); });
+  return lines;
 }
 
 // The tables are put together from `units`. A folder whose table has rows that no unit has would lose them.
@@ -132,6 +136,15 @@ void remove_work(const ResultsFolder& folder) {
   fs::remove(folder.work(), none);
 }
 
+std::string table_of_agents(const std::vector<Unit>& units) {
+  std::string table = line_of(kAgentColumns);
+  std::set<std::string_view> seen;
+  for (const Unit& unit : units)
+    if (seen.insert(unit.agent_name).second)
+      ((table += unit.agent_name + ',') += name_of(unit.agent->kind->role)) += '\n';
+  return table;
+}
+
 // Puts the finished units together, in the plan's order. Under the lock, so that the process which finishes
 // last writes last.
 void put_together(const ResultsFolder& folder, const std::vector<Unit>& units) {
@@ -146,6 +159,7 @@ void put_together(const ResultsFolder& folder, const std::vector<Unit>& units) {
     curves += read_input_file("table", folder.unit(unit.name, "curves"), kMostTableBytes);
     times += read_input_file("table", folder.unit(unit.name, "times"), kMostTableBytes);
   }
+  replace_file(folder.agents(), table_of_agents(units), Durable::kLater);
   replace_file(folder.times(), times, Durable::kLater);
   replace_file(folder.curves(), curves, Durable::kLater);
   replace_file(folder.results(), results, Durable::kNow);

@@ -24,9 +24,9 @@ namespace {
 
 constexpr auto kExperimentFooter = R"(
 RESULTS is a folder. It gets the plan with every setting written out, results.csv with a row for each evaluation
-episode, curves.csv with a row for each training episode, times.csv, and a log of each evaluation episode. The
-command can be stopped at any time, and repeated: finished units are not run again, and unfinished ones go on. SIGINT,
-SIGHUP and SIGTERM end it after the decisions that are being made; a second signal at once.
+episode, curves.csv with a row for each training episode, agents.csv, times.csv, and a log of each evaluation episode.
+The command can be stopped at any time, and repeated: finished units are not run again, and unfinished ones go on.
+SIGINT, SIGHUP and SIGTERM end it after the decisions that are being made; a second signal at once.
 
 Examples:
   racebeam experiment smoke --into results

@@ -3,7 +3,9 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <map>
+#include <mutex>
 #include <optional>
+#include <thread>
 
 #include "agents/base/file_lock.hpp"
 #include "agents/experiment/cost.hpp"
@@ -86,6 +88,16 @@ TEST_CASE("A trial goes on from its checkpoint as if nothing had happened") {
   }
   run(plan, parts);
   CHECK(files_of(whole) == files_of(parts));
+}
+
+TEST_CASE("The role of each agent is said once") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  run(bound_plan("games = [\"beamfall\", \"updraft\"]\nagents = [\"uct\", \"random\", \"basic\"]\n"
+                 "trials = 2\ntraining_episodes = 1\nevaluation_episodes = 1\nbackground_screens = 300\n"
+                 "environment = \"max_episode_frames=50\"\n[agent.uct]\nsimulations = 2\n"),
+      folder);
+  CHECK(contents(folder.agents()) == "agent,role\nuct,planner\nrandom,baseline\nbasic,learner\n");
 }
 
 TEST_CASE("A unit that another process runs is named, and the rest is done") {
@@ -173,7 +185,7 @@ TEST_CASE("What ends a run early is handed on, and what is finished is in the ta
 
 TEST_CASE("A folder with files of its user is refused, and its files stay") {
   for (const std::string name :
-       {"results.csv", "curves.csv", "times.csv", "units/x", "logs/x", "work/thesis"}) {
+       {"results.csv", "curves.csv", "times.csv", "agents.csv", "units/x", "logs/x", "work/thesis"}) {
     INFO(name);
     const Scratch place;
     const ResultsFolder folder(place.path("results"));
@@ -248,6 +260,33 @@ TEST_CASE("A unit whose process was killed meanwhile is run by the other") {
   CHECK_NOTHROW(
       run_experiment(bound_plan(kPlan), Images(), folder, {}, [&](const Progress&) { lock.reset(); }));
   CHECK(verified(folder).verdict.confirmed == 40);
+}
+
+// Each of them removes the folder of work, in which others have begun to wait for the plan's lock.
+TEST_CASE("Many processes at once on a finished folder leave it as it is") {
+  const Scratch place;
+  const ResultsFolder folder(place.path("results"));
+  const Plan plan = bound_plan(
+      "games = [\"beamfall\"]\nagents = [\"random\"]\nevaluation_episodes = 1\n"
+      "environment = \"max_episode_frames=100\"\n");
+  run(plan, folder);
+  const auto before = files_of(folder);
+  std::mutex mutex;
+  std::string failures;
+  std::vector<std::jthread> processes(12);
+  for (std::jthread& process : processes)
+    process = std::jthread([&] {
+      for (int time = 0; time < 20; ++time) try {
+          run(plan, folder);
+        } catch (const std::exception& error) {
+          const std::lock_guard lock(mutex);
+          (failures += error.what()) += '\n';
+        }
+    });
+  processes.clear();
+  CHECK(failures == "");
+  CHECK(files_of(folder) == before);
+  CHECK(!fs::exists(folder.work()));
 }
 
 TEST_CASE("Progress is reported within a unit, and weighs what is left by its cost") {
