@@ -9,7 +9,6 @@
 #include "tests/games/scratch.hpp"
 
 using namespace racebeam;
-using namespace racebeam::test;
 using namespace std::chrono_literals;
 
 TEST_CASE("One process at a time holds a lock") {

@@ -84,7 +84,7 @@ TEST_CASE("An experiment's results are confirmed, and every alteration is named"
   }
   SECTION("a folder of logs that is a link") {
     fs::rename(folder.logs(), place.path("elsewhere"));
-    for (const std::string target : {place.path("elsewhere"), std::string("/usr"), std::string("nowhere")}) {
+    for (const std::string& target : {place.path("elsewhere"), std::string("/usr"), std::string("nowhere")}) {
       fs::create_directory_symlink(target, folder.logs());
       CHECK_THROWS_WITH(verified(folder), folder.logs() +
                                               ": this is a link, which is not followed; "
