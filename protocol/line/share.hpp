@@ -37,6 +37,8 @@ struct Snapshot {
   Clock::time_point when;
   std::vector<std::uint8_t> screen;
   std::array<std::uint8_t, kRamSize> ram;
+
+  int height() const { return static_cast<int>(screen.size()) / kScreenWidth; }
 };
 
 // One shared session.

@@ -37,9 +37,10 @@ std::vector<Field> parse_watched_fields(Words words) {
   return fields;
 }
 
-void Watched::choose(const std::vector<Field>& fields) {
-  if (std::ranges::equal(fields, fields_, is_same)) return;
+void Watched::choose(const std::vector<Field>& fields, int height) {
+  if (height == height_ && std::ranges::equal(fields, fields_, is_same)) return;
   fields_ = fields;
+  height_ = height;
   encoders_.clear();
   for (const Field& field : fields) encoders_.emplace_back(field.encoding);
   footprint_ = View::footprint(fields);
@@ -47,7 +48,7 @@ void Watched::choose(const std::vector<Field>& fields) {
 
 void Watched::append(std::string& out, std::string& raw, const std::vector<Field>& fields,
                      const Snapshot& snapshot) {
-  choose(fields);
+  choose(fields, snapshot.height());
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const auto row = std::ranges::find(kFields, fields[i].name, &WatchedField::name);
     std::vector<std::uint8_t> scratch;

@@ -12,25 +12,28 @@
 
 namespace racebeam {
 
-// One shared session, as a watcher asks for it.
+// The shared session of one name, as a watcher asks for it. Another session may share its game under the name
+// later.
 class Watched {
  public:
-  explicit Watched(std::unique_ptr<Share::Place> place) : place_(std::move(place)) {}
-
-  bool ended() const { return place_->share().ended(); }
+  bool ended() const { return !place_ || place_->share().ended(); }
   std::shared_ptr<const Snapshot> newest() { return place_->share().newest(); }
 
+  void enter(std::unique_ptr<Share::Place> place) { place_ = std::move(place); }
+  void leave() { place_.reset(); }
+
   // Appends " name=value" for each field. The encoding delta tells what has changed since the last reply with
-  // the same fields.
+  // the same fields and a screen of the same height.
   void append(std::string& out, std::string& raw, const std::vector<Field>& fields, const Snapshot& snapshot);
 
   std::size_t footprint() const { return footprint_; }  // estimated bytes of memory
 
  private:
-  void choose(const std::vector<Field>& fields);
+  void choose(const std::vector<Field>& fields, int height);
 
-  const std::unique_ptr<Share::Place> place_;
+  std::unique_ptr<Share::Place> place_;
   std::vector<Field> fields_;
+  int height_ = 0;
   std::vector<Encoder> encoders_;  // one for each field
   std::size_t footprint_ = 1024;
 };

@@ -1,3 +1,4 @@
+#include <array>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -5,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "protocol/line/watching.hpp"
 #include "tests/protocol/line_client.hpp"
 
 using namespace racebeam;
@@ -42,10 +44,11 @@ TEST_CASE("A watcher sees what the player's machine shows") {
   Server server;
   server.share();
   CHECK(server.watcher.ask("watch room") ==
-        "ok game=beamfall frame=0 score=0 episode=1 over=0 lives=4 reward=0 action=NOOP");
+        "ok game=beamfall frame=0 score=0 episode=1 over=0 lives=4 reward=0 action=NOOP height=210");
   const std::string seen = server.seen_after("act FIRE*60", " screen:hex ram palette:zlib");
-  CHECK_THAT(
-      seen, StartsWith("ok game=beamfall frame=60 score=21 episode=1 over=0 lives=4 reward=21 action=FIRE "));
+  CHECK_THAT(seen,
+             StartsWith("ok game=beamfall frame=60 score=21 episode=1 over=0 lives=4 reward=21 action=FIRE "
+                        "height=210 screen="));
   const std::string shown = server.player.ask("look screen:hex ram palette:zlib");
   for (const std::string key : {"screen", "ram", "palette"}) {
     CHECK(value(shown, key) != "(none)");
@@ -118,6 +121,34 @@ TEST_CASE("Delta is relative to the last reply with the same fields") {
   CHECK(value(server.watcher.ask("watch room screen:delta"), "screen").empty());
   CHECK(value(server.watcher.ask("watch room screen:delta ram"), "screen") == whole);
   CHECK(value(server.watcher.ask("watch room screen:delta"), "screen") == whole);
+}
+
+TEST_CASE("Delta goes on where a name is shared anew, as the watcher's array does") {
+  Server server;
+  server.share();
+  server.watcher.ask("watch room screen:delta");
+  server.player.ask("unshare");
+  CHECK(code(server.watcher.ask("watch room screen:delta")) == "bad-value");
+  server.player.ask("share room");
+  CHECK(value(server.watcher.ask("watch room screen:delta"), "screen").empty());
+}
+
+TEST_CASE("Delta begins anew where the screen has another height") {
+  Watched watched;
+  const auto fields = parse_watched_fields(std::array<std::string_view, 1>{"screen:delta"});
+  const auto shown = [&](std::size_t height) {
+    Snapshot snapshot;
+    snapshot.screen.assign(height * kScreenWidth, 2);
+    std::string out, raw;
+    watched.append(out, raw, fields, snapshot);
+    return out;
+  };
+  const std::string whole = shown(210);
+  CHECK(shown(210) == " screen=");
+  const std::string taller = shown(250);
+  CHECK(taller.size() > whole.size());
+  CHECK(shown(210) == whole);
+  CHECK(shown(250) == taller);
 }
 
 TEST_CASE("A copy is made only after a watcher has asked") {

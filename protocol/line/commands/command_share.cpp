@@ -40,21 +40,35 @@ constexpr std::size_t kMostSimilar = 256;  // names that are compared: more woul
                                                did_you_mean(name, names) + " shared lists them");
 }
 
-// Sessions that were watched before, and are no longer shared, lose their places.
+std::unique_ptr<Share::Place> place_of(const std::shared_ptr<Share>& share) {
+  if (auto place = Share::place(share)) return place;
+  throw RequestError(ErrorCode::kLimit, share->name() + " has " + std::to_string(share->most_watchers()) +
+                                            " watchers, as many as it may have");
+}
+
+// Makes room for one more name. Names that are no longer shared are forgotten first.
+void make_room(Watching& watching) {
+  if (watching.size() < kMostWatched) return;
+  std::erase_if(watching, [](const auto& entry) { return entry.second.ended(); });
+  if (watching.size() < kMostWatched) return;
+  throw RequestError(ErrorCode::kLimit,
+                     "a session may watch " + std::to_string(kMostWatched) + " shared sessions");
+}
+
+// A name that is shared anew keeps what its last reply showed, since the watcher keeps it, too.
 Watched& watched(Session& session, std::string_view name) {
-  std::erase_if(session.watching, [](const auto& entry) { return entry.second.ended(); });
-  if (const auto found = session.watching.find(name); found != session.watching.end()) return found->second;
+  for (auto& [known, subject] : session.watching)
+    if (subject.ended()) subject.leave();
+  const auto found = session.watching.find(name);
+  const bool is_known = found != session.watching.end();
+  if (is_known && !found->second.ended()) return found->second;
   const auto share = session.service.shares->find(name);
   if (!share) refuse_unknown(session, name);
-  if (session.watching.size() >= kMostWatched)
-    throw RequestError(ErrorCode::kLimit,
-                       "a session may watch " + std::to_string(kMostWatched) + " shared sessions");
-  auto place = Share::place(share);
-  if (!place) {
-    throw RequestError(ErrorCode::kLimit, share->name() + " has " + std::to_string(share->most_watchers()) +
-                                              " watchers, as many as it may have");
-  }
-  return session.watching.try_emplace(std::string(name), std::move(place)).first->second;
+  if (!is_known) make_room(session.watching);
+  auto place = place_of(share);
+  Watched& subject = is_known ? found->second : session.watching[std::string(name)];
+  subject.enter(std::move(place));
+  return subject;
 }
 
 void append_scores(std::string& out, const Snapshot& snapshot) {
@@ -133,6 +147,7 @@ void run_watch(Session& session, Words arguments) {
   append_pair(out, "lives", snapshot->lives);
   append_pair(out, "reward", snapshot->reward);
   append_pair(out, "action", action_name(snapshot->action));
+  append_pair(out, "height", snapshot->height());
   if (since != snapshot->frame) subject.append(out, session.raw, fields, *snapshot);
 }
 
