@@ -24,9 +24,17 @@ constexpr int kMostTimes = 1'000'000'000;  // Session::check_frames() limits wha
                                                 ' ' + std::string(actions.game) + " takes" + list);
 }
 
+std::string upper_case(std::string_view word) {
+  std::string upper(word);
+  for (char& c : upper)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return upper;
+}
+
 int number_of(std::string_view word, const AllowedActions& actions) {
   const bool digits = !word.empty() && word[0] >= '0' && word[0] <= '9';
-  const auto number = digits ? parse_number<int>(word) : action_number(word);
+  auto number = digits ? parse_number<int>(word) : action_number(word);
+  if (!number && !digits) number = action_number(upper_case(word));
   if (!number || *number < 0 || *number >= kActions) refuse(word, " is no action", actions);
   if ((actions.allowed >> *number & 1) == 0)
     refuse(word, " is not in the action set that was loaded", actions);

@@ -7,11 +7,14 @@
 namespace racebeam {
 namespace {
 
+// "no arguments", "1 argument", "at least 1 argument", "1 to 3 arguments"
 std::string count_text(const Command& command) {
-  if (command.most == command.least) return std::to_string(command.least);
   const std::string least = std::to_string(command.least);
-  if (command.most == kAnyNumber) return "at least " + least;
-  return least + " to " + std::to_string(command.most);
+  const std::string one = command.least == 1 ? " argument" : " arguments";
+  if (command.most == 0) return "no arguments";
+  if (command.most == command.least) return least + one;
+  if (command.most == kAnyNumber) return "at least " + least + one;
+  return least + " to " + std::to_string(command.most) + " arguments";
 }
 
 }  // namespace
@@ -43,7 +46,7 @@ void check(const Command& command, const Session& session, std::size_t arguments
   const std::string name(command.name);
   if (command.needs >= Needs::kAdmission && !session.admitted) refuse_without_token(name);
   if (arguments < command.least || arguments > command.most) {
-    throw RequestError(ErrorCode::kBadArguments, name + " takes " + count_text(command) + " arguments, not " +
+    throw RequestError(ErrorCode::kBadArguments, name + " takes " + count_text(command) + ", not " +
                                                      std::to_string(arguments) + ": " + usage(command));
   }
   if (command.needs >= Needs::kGame && !session.loaded)

@@ -29,6 +29,12 @@ TEST_CASE("Actions are names or numbers") {
   CHECK(parse_action("3", kAll).act.b == 18);
 }
 
+TEST_CASE("Names of actions may have small letters") {
+  CHECK(parse_action("downleftfire", kAll).act.a == 17);
+  CHECK(parse_action("Fire/left@0.5*3", kAll).act.b == 18 + 4);
+  CHECK_THAT(refusal("up", kSome), Contains("'up' is not in the action set"));
+}
+
 TEST_CASE("Player B, strengths and repetition") {
   const Action action = parse_action("RIGHT@0.5/UPFIRE@0.25*30", kAll);
   CHECK(action.act.a == 3);
@@ -44,7 +50,7 @@ TEST_CASE("Player B, strengths and repetition") {
 
 TEST_CASE("An unknown action is refused with the list of actions") {
   for (const std::string word :
-       {"18", "-1", "99999999999", "", "fire", "FIRE ", "1x", "RESET", "40", "/", "1/", "/1", "1/18"}) {
+       {"18", "-1", "99999999999", "", "fier", "reset", "FIRE ", "1x", "RESET", "40", "/", "1/", "/1", "1/18"}) {
     INFO(word);
     CHECK_THAT(refusal(word), Contains("bad-action: ") && Contains("pong takes 0=NOOP 1=FIRE"));
   }

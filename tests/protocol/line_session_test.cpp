@@ -101,9 +101,9 @@ TEST_CASE("Commands say what they need") {
   CHECK(code(client.ask("step NOOP")) == "no-game");
   client.ask(kLoad);
   CHECK(code(client.ask("step NOOP")) == "no-machines");
-  CHECK_THAT(client.ask("act"), Contains("takes at least 1 arguments, not 0: act A["));
+  CHECK_THAT(client.ask("act"), Contains("takes at least 1 argument, not 0: act A["));
   CHECK_THAT(client.ask("peek 1 2 3"), Contains("takes 1 to 2 arguments, not 3"));
-  CHECK_THAT(client.ask("modes now"), Contains("takes 0 arguments, not 1"));
+  CHECK_THAT(client.ask("modes now"), Contains("takes no arguments, not 1"));
 }
 
 TEST_CASE("The examples of help are executed") {
@@ -279,7 +279,7 @@ TEST_CASE("Errors name what is accepted") {
   CHECK_THAT(client.ask("observe none reward"), Contains("none stands alone"));
   CHECK_THAT(client.ask("load updraft as=x"), Contains("games all lists"));
   CHECK_THAT(client.ask("load beamfall rules=x"), Contains("ale-0.12 or fixed"));
-  CHECK(client.ask("modes now") == "error bad-arguments modes takes 0 arguments, not 1: modes");
+  CHECK(client.ask("modes now") == "error bad-arguments modes takes no arguments, not 1: modes");
 }
 
 TEST_CASE("Names of states and recordings cannot lead out of their folder") {
