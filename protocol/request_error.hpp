@@ -1,5 +1,4 @@
-// The errors of the line protocol: `error CODE sentence`. protocol/PROTOCOL.md lists the codes; a test
-// compares.
+// The errors of the line protocol: `error CODE sentence`. protocol/protocol.toml lists the codes.
 #pragma once
 
 #include <span>
@@ -7,33 +6,11 @@
 #include <string>
 #include <string_view>
 
+#include "protocol/description/error_code.hpp"
+
 namespace racebeam {
 
-enum class ErrorCode {
-  kBadLine,
-  kLineTooLong,
-  kHalfLine,
-  kUnknownCommand,
-  kBadArguments,
-  kBadValue,
-  kBadAction,
-  kUnknownGame,
-  kBadImage,
-  kNoGame,
-  kNoMachines,
-  kNoState,
-  kBadState,
-  kRecording,
-  kLimit,
-  kUnauthorized,
-  kBusy,
-  kIdle,
-  kStopping,
-  kInternal,
-};
-
 struct ErrorRow {
-  ErrorCode code;
   std::string_view name;
   std::string_view meaning;
 };

@@ -25,13 +25,9 @@ push() {
 
 # Prints the reply.
 show() {
-  local command=${racebeam_request%% *} machine=0 word key text groups=('') fields
-  local -A encodings=()
-  for key in "${!racebeam_encodings[@]}"; do encodings[$key]=${racebeam_encodings[$key]}; done
-  if [[ $command == look && $racebeam_request == *\ * ]]; then
-    read -ra fields <<<"${racebeam_request#look}"
-    _racebeam_choose encodings "${fields[@]}"
-  fi
+  local command=${racebeam_request%% *} machine=0 source word key text groups=('')
+  local -A encodings
+  racebeam_chosen encodings
   if [[ $command =~ ^(reset|load|observe)$ ]]; then stack=(); fi
   for word in $racebeam_reply; do
     if [[ $word == '|' ]]; then
@@ -41,7 +37,12 @@ show() {
     [[ $word == *=* ]] || continue
     key=${word%%=*} text=${word#*=}
     if [[ -n ${encodings[${key#final_}]-} ]]; then
-      racebeam_bytes "$machine" "$key" "${encodings[${key#final_}]}" "$text" || return
+      source=$machine
+      if [[ $command == watch ]]; then
+        source=${racebeam_request#* }
+        source=@${source%% *}
+      fi
+      racebeam_bytes "$source" "$key" "${encodings[${key#final_}]}" "$text" || return
       if [[ $key == "$stack_field" ]]; then push; key+=x$stack_depth; fi
       text=$((${#racebeam_digits} / 2)):$(racebeam_sum <<<"$racebeam_digits")
     fi

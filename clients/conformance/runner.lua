@@ -25,6 +25,16 @@ local function is_bytes(key)
   return BYTES[field] or field:find("^grey%d") or field:find("^rgb%d")
 end
 
+-- A value as the server sent it, or the digest of bytes.
+local function plain(key, value)
+  if is_bytes(key) then
+    return adler(value)
+  elseif type(value) == "boolean" then
+    return value and "1" or "0"
+  end
+  return tostring(value)
+end
+
 local function shown(command, group)
   if stack then
     if command == "reset" or command == "load" or command == "observe" then
@@ -41,7 +51,7 @@ local function shown(command, group)
   end
   table.sort(keys)
   for at, key in ipairs(keys) do
-    words[at] = (" %s=%s"):format(key, is_bytes(key) and adler(group[key]) or tostring(group[key]))
+    words[at] = (" %s=%s"):format(key, plain(key, group[key]))
   end
   return table.concat(words)
 end

@@ -19,8 +19,15 @@ racebeam_reply='' racebeam_request=''  # of the reply: its line without `ok`, an
 racebeam_sent=()                       # requests without a reply
 racebeam_height=0
 declare -A racebeam_encodings=() racebeam_arrays=()  # of fields; of `MACHINE FIELD`: what deltas have made, as digits
+declare -A racebeam_watched=()         # of `@NAME`: the height of the screen, and the fields
 
+# generated: fields, from protocol/protocol.toml
+# What bytes are written in where the client does not say.
 declare -rA racebeam_usual=([ram]=hex [tia]=hex [screen]=rle [rgb]=zlib [grey]=zlib [palette]=hex [audio]=hex)
+# Bytes of fields that always have the same number, and bytes of a pixel of those that have the size of the screen.
+declare -rA _racebeam_sizes=([ram]=128 [tia]=53 [palette]=768 [audio]=512)
+declare -rA _racebeam_pixels=([screen]=1 [rgb]=3 [grey]=1)
+# end of fields
 
 _racebeam_fail() { racebeam_error=$2; return "$1"; }
 
@@ -97,7 +104,8 @@ _racebeam_try() {
   elif [[ $address == stdio ]]; then
     exec {racebeam_input}<&0 {racebeam_output}>&1
   else
-    _racebeam_fail 4 "the address is '$address'; it takes tcp://HOST:PORT, pipes:PREFIX, stdio or file:PATH"
+    [[ -n $address ]] && source="the address is '$address'" || source='there is no address, and RACEBEAM_ADDRESS is not set'
+    _racebeam_fail 4 "$source; it takes tcp://HOST:PORT, pipes:PREFIX, stdio or file:PATH"
     return
   fi
   line=hello${token:+ token=$token}
@@ -118,7 +126,7 @@ racebeam_close() {
   if [[ -n $racebeam_input ]]; then
     exec {racebeam_input}<&- {racebeam_output}>&-
   fi
-  racebeam_input='' racebeam_output='' racebeam_sent=() racebeam_encodings=() racebeam_arrays=()
+  racebeam_input='' racebeam_output='' racebeam_sent=() racebeam_encodings=() racebeam_arrays=() racebeam_watched=()
 }
 
 # racebeam_send WORD...: sends a request. Send at most a few dozen ahead: a server that cannot send its replies stops reading.
@@ -174,14 +182,45 @@ racebeam_value() {
 
 # Remembers what a request that was granted changes about later replies.
 _racebeam_follow() {
-  local key
+  local seen word
   local -a words
   read -ra words <<<"$racebeam_request"
   case ${words[0]-} in
-    load) racebeam_height=$(racebeam_value height) racebeam_arrays=() ;;
-    observe) if ((${#words[@]} > 1)); then _racebeam_choose racebeam_encodings "${words[@]:1}"; racebeam_arrays=(); fi ;;
-    open) for key in "${!racebeam_arrays[@]}"; do [[ $key == 0\ * ]] || unset "racebeam_arrays[$key]"; done ;;
+    load) racebeam_height=$(racebeam_value height); _racebeam_forget '[0-9]* *' ;;
+    observe) if ((${#words[@]} > 1)); then _racebeam_choose racebeam_encodings "${words[@]:1}"; _racebeam_forget '[0-9]* *'; fi ;;
+    open) _racebeam_forget '[1-9]* *' ;;
+    watch)
+      seen=$(racebeam_value height || echo "$racebeam_height")
+      for word in "${words[@]:2}"; do [[ $word == *=* ]] || seen+=" $word"; done
+      [[ ${racebeam_watched["@${words[1]}"]-} == "$seen" ]] || _racebeam_forget "@${words[1]} *"
+      racebeam_watched["@${words[1]}"]=$seen ;;
   esac
+}
+
+# Forgets the arrays whose keys match a pattern.
+_racebeam_forget() {
+  local key
+  for key in "${!racebeam_arrays[@]}"; do
+    # shellcheck disable=SC2053
+    if [[ $key == $1 ]]; then unset "racebeam_arrays[$key]"; fi
+  done
+}
+
+# racebeam_chosen NAME: puts the encodings of the reply's fields into the associative array NAME: those of the fields that the
+# request names, or else of those that `observe` chose.
+racebeam_chosen() {
+  local -n chosen_here=$1
+  local -a words
+  local field
+  read -ra words <<<"$racebeam_request"
+  chosen_here=()
+  if [[ ${words[0]-} == watch ]]; then
+    _racebeam_choose "$1" "${words[@]:2}"
+  elif [[ ${words[0]-} == look ]] && ((${#words[@]} > 1)); then
+    _racebeam_choose "$1" "${words[@]:1}"
+  else
+    for field in "${!racebeam_encodings[@]}"; do chosen_here[$field]=${racebeam_encodings[$field]}; done
+  fi
 }
 
 # The encodings of fields such as `screen:delta`, into the array that is named.
@@ -201,25 +240,22 @@ _racebeam_choose() {
   done
 }
 
-# Prints the size of a field in bytes.
+# Prints the size of a field in bytes, where screens have as many rows.
 _racebeam_size() {
-  local field=$1
+  local field=$1 height=$2
   if [[ $field =~ ^grey84(x([0-9]+))?$ ]]; then
     echo $((84 * 84 * ${BASH_REMATCH[2]:-1}))
   elif [[ $field =~ ^(grey|rgb)([0-9]+)x([0-9]+)x([0-9]+)$ ]]; then
     echo $((BASH_REMATCH[2] * BASH_REMATCH[3] * BASH_REMATCH[4] * (${#BASH_REMATCH[1]} == 3 ? 3 : 1)))
   else
-    case $field in
-      ram) echo 128 ;; tia) echo 53 ;; palette) echo 768 ;; audio) echo 512 ;;
-      rgb) echo $((racebeam_height * 480)) ;; *) echo $((racebeam_height * 160)) ;;
-    esac
+    echo "${_racebeam_sizes[$field]:-$((height * 160 * _racebeam_pixels[$field]))}"
   fi
 }
 
 # racebeam_bytes MACHINE FIELD ENCODING TEXT: puts the bytes of a field, as hexadecimal digits, into $racebeam_digits. Machine 0 is
-# that of load. Each delta must be given once, in the order of the replies.
+# that of load, and @NAME a session that is watched. Each delta must be given once, in the order of the replies.
 racebeam_bytes() {
-  local key="$1 ${2#final_}" size
+  local key="$1 ${2#final_}" size height=$racebeam_height
   case $3 in
     hex) racebeam_digits=$4; [[ $4 != *[!0-9A-F]* ]] && ((${#4} % 2 == 0)) ;;
     rle) racebeam_digits=$(_racebeam_runs <<<"$4") ;;
@@ -227,7 +263,8 @@ racebeam_bytes() {
     zlib) racebeam_digits=$(_racebeam_inflate "$4") ;;
     delta)
       if [[ -z ${racebeam_arrays[$key]+is} ]]; then
-        size=$(_racebeam_size "${2#final_}")
+        [[ $1 != @* ]] || height=${racebeam_watched[$1]%% *}
+        size=$(_racebeam_size "${2#final_}" "$height")
         printf -v 'racebeam_arrays[$key]' '%0*d' $((2 * size)) 0
       fi
       racebeam_digits=$(_racebeam_change <<<"${racebeam_arrays[$key]} $4") && racebeam_arrays[$key]=$racebeam_digits ;;

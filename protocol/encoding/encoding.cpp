@@ -7,21 +7,21 @@
 #include <cstring>
 #include <new>
 
+#include "protocol/description/tables.hpp"
 #include "protocol/encoding/base64.hpp"
 #include "protocol/encoding/text.hpp"
 
 namespace racebeam {
 namespace {
 
-constexpr std::array kEncodings = {
-    EncodingRow{Encoding::kHex, "hex", "two digits a byte, upper case"},
-    EncodingRow{Encoding::kRunLength, "rle",
-                "runs: value and length, two digits each; the length is 01 to FF; runs continue across rows"},
-    EncodingRow{Encoding::kDelta, "delta", "records of what changed since the last reply with this field"},
-    EncodingRow{Encoding::kBase64, "base64", "RFC 4648, with padding"},
-    EncodingRow{Encoding::kZlib, "zlib", "zlib (RFC 1950), then base64"},
-    EncodingRow{Encoding::kRaw, "raw", "how many bytes; they follow the line of the reply, as they are"},
-};
+consteval EncodingRow row(Encoding encoding, std::string_view name) {
+  return {encoding, name, description::row_named(description::kEncodings, name).summary};
+}
+
+constexpr std::array kEncodings = {row(Encoding::kHex, "hex"),     row(Encoding::kRunLength, "rle"),
+                                   row(Encoding::kDelta, "delta"), row(Encoding::kBase64, "base64"),
+                                   row(Encoding::kZlib, "zlib"),   row(Encoding::kRaw, "raw")};
+static_assert(description::same_names(kEncodings, description::kEncodings));
 
 using Bytes = std::span<const std::uint8_t>;
 

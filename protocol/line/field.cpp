@@ -4,6 +4,7 @@
 #include <array>
 
 #include "emulator/tia/palette.hpp"
+#include "protocol/description/tables.hpp"
 
 namespace racebeam {
 namespace {
@@ -14,73 +15,83 @@ using Scratch = std::vector<std::uint8_t>;
 constexpr std::string_view kGreyStack = "greyWxHxN", kRgbStack = "rgbWxHxN";
 constexpr int kDeepest = 16;
 
-#define NUMBER(name, of_request, expression, summary)                                  \
-  FieldRow {                                                                           \
-    name, summary, of_request,                                                         \
-        []([[maybe_unused]] const Environment& e, [[maybe_unused]] const Outcome& o) { \
-          return std::int64_t{expression};                                             \
-        },                                                                             \
-        nullptr, Encoding::kHex                                                        \
+using Number = std::int64_t (*)(const Environment&, const Outcome&);
+using BytesOf = Bytes (*)(const Environment&, Scratch&);
+
+consteval Encoding encoding_named(std::string_view name) {
+  return static_cast<Encoding>(&description::row_named(description::kEncodings, name) -
+                               description::kEncodings.data());
+}
+
+consteval FieldRow number(std::string_view name, Number of) {
+  const description::Field& row = description::row_named(description::kFields, name);
+  return {name, row.summary, row.of_request, of, nullptr, Encoding::kHex};
+}
+
+// `of` is null for stacks, which a slot makes.
+consteval FieldRow bytes(std::string_view name, BytesOf of, Drawing looks_at = Drawing::kNone) {
+  const description::Field& row = description::row_named(description::kFields, name);
+  return {name, row.summary, row.of_request, nullptr, of, encoding_named(row.encoding), looks_at};
+}
+
+// A short way to write the function of a number: of the machine `e`, or of the outcome `o` of the request's
+// acts.
+#define NUMBER(expression)                     \
+  [](const Environment& e, const Outcome& o) { \
+    (void)e, (void)o;                          \
+    return std::int64_t{expression};           \
   }
 
 constexpr std::array kFields = {
-    NUMBER("reward", true, o.reward,
-           "sum over the acts of the request; each act's reward is clamped as loaded"),
-    NUMBER("reward_b", true, o.reward_b, "the same for player B"),
-    NUMBER("raw_reward", true, o.raw_reward, "the same before clamping"),
-    NUMBER("raw_reward_b", true, o.raw_reward_b, "the same for player B"),
-    NUMBER("terminated", true, o.terminated, "1: the game is over"),
-    NUMBER("truncated", true, o.truncated, "1: the episode was cut short, by frames or by a lost life"),
-    NUMBER("game_over", true, o.game_over, "1: the game itself is over; lost lives and limits do not count"),
-    NUMBER("lives", false, e.lives(), "remaining lives; 0 in games without lives"),
-    NUMBER("frame", false, e.frame_number(), "frames since the game was loaded"),
-    NUMBER("episode_frame", false, e.episode_frame_number(), "frames since the episode began"),
-    NUMBER("acts", true, o.acts, "acts that were played; fewer than requested if the episode ended"),
-    NUMBER("frames", true, o.frames, "frames that the request ran"),
-    FieldRow{"ram", "128 bytes", false, nullptr,
-             [](const Environment& e, Scratch&) -> Bytes { return e.ram(); }, Encoding::kHex},
-    FieldRow{"tia", "53 bytes: the registers of the TIA and its collision latches; names has their names",
-             false, nullptr,
-             [](const Environment& e, Scratch& scratch) -> Bytes {
-               e.tia_values(scratch);
-               return scratch;
-             },
-             Encoding::kHex},
-    FieldRow{"screen", "height x 160 palette indices, row by row", false, nullptr,
-             [](const Environment& e, Scratch&) { return e.screen(); }, Encoding::kRunLength, Drawing::kLast},
-    FieldRow{"rgb", "height x 160 x 3: red, green, blue", false, nullptr,
-             [](const Environment& e, Scratch& scratch) -> Bytes {
-               e.screen_rgb(scratch);
-               return scratch;
-             },
-             Encoding::kZlib, Drawing::kLast},
-    FieldRow{"grey", "height x 160", false, nullptr,
-             [](const Environment& e, Scratch& scratch) -> Bytes {
-               e.screen_grey(scratch);
-               return scratch;
-             },
-             Encoding::kZlib, Drawing::kLast},
-    FieldRow{"grey84",
-             "84 x 84 grey, the brighter of the last two frames; grey84x4: a stack of 4, oldest first", false,
-             nullptr, nullptr, Encoding::kZlib, Drawing::kLastTwo},
-    FieldRow{kGreyStack,
-             "a stack of N screens, W x H, grey, each the brighter of two frames; grey84x4 is short for "
-             "grey84x84x4",
-             false, nullptr, nullptr, Encoding::kZlib, Drawing::kLastTwo},
-    FieldRow{kRgbStack, "the same in colour: red, green and blue of each pixel", false, nullptr, nullptr,
-             Encoding::kZlib, Drawing::kLastTwo},
-    FieldRow{"palette", "256 x 3: red, green, blue of each value of screen", false, nullptr,
-             [](const Environment& e, Scratch& scratch) -> Bytes {
-               scratch.clear();
-               for (const auto [r, g, b] : palette(e.format())) scratch.insert(scratch.end(), {r, g, b});
-               return scratch;
-             },
-             Encoding::kHex},
-    FieldRow{"audio", "512 samples of the last act; needs sound=1", false, nullptr,
-             [](const Environment& e, Scratch&) -> Bytes { return e.audio(); }, Encoding::kHex},
+    number("reward", NUMBER(o.reward)),
+    number("reward_b", NUMBER(o.reward_b)),
+    number("raw_reward", NUMBER(o.raw_reward)),
+    number("raw_reward_b", NUMBER(o.raw_reward_b)),
+    number("terminated", NUMBER(o.terminated)),
+    number("truncated", NUMBER(o.truncated)),
+    number("game_over", NUMBER(o.game_over)),
+    number("lives", NUMBER(e.lives())),
+    number("frame", NUMBER(e.frame_number())),
+    number("episode_frame", NUMBER(e.episode_frame_number())),
+    number("acts", NUMBER(o.acts)),
+    number("frames", NUMBER(o.frames)),
+    bytes("ram", [](const Environment& e, Scratch&) -> Bytes { return e.ram(); }),
+    bytes("tia",
+          [](const Environment& e, Scratch& scratch) -> Bytes {
+            e.tia_values(scratch);
+            return scratch;
+          }),
+    bytes(
+        "screen", [](const Environment& e, Scratch&) { return e.screen(); }, Drawing::kLast),
+    bytes(
+        "rgb",
+        [](const Environment& e, Scratch& scratch) -> Bytes {
+          e.screen_rgb(scratch);
+          return scratch;
+        },
+        Drawing::kLast),
+    bytes(
+        "grey",
+        [](const Environment& e, Scratch& scratch) -> Bytes {
+          e.screen_grey(scratch);
+          return scratch;
+        },
+        Drawing::kLast),
+    bytes("grey84", nullptr, Drawing::kLastTwo),
+    bytes(kGreyStack, nullptr, Drawing::kLastTwo),
+    bytes(kRgbStack, nullptr, Drawing::kLastTwo),
+    bytes("palette",
+          [](const Environment& e, Scratch& scratch) -> Bytes {
+            scratch.clear();
+            for (const auto [r, g, b] : palette(e.format())) scratch.insert(scratch.end(), {r, g, b});
+            return scratch;
+          }),
+    bytes("audio", [](const Environment& e, Scratch&) -> Bytes { return e.audio(); }),
 };
 
 #undef NUMBER
+
+static_assert(description::same_names(kFields, description::kFields));
 
 int size_within(std::string_view text, std::string_view what, int least, int most) {
   return static_cast<int>(number_within(text, what, least, most));

@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "protocol/description/tables.hpp"
+
 namespace racebeam {
 namespace {
 
@@ -39,13 +41,12 @@ void set_system_seed(PlaySettings& settings, std::string_view value) {
 }
 
 void set_frame_skip(PlaySettings& settings, std::string_view value) {
-  std::string_view least = value;
-  const std::string_view most = cut_behind(least, '-');
-  settings.machine.frame_skip = whole(least, "frame_skip", 1, kMostFrameSkip);
-  settings.machine.frame_skip_max =
-      least.size() == value.size()
-          ? 0
-          : whole(most, "the end of frame_skip", settings.machine.frame_skip, kMostFrameSkip);
+  const std::size_t dash = value.find('-', 1);  // one at the beginning is a sign
+  settings.machine.frame_skip = whole(value.substr(0, dash), "frame_skip", 1, kMostFrameSkip);
+  settings.machine.frame_skip_max = dash == value.npos
+                                        ? 0
+                                        : whole(value.substr(dash + 1), "the end of frame_skip",
+                                                settings.machine.frame_skip, kMostFrameSkip);
 }
 
 void set_sticky(PlaySettings& settings, std::string_view value) {
@@ -97,82 +98,69 @@ void append_reward_limit(std::string& out, int limit, int none) {
     append_number(out, expression);                                                    \
   }
 
+using Set = void (*)(PlaySettings& settings, std::string_view value);
+using Append = void (*)(std::string& out, const PlaySettings& settings, const Environment& machine);
+
+consteval SettingRow setting(std::string_view name, Set set, Append append) {
+  const description::Setting& row = description::row_named(description::kSettings, name);
+  return {name, row.accepted, row.summary, set, append};
+}
+
 constexpr std::array kSettings = {
-    SettingRow{"preset", "none or a preset's name",
-               "a set of settings from the literature; other keys override it", set_preset,
-               [](std::string& out, const PlaySettings& s, const Environment&) { out += s.preset; }},
-    SettingRow{"seed", "0 to 4294967295",
-               "seed of everything that is random in play; 0: the server chooses one", set_seed,
-               ECHO(std::int64_t{e.settings().random_seed})},
-    SettingRow{"system_seed", "0 to 4294967295", "seed of the memory's contents at power-on", set_system_seed,
-               ECHO(std::int64_t{s.machine.system_seed})},
-    SettingRow{"frame_skip", "1 to 1000, or a range such as 2-4",
-               "frames of an act; with a range, each act draws its number from it", set_frame_skip,
-               append_frame_skip},
-    SettingRow{"sticky", "0 to 1", "probability that a frame repeats the previous action", set_sticky,
-               [](std::string& out, const PlaySettings& s, const Environment&) {
-                 std::array<char, 32> digits;
-                 out.append(
-                     digits.data(),
-                     std::to_chars(digits.data(), digits.data() + digits.size(), s.machine.sticky).ptr);
-               }},
-    SettingRow{"mode", "see `modes`", "variation of the game",
-               READ(s.mode = whole(value, "mode", 0, kMostFrames)), ECHO(std::int64_t{e.mode()})},
-    SettingRow{"difficulty", "see `difficulties`", "difficulty switches",
-               READ(s.difficulty = whole(value, "difficulty", 0, kMostFrames)),
-               ECHO(std::int64_t{e.difficulty()})},
-    SettingRow{"max_episode_frames", "0 to 2147483647",
-               "frames after which an episode is truncated; 0: never",
-               READ(s.machine.max_episode_frames = whole(value, "max_episode_frames", 0, kMostFrames)),
-               ECHO(std::int64_t{s.machine.max_episode_frames})},
-    SettingRow{"life_loss_ends", "0 or 1", "a lost life truncates the episode",
-               READ(s.machine.truncate_on_life_loss = flag(value, "life_loss_ends")),
-               ECHO(std::int64_t{s.machine.truncate_on_life_loss})},
-    SettingRow{"noop_max", "0 to 1000",
-               "an episode begins with 0 to noop_max - 1 frames of NOOP, drawn by seed",
-               READ(s.noop_max = whole(value, "noop_max", 0, kMostNoops)), ECHO(std::int64_t{s.noop_max})},
-    SettingRow{"autoreset", "0 or 1", "an act after the end of an episode does what `reset` does",
-               READ(s.autoreset = flag(value, "autoreset")), ECHO(std::int64_t{s.autoreset})},
-    SettingRow{
-        "action_set", "full, legal or minimal", "the actions that `act` accepts", set_action_set,
-        [](std::string& out, const PlaySettings& s, const Environment&) { out += name_of(s.action_set); }},
-    SettingRow{"reward_min", "none or a whole number", "an act's reward is clamped to at least this",
-               READ(s.machine.reward_min = reward_limit(value, "reward_min", kLeastReward)),
-               [](std::string& out, const PlaySettings& s, const Environment&) {
-                 append_reward_limit(out, s.machine.reward_min, kLeastReward);
-               }},
-    SettingRow{"reward_max", "none or a whole number", "an act's reward is clamped to at most this",
-               READ(s.machine.reward_max = reward_limit(value, "reward_max", kMostReward)),
-               [](std::string& out, const PlaySettings& s, const Environment&) {
-                 append_reward_limit(out, s.machine.reward_max, kMostReward);
-               }},
-    SettingRow{"rules", "ale-0.12 or fixed",
-               "rules of score and end: those of the reference, or corrected ones", set_rules,
-               [](std::string& out, const PlaySettings& s, const Environment&) {
-                 out += kRules[static_cast<std::size_t>(s.machine.rules)];
-               }},
-    SettingRow{"color_averaging", "0 or 1", "blend each screen with the one before it",
-               READ(s.machine.color_averaging = flag(value, "color_averaging")),
-               ECHO(std::int64_t{s.machine.color_averaging})},
-    SettingRow{"sound", "0 or 1", "generate the samples of the field audio",
-               READ(s.machine.sound = flag(value, "sound")), ECHO(std::int64_t{s.machine.sound})},
+    setting("preset", set_preset,
+            [](std::string& out, const PlaySettings& s, const Environment&) { out += s.preset; }),
+    setting("seed", set_seed, ECHO(std::int64_t{e.settings().random_seed})),
+    setting("system_seed", set_system_seed, ECHO(std::int64_t{s.machine.system_seed})),
+    setting("frame_skip", set_frame_skip, append_frame_skip),
+    setting("sticky", set_sticky,
+            [](std::string& out, const PlaySettings& s, const Environment&) {
+              std::array<char, 32> digits;
+              out.append(digits.data(),
+                         std::to_chars(digits.data(), digits.data() + digits.size(), s.machine.sticky).ptr);
+            }),
+    setting("mode", READ(s.mode = whole(value, "mode", 0, kMostFrames)), ECHO(std::int64_t{e.mode()})),
+    setting("difficulty", READ(s.difficulty = whole(value, "difficulty", 0, kMostFrames)),
+            ECHO(std::int64_t{e.difficulty()})),
+    setting("max_episode_frames",
+            READ(s.machine.max_episode_frames = whole(value, "max_episode_frames", 0, kMostFrames)),
+            ECHO(std::int64_t{s.machine.max_episode_frames})),
+    setting("life_loss_ends", READ(s.machine.truncate_on_life_loss = flag(value, "life_loss_ends")),
+            ECHO(std::int64_t{s.machine.truncate_on_life_loss})),
+    setting("noop_max", READ(s.noop_max = whole(value, "noop_max", 0, kMostNoops)),
+            ECHO(std::int64_t{s.noop_max})),
+    setting("autoreset", READ(s.autoreset = flag(value, "autoreset")), ECHO(std::int64_t{s.autoreset})),
+    setting(
+        "action_set", set_action_set,
+        [](std::string& out, const PlaySettings& s, const Environment&) { out += name_of(s.action_set); }),
+    setting("reward_min", READ(s.machine.reward_min = reward_limit(value, "reward_min", kLeastReward)),
+            [](std::string& out, const PlaySettings& s, const Environment&) {
+              append_reward_limit(out, s.machine.reward_min, kLeastReward);
+            }),
+    setting("reward_max", READ(s.machine.reward_max = reward_limit(value, "reward_max", kMostReward)),
+            [](std::string& out, const PlaySettings& s, const Environment&) {
+              append_reward_limit(out, s.machine.reward_max, kMostReward);
+            }),
+    setting("rules", set_rules,
+            [](std::string& out, const PlaySettings& s, const Environment&) {
+              out += kRules[static_cast<std::size_t>(s.machine.rules)];
+            }),
+    setting("color_averaging", READ(s.machine.color_averaging = flag(value, "color_averaging")),
+            ECHO(std::int64_t{s.machine.color_averaging})),
+    setting("sound", READ(s.machine.sound = flag(value, "sound")), ECHO(std::int64_t{s.machine.sound})),
 };
 
 #undef READ
 #undef ECHO
 
-constexpr std::array kPresets = {
-    PresetRow{"paper2013", "frame_skip=5 sticky=0 action_set=full max_episode_frames=18000",
-              "Bellemare et al. 2013"},
-    PresetRow{"dqn2015",
-              "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=18000 life_loss_ends=1 "
-              "noop_max=30 reward_min=-1 reward_max=1",
-              "Mnih et al. 2015, as in training; evaluate with life_loss_ends=0 and unclamped rewards"},
-    PresetRow{"machado2018", "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000",
-              "Machado et al. 2018"},
-    PresetRow{"gym-v5", "frame_skip=4 sticky=0.25 action_set=minimal max_episode_frames=108000",
-              "Gymnasium's ALE/...-v5"},
-};
+static_assert(description::same_names(kSettings, description::kSettings));
+
+constexpr auto kPresets = [] {
+  std::array<PresetRow, description::kPresets.size()> rows;
+  std::ranges::transform(description::kPresets, rows.begin(), [](const description::Preset& row) {
+    return PresetRow{row.name, row.words, row.source};
+  });
+  return rows;
+}();
 
 const SettingRow& setting_row(std::string_view name, Words other_keys) {
   const auto found = std::ranges::find(kSettings, name, &SettingRow::name);

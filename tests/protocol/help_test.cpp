@@ -108,6 +108,14 @@ TEST_CASE("help explains each name of each table, on one line") {
   }
 }
 
+TEST_CASE("help explains each value of a key that has a list of them") {
+  LineClient client;
+  CHECK_THAT(client.ask("help start"), Contains("; start=noops-fire: as in EnvPool: the no-ops, then FIRE") &&
+                                           Contains("; start=noops: only the no-ops"));
+  CHECK_THAT(client.ask("help told"), Contains("; lives=told: the step that loses a life is terminated") &&
+                                          !Contains("lives=end:"));
+}
+
 TEST_CASE("help says what it has help on") {
   LineClient client;
   const std::string reply = client.ask("help");
@@ -156,7 +164,7 @@ TEST_CASE("Similar names are suggested, for every kind of name") {
       {"observe rewrd", "; did you mean reward"},
       {"observe screen:zip", "; did you mean zlib? There are hex"},
       {"act RIHGT", "; did you mean RIGHT? beamfall takes 0=NOOP"},
-      {"act fire", "; did you mean FIRE?"},
+      {"act fier", "; did you mean FIRE?"},
       {"act NOOP/lefft", "; did you mean LEFT"},
       {"branch start UP,DWON", "; did you mean DOWN"},
       {"step FIER", "; did you mean FIRE?"},

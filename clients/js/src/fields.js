@@ -1,8 +1,7 @@
 import { applyDelta, base64, hex, rle, zlib } from "./decode.js";
+import { PIXELS, SIZES, USUAL } from "./field_table.js";
 
 const DECODERS = { hex, rle, base64, zlib };
-const USUAL = { ram: "hex", tia: "hex", screen: "rle", rgb: "zlib", grey: "zlib", palette: "hex", audio: "hex" };
-const SIZES = { ram: 128, tia: 53, palette: 768, audio: 512 };
 const WIDTH = 160;
 const NUMBER = /^-?(0|[1-9]\d{0,14})(\.\d+)?$/;
 
@@ -30,7 +29,7 @@ function encodings(fields) {
 
 /** The bytes of a field of screens of this height. */
 function sizeOf(field, height) {
-  return sizeOfSmall(field) ?? SIZES[field] ?? height * WIDTH * (field === "rgb" ? 3 : 1);
+  return sizeOfSmall(field) ?? SIZES[field] ?? height * WIDTH * PIXELS[field];
 }
 
 /** What a delta makes of the array that the last ones have made. */

@@ -5,7 +5,7 @@ export const PROTOCOL: 1;
 export type Group = Record<string, any>;
 
 /** Such as { seed: 7, frame_skip: 4, preset: "dqn2015" }. */
-export type Settings = Record<string, string | number>;
+export type Settings = Record<string, string | number | boolean>;
 
 /** An action's name or number, with the marks of the protocol: "FIRE", 3, "UP*10", "5/LEFT@0.5". */
 export type Action = string | number;
@@ -64,53 +64,125 @@ export class Session {
   /** Any request: words, and objects that stand for settings. Returns the groups of the reply. */
   request(...parts: (Action | Settings | Action[])[]): Promise<Group[]>;
 
-  hello(token?: string): Promise<Group>;
   help(...topic: string[]): Promise<string>;
-  games(...which: string[]): Promise<string[]>;
+  /** What the server knows about one game. */
   game(name: string): Promise<Group>;
-  /** image: the bytes of a cartridge, if the game is "inline". */
+  /** Power on with an image and begin an episode. image: the bytes of a cartridge, if the game is "inline". */
   load(game: string, settings?: Settings & { image?: Uint8Array } | Record<string, any>): Promise<Group>;
-  settings(): Promise<Group>;
-  set(settings: { mode?: number; difficulty?: number }): Promise<Group>;
-  modes(): Promise<number[]>;
-  difficulties(): Promise<number[]>;
   /** Names by number. */
   actions(): Promise<Map<number, string>>;
   /** Names for bytes of the fields ram, by their indices, and tia, in their order. */
   names(): Promise<{ ram: Map<number, string>; tia: string[] }>;
-  observe(...fields: string[]): Promise<string[]>;
-  look(...fields: string[]): Promise<Group>;
   /** The colour of each value of a pixel, 0xAABBGGRR: what a Uint32Array over the bytes of an ImageData takes. */
   palette(): Promise<Uint32Array>;
-  act(...actions: Action[]): Promise<Group>;
-  reset(seed?: number): Promise<Group>;
   peek(index: number, count?: number): Promise<Uint8Array>;
   poke(index: number, bytes: Uint8Array | number[]): Promise<void>;
-  save(name: string, settings?: { random?: 0 | 1 }): Promise<void>;
-  restore(name: string): Promise<Group>;
-  drop(...names: string[]): Promise<void>;
-  states(): Promise<string[]>;
-  exportState(name: string): Promise<Uint8Array>;
+  /** whole: 1 for the score, the progress of the episode and the stack of screens, too. */
+  exportState(name: string, settings?: { whole?: 0 | 1 | boolean }): Promise<Uint8Array>;
   importState(name: string, bytes: Uint8Array): Promise<void>;
   /** Each list is played from the state. */
   branch(name: string, lists: Action[][], settings?: { keep?: string }): Promise<Branch[]>;
-  open(count: number, settings?: Settings): Promise<Group[]>;
-  step(...actions: Action[]): Promise<Group[]>;
-  /** A mask such as "0110", settings such as { seed: 9 }, or both. */
-  restart(...maskAndSettings: (string | Settings)[]): Promise<Group[]>;
-  /** Gives the machines of open() back: the command close. */
-  closeMachines(): Promise<void>;
-  record(kinds: string, name: string, settings?: { machine?: number }): Promise<Group>;
   stopRecording(): Promise<Group>;
-  /** Lets other sessions watch this one under a name. */
-  share(name: string, settings?: { watchers?: number }): Promise<Group>;
+
+  // generated: commands, from protocol/protocol.toml
+  /**
+   * The server's name, version and limits.
+   * token: that the server requires
+   */
+  hello(token?: string | { token?: string }): Promise<Group>;
+  /** List the games whose image is here, or all known games; or describe one. */
+  games(which?: string): Promise<string[]>;
+  /** The settings in effect. */
+  settings(): Promise<Group>;
+  /**
+   * Change the mode, from the next reset on, or the difficulty, at once.
+   * mode: see modes
+   * difficulty: see difficulties
+   */
+  set(settings?: { mode?: number; difficulty?: number; }): Promise<Group>;
+  /** The game's modes. */
+  modes(): Promise<number[]>;
+  /** The game's difficulties. */
+  difficulties(): Promise<number[]>;
+  /**
+   * Select the fields of replies.
+   * fields: without them, asks for the selection
+   */
+  observe(...fields: string[]): Promise<string[]>;
+  /** Show these fields once; without fields, the selected ones. */
+  look(...fields: string[]): Promise<Group>;
+  /** Play actions until the episode ends. */
+  act(...actions: Action[]): Promise<Group>;
+  /**
+   * Begin an episode; with a seed, power on anew with it.
+   * seed: powers on anew with it
+   */
+  reset(seed?: number | { seed?: number }): Promise<Group>;
+  /**
+   * Save the state; random=1: with the random generator.
+   * random: 1: with the random generator
+   * machine: one of those of open, 0 the first
+   */
+  save(name: string, settings?: { random?: 0 | 1 | boolean; machine?: number; }): Promise<void>;
+  /**
+   * Restore a saved state.
+   * machine: one of those of open, 0 the first
+   */
+  restore(name: string, machine?: number | { machine?: number }): Promise<Group>;
+  /** Delete states. */
+  drop(...names: string[]): Promise<void>;
+  /** The names of the states. */
+  states(): Promise<string[]>;
+  /**
+   * Create N machines with the loaded game and settings; their seeds count up.
+   * autoreset: what happens at the end of an episode
+   * steps: what a step is
+   * start: how an episode begins; with steps=frames
+   * lives: what a lost life does; with steps=frames
+   * stack: what a stack of screens begins with; with steps=frames
+   * pool: which frames a stack shows; with steps=frames
+   */
+  open(count: number, settings?: {
+    autoreset?: "next-step" | "same-step" | "disabled";
+    steps?: "acts" | "frames";
+    start?: "fire-noops" | "noops-fire" | "baselines" | "noops";
+    lives?: "ignored" | "told" | "end" | "restart";
+    stack?: "zeros" | "repeats";
+    pool?: 0 | 1 | boolean;
+  }): Promise<Group[]>;
+  /** Play one act on each machine: an action each, or one for all. */
+  step(...actions: Action[]): Promise<Group[]>;
+  /**
+   * Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
+   * seed: powers on anew: machine 0 with N, machine 1 with N + 1, and so on
+   */
+  restart(mask?: string | Settings, seed?: number | { seed?: number }): Promise<Group[]>;
+  /** Close the machines. */
+  closeMachines(): Promise<void>;
+  /**
+   * Record frames, sound or both into the server's folder.
+   * machine: one of those of open, 0 the first
+   */
+  record(kinds: string, name: string, machine?: number | { machine?: number }): Promise<Group>;
+  /**
+   * Let other sessions watch the game under this name.
+   * watchers: how many may watch at the same time
+   */
+  share(name: string, watchers?: number | { watchers?: number }): Promise<Group>;
+  /** End what share has begun. */
   unshare(): Promise<void>;
-  /** The sessions that can be watched. */
+  /** List the shared sessions. */
   shared(): Promise<Group[]>;
-  /** A shared session as it was lately, with fields such as "screen:rle"; since: the frame of the last reply. */
-  watch(name: string, settings?: { since?: number }, ...fields: string[]): Promise<Group>;
+  /**
+   * Show a shared session as it was lately.
+   * since: the frame of the last reply; the fields come only if there is a newer one
+   */
+  watch(name: string, settings?: { since?: number; }, ...fields: string[]): Promise<Group>;
+  /** Counters of this session. */
   stats(): Promise<Group>;
+  /** End the session. */
   quit(): Promise<void>;
+  // end of commands
 }
 
 /** The last screens, oldest first, zeros where there was none. For observe("grey84:delta"). */

@@ -1,20 +1,10 @@
 import { toBase64 } from "#platform";
+import { Commands } from "./commands.js";
 import { base64, hex, rewards } from "./decode.js";
 import { LostError, printable, RefusedError } from "./errors.js";
 import { Fields } from "./fields.js";
 import { Lines } from "./lines.js";
-
-function words(...parts) {
-  return parts.flat().map((part) => (typeof part === "object" ? pairs(part) : String(part))).filter(Boolean).join(" ");
-}
-
-function pairs(settings) {
-  return Object.entries(settings).map(([key, value]) => `${key}=${value}`).join(" ");
-}
-
-function list(value) {
-  return value === "" ? [] : String(value).split(",");
-}
+import { list, words } from "./words.js";
 
 function toHex(bytes) {
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("").toUpperCase();
@@ -39,11 +29,12 @@ function text(line, key) {
 }
 
 /** One session, with a method for each command. */
-export class Session {
+export class Session extends Commands {
   #lines;
   #fields = new Fields();
 
   constructor(connection, { timeout, longestReply = 2 ** 28 } = {}) {
+    super();
     this.#lines = new Lines(connection, { timeout, longestReply });
   }
 
@@ -91,10 +82,6 @@ export class Session {
     return (await this.request(...parts))[0];
   }
 
-  async #rest(...parts) {
-    return (await this.request(...parts)).slice(1);
-  }
-
   async #text(key, ...parts) {
     return text((await this.#ask(words(...parts))).line, key);
   }
@@ -103,18 +90,10 @@ export class Session {
     return list(await this.#text(key, ...parts));
   }
 
-  // Commands
-
-  hello(token) {
-    return this.#first("hello", token ? { token } : []);
-  }
+  // Commands that need more than their words
 
   async help(...topic) {
     return (await this.#ask(words("help", ...topic))).line.slice(3);
-  }
-
-  games(...which) {
-    return this.#list("games", "games", ...which);
   }
 
   game(name) {
@@ -123,22 +102,6 @@ export class Session {
 
   load(game, { image, ...settings } = {}) {
     return this.#first("load", game, image ? { image: toBase64(image) } : [], settings);
-  }
-
-  settings() {
-    return this.#first("settings");
-  }
-
-  set(settings) {
-    return this.#first("set", settings);
-  }
-
-  async modes() {
-    return (await this.#list("modes", "modes")).map(Number);
-  }
-
-  async difficulties() {
-    return (await this.#list("difficulties", "difficulties")).map(Number);
   }
 
   async actions() {
@@ -152,26 +115,10 @@ export class Session {
     return { ram: new Map(named.map(([index, name]) => [Number(index), name])), tia: list(tia) };
   }
 
-  observe(...fields) {
-    return this.#list("fields", "observe", ...fields);
-  }
-
-  look(...fields) {
-    return this.#first("look", ...fields);
-  }
-
   async palette() {
     const { palette } = await this.look("palette");
     return new Uint32Array(256).map((_, value) => (0xff000000 | (palette[3 * value + 2] << 16) | (palette[3 * value + 1] << 8)
       | palette[3 * value]) >>> 0);
-  }
-
-  act(...actions) {
-    return this.#first("act", ...actions);
-  }
-
-  reset(seed) {
-    return this.#first("reset", seed === undefined ? [] : { seed });
   }
 
   async peek(index, count = 1) {
@@ -182,24 +129,8 @@ export class Session {
     await this.request("poke", index, toHex(bytes));
   }
 
-  async save(name, settings = {}) {
-    await this.request("save", name, settings);
-  }
-
-  restore(name) {
-    return this.#first("restore", name);
-  }
-
-  async drop(...names) {
-    await this.request("drop", ...names);
-  }
-
-  states() {
-    return this.#list("states", "states");
-  }
-
-  async exportState(name) {
-    return base64(await this.#text("data", "export", name));
+  async exportState(name, settings = {}) {
+    return base64(await this.#text("data", "export", name, settings));
   }
 
   async importState(name, bytes) {
@@ -207,7 +138,7 @@ export class Session {
   }
 
   async branch(name, lists, settings = {}) {
-    const branches = await this.#rest("branch", name, settings, lists.map((actions) => actions.join(",")));
+    const branches = (await this.request("branch", name, settings, lists.map((actions) => actions.join(",")))).slice(1);
     for (const branch of branches) {
       branch.rewards = rewards(branch.rewards);
       if ("rewards_b" in branch) {
@@ -217,51 +148,7 @@ export class Session {
     return branches;
   }
 
-  open(count, settings = {}) {
-    return this.#rest("open", count, settings);
-  }
-
-  step(...actions) {
-    return this.#rest("step", ...actions);
-  }
-
-  restart(...maskAndSettings) {
-    return this.#rest("restart", ...maskAndSettings);
-  }
-
-  async closeMachines() {
-    await this.request("close");
-  }
-
-  record(kinds, name, settings = {}) {
-    return this.#first("record", kinds, name, settings);
-  }
-
   stopRecording() {
     return this.#first("record", "stop");
-  }
-
-  share(name, settings = {}) {
-    return this.#first("share", name, settings);
-  }
-
-  async unshare() {
-    await this.request("unshare");
-  }
-
-  shared() {
-    return this.#rest("shared");
-  }
-
-  watch(name, settings = {}, ...fields) {
-    return this.#first("watch", name, settings, ...fields);
-  }
-
-  stats() {
-    return this.#first("stats");
-  }
-
-  async quit() {
-    await this.request("quit");
   }
 }

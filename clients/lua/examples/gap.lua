@@ -48,6 +48,6 @@ repeat
   local here = not distance or math.abs(distance) < 0.6
   shown = game:act(here and "FIRE" or distance > 0 and "RIGHTFIRE" or "LEFTFIRE")
   score, acts = score + shown.reward, acts + 1
-until shown.terminated == 1 or shown.truncated == 1
+until shown.terminated or shown.truncated
 print(("score %d in %d acts"):format(score, acts))
 game:close_connection()

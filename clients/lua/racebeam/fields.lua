@@ -2,8 +2,8 @@
 
 local decode = require("racebeam.decode")
 
-local USUAL = { ram = "hex", tia = "hex", screen = "rle", rgb = "zlib", grey = "zlib", palette = "hex", audio = "hex" }
-local SIZES = { ram = 128, tia = 53, palette = 768, audio = 512 }
+local known = require("racebeam.field_table")
+
 local WIDTH = 160
 
 -- Width, height, depth and bytes a pixel of fields such as grey84x4 and rgb40x30x2; nil for others.
@@ -18,21 +18,24 @@ local function small(field)
   end
 end
 
-local function encodings(words)
+-- Those of the fields among the words from `first` on.
+local function encodings(words, first)
   local found = {}
-  for at = 2, #words do
+  for at = first, #words do
     local name, encoding = words[at]:match("^([^:]*):?(.*)$")
     if encoding == "" then
-      encoding = USUAL[name] or small(name) and "zlib"
+      encoding = known.usual[name] or small(name) and "zlib"
     end
-    found[name] = encoding or nil
+    found[name] = not words[at]:find("=", 1, true) and encoding or nil
   end
   return found
 end
 
--- The number that a text is, or the text. An MD5 is none, nor are bytes such as 0046.
-local function value(text)
-  if #text <= 15 and (text:find("^%-?[1-9]%d*$") or text:find("^%-?[1-9]%d*%.%d+$") or text:find("^%-?0%.%d+$") or text == "0") then
+-- The boolean or the number that a text is, or the text. An MD5 is not a number, nor are bytes such as 0046.
+local function value(field, text)
+  if known.flags[field] then
+    return text == "1"
+  elseif #text <= 15 and (text:find("^%-?[1-9]%d*$") or text:find("^%-?[1-9]%d*%.%d+$") or text:find("^%-?0%.%d+$") or text == "0") then
     return tonumber(text)
   end
   return text
@@ -41,8 +44,9 @@ end
 local Fields = {}
 Fields.__index = Fields
 
-function Fields:size(field)
-  return small(field) or SIZES[field] or self.height * WIDTH * (field == "rgb" and 3 or 1)
+-- The bytes of a field of screens of this height.
+local function size_of(field, height)
+  return small(field) or known.sizes[field] or height * WIDTH * known.pixels[field]
 end
 
 local has_ffi, ffi = pcall(require, "ffi")
@@ -58,11 +62,10 @@ local function zeros(size)
   return array
 end
 
--- Bytes line[from..to] of a delta field: what they change is `live`, an array, or a string.
-function Fields:changed(machine, field, line, from, to)
-  local kept = self.kept[machine] or {}
-  self.kept[machine] = kept
-  local size = self:size(field)
+-- Bytes line[from..to] of a delta field. What they change is in `source`, and is an array (`live`), or a string.
+function Fields:changed(source, field, line, from, to)
+  local kept = source.kept
+  local size = size_of(field, source.height)
   if self.live then
     kept[field] = kept[field] or zeros(size)
     decode.apply_delta(kept[field], size, line, from, to)
@@ -76,12 +79,40 @@ end
 function Fields:follow(words, line)
   local command = words[1]
   if command == "observe" and words[2] then
-    self.encodings, self.kept = encodings(words), {}
+    self.encodings, self.machines = encodings(words, 2), {}
   elseif command == "load" then
-    self.height, self.kept = tonumber(line:match(" height=(%d+)")), {}
+    self.height, self.machines = tonumber(line:match(" height=(%d+)")), {}
   elseif command == "open" then
-    self.kept = { [0] = self.kept[0] }
+    self.machines = { [0] = self.machines[0] }
   end
+end
+
+-- What deltas have made of the fields of a machine, and the height of its screen.
+function Fields:machine(number)
+  self.machines[number] = self.machines[number] or { kept = {}, height = self.height }
+  return self.machines[number]
+end
+
+-- The same of a watched session. It begins anew with other fields, and with another height.
+function Fields:watch(words, line)
+  local fields, height = {}, tonumber(line:match(" height=(%d+)")) or self.height
+  for at = 3, #words do
+    fields[#fields + 1] = not words[at]:find("=", 1, true) and words[at] or nil
+  end
+  fields = table.concat(fields, " ")
+  local before = self.watched[words[2]]
+  if not before or before.fields ~= fields or before.height ~= height then
+    self.watched[words[2]] = { kept = {}, fields = fields, height = height }
+  end
+  return self.watched[words[2]]
+end
+
+-- The encodings of the fields that a request names, or else of those that `observe` chose.
+function Fields:chosen_by(words)
+  if words[1] == "watch" then
+    return encodings(words, 3)
+  end
+  return words[1] == "look" and words[2] and encodings(words, 2) or self.encodings
 end
 
 -- The next `count` bytes of those that followed the line.
@@ -98,7 +129,9 @@ end
 function Fields:groups(words, line, raw)
   self:follow(words, line)
   self.raw, self.taken = raw, 0
-  local chosen = words[1] == "look" and words[2] and encodings(words) or self.encodings
+  local chosen = self:chosen_by(words)
+  local watched = words[1] == "watch" and self:watch(words, line)
+  local source = watched or self:machine(0)
   local groups, at = { {} }, 3
   while true do
     local from, to = line:find("[^ ]+", at)
@@ -111,14 +144,19 @@ function Fields:groups(words, line, raw)
       local field = key:gsub("^final_", "")
       local encoding = chosen[field]
       if encoding == "delta" then
-        groups[#groups][key] = self:changed(#groups - 1, field, line, equals + 1, to)
+        groups[#groups][key] = self:changed(source, field, line, equals + 1, to)
       elseif encoding == "raw" then
         groups[#groups][key] = self:followed(tonumber(line:sub(equals + 1, to)))
       elseif key ~= "raw" then
         local text = line:sub(equals + 1, to)
-        groups[#groups][key] = encoding and decode[encoding](text) or not encoding and value(text)
+        if encoding then
+          groups[#groups][key] = decode[encoding](text)
+        else
+          groups[#groups][key] = value(field, text)
+        end
       end
     elseif to == from and line:sub(from, to) == "|" then
+      source = watched or self:machine(#groups)
       groups[#groups + 1] = {}
     end
     at = to + 2
@@ -131,5 +169,5 @@ function Fields:groups(words, line, raw)
 end
 
 return function(live)
-  return setmetatable({ encodings = {}, kept = {}, height = 0, live = live }, Fields)
+  return setmetatable({ encodings = {}, machines = {}, watched = {}, height = 0, live = live }, Fields)
 end

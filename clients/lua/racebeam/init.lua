@@ -4,10 +4,10 @@
 --   local game = racebeam.connect("tcp://127.0.0.1:7800")
 --   game:load("beamfall", { seed = 7, frame_skip = 4 })
 --   game:observe("reward", "ends", "screen:delta")
---   local shown = game:act("FIRE")      -- { reward = 0, terminated = 0, truncated = 0, screen = "..." }
+--   local shown = game:act("FIRE")      -- { reward = 0, terminated = false, truncated = false, screen = "..." }
 --   game:close_connection()
 --
--- Numbers come as numbers, and bytes as strings. racebeam/fault.lua says what is raised. README.md is the page of this client.
+-- Numbers come as numbers, bytes as strings, and terminated, truncated, game_over and over as booleans. racebeam/fault.lua says what is raised. README.md is the page of this client.
 
 local decode = require("racebeam.decode")
 local fault = require("racebeam.fault")
@@ -75,18 +75,26 @@ end
 
 -- Requests and replies
 
+-- A word of a request: true is 1, and false is 0.
+local function text_of(value)
+  if type(value) == "boolean" then
+    return value and "1" or "0"
+  end
+  return tostring(value)
+end
+
 local function line_of(...)
   local words = { ... }
   for at, word in ipairs(words) do
     if type(word) == "table" then -- settings
       local pairs_ = {}
       for key, setting in pairs(word) do
-        pairs_[#pairs_ + 1] = ("%s=%s"):format(key, tostring(setting))
+        pairs_[#pairs_ + 1] = ("%s=%s"):format(key, text_of(setting))
       end
       table.sort(pairs_)
       words[at] = table.concat(pairs_, " ")
     else
-      words[at] = tostring(word)
+      words[at] = text_of(word)
     end
   end
   return (table.concat(words, " "):gsub(" +$", ""))
@@ -190,12 +198,6 @@ local function first(self, ...)
   return self:request(...)[1]
 end
 
-local function rest(self, ...)
-  local groups = self:request(...)
-  table.remove(groups, 1)
-  return groups
-end
-
 local function split(text)
   local found = {}
   for part in tostring(text):gmatch("[^,]+") do
@@ -204,26 +206,21 @@ local function split(text)
   return found
 end
 
-local function numbers(texts)
-  for at, text in ipairs(texts) do
-    texts[at] = tonumber(text)
-  end
-  return texts
+-- A value of the reply as it was sent.
+function Session:request_text(key, ...)
+  local _, line = self:request(...)
+  return (line .. " "):match(" " .. key .. "=(%S*) ")
 end
 
--- Commands
+-- Commands that need more than their words
 
-function Session:hello(token)
-  return first(self, "hello", token and { token = token } or "")
+for name, method in pairs(require("racebeam.commands")) do
+  Session[name] = method
 end
 
 function Session:help(...)
   local _, line = self:request("help", ...)
   return line:sub(4)
-end
-
-function Session:games(...)
-  return split(first(self, "games", ...).games)
 end
 
 function Session:game(name)
@@ -239,24 +236,8 @@ function Session:load(game, settings)
   return first(self, "load", game, words)
 end
 
-function Session:settings()
-  return first(self, "settings")
-end
-
-function Session:set(settings)
-  return first(self, "set", settings)
-end
-
-function Session:modes()
-  return numbers(split(first(self, "modes").modes))
-end
-
 function Session:names()
   return first(self, "names")
-end
-
-function Session:difficulties()
-  return numbers(split(first(self, "difficulties").difficulties))
 end
 
 -- Names by number.
@@ -269,14 +250,6 @@ function Session:actions()
   return found
 end
 
-function Session:observe(...)
-  return split(first(self, "observe", ...).fields)
-end
-
-function Session:look(...)
-  return first(self, "look", ...)
-end
-
 -- { red, green, blue } of each value of a pixel, the first of them at 0.
 function Session:palette()
   local bytes, colours = self:look("palette").palette, {}
@@ -286,22 +259,8 @@ function Session:palette()
   return colours
 end
 
-function Session:act(...)
-  return first(self, "act", ...)
-end
-
-function Session:reset(seed)
-  return first(self, "reset", seed and { seed = seed } or "")
-end
-
 function Session:peek(index, count)
   return decode.hex(tostring(self:request_text("bytes", "peek", index, count or 1)))
-end
-
--- A value of the reply as it was sent.
-function Session:request_text(key, ...)
-  local _, line = self:request(...)
-  return (line .. " "):match(" " .. key .. "=(%S*) ")
 end
 
 function Session:poke(index, bytes)
@@ -310,24 +269,9 @@ function Session:poke(index, bytes)
   end)))
 end
 
-function Session:save(name, settings)
-  self:request("save", name, settings or "")
-end
-
-function Session:restore(name)
-  return first(self, "restore", name)
-end
-
-function Session:drop(...)
-  self:request("drop", ...)
-end
-
-function Session:states()
-  return split(first(self, "states").states)
-end
-
-function Session:export_state(name)
-  return decode.base64(self:request_text("data", "export", name))
+-- settings: { whole = 1 } for the score, the progress of the episode and the stack of screens, too.
+function Session:export_state(name, settings)
+  return decode.base64(self:request_text("data", "export", name, settings or ""))
 end
 
 function Session:import_state(name, bytes)
@@ -352,7 +296,8 @@ function Session:branch(name, lists, settings)
   for at, actions in ipairs(lists) do
     words[at] = table.concat(actions, ",")
   end
-  local branches = rest(self, "branch", name, settings or "", table.concat(words, " "))
+  local branches = self:request("branch", name, settings or "", table.concat(words, " "))
+  table.remove(branches, 1)
   for _, branch in ipairs(branches) do
     branch.rewards = rewards(branch.rewards)
     branch.rewards_b = branch.rewards_b and rewards(branch.rewards_b)
@@ -360,38 +305,13 @@ function Session:branch(name, lists, settings)
   return branches
 end
 
-function Session:open(count, settings)
-  return rest(self, "open", count, settings or "")
-end
-
-function Session:step(...)
-  return rest(self, "step", ...)
-end
-
--- A mask such as "0110", settings such as { seed = 9 }, or both.
-function Session:restart(...)
-  return rest(self, "restart", ...)
-end
-
--- Gives the machines of open() back.
+-- Closes the machines, as close_machines() does. The session goes on.
 function Session:close()
-  self:request("close")
-end
-
-function Session:record(kinds, name, settings)
-  return first(self, "record", kinds, name, settings or "")
+  self:close_machines()
 end
 
 function Session:stop_recording()
   return first(self, "record", "stop")
-end
-
-function Session:stats()
-  return first(self, "stats")
-end
-
-function Session:quit()
-  self:request("quit")
 end
 
 -- A stack of screens that the client makes, as the server does for grey84xN: of the last `depth`, oldest first, zeros where

@@ -89,13 +89,14 @@ local function needed(module, kind)
   return value
 end
 
-local function connected(socket, timeout, ...)
+-- A socket that is connected to ..., the place of `address`.
+local function connected(address, socket, timeout, ...)
   local core = needed("socket", "this address")
   socket:settimeout(timeout)
   local done, problem = socket:connect(...)
   if not done then
     socket:close()
-    fault(problem == "timeout" and "timeout" or "lost", "no server answers: " .. tostring(problem))
+    fault(problem == "timeout" and "timeout" or "lost", ("no server answers at %s: %s"):format(address, tostring(problem)))
   end
   return setmetatable({ socket = socket, held = "", clock = core.gettime, select = core.select, timeout = timeout }, Socket)
 end
@@ -150,7 +151,7 @@ local function network(kind, rest, options)
   end
   local core = needed("socket", kind .. "://")
   local socket = core.tcp()
-  local connection = connected(socket, options.timeout, host, tonumber(port))
+  local connection = connected(kind .. ":" .. rest, socket, options.timeout, host, tonumber(port))
   socket:setoption("tcp-nodelay", true)
   return kind == "tls" and secure(connection, host, options.tls) or connection
 end
@@ -158,7 +159,7 @@ end
 local function unix(path, options)
   local module = needed("socket.unix", "unix:")
   local make = type(module) == "table" and (module.stream or module) or module
-  return connected(make(), options.timeout, path)
+  return connected("unix:" .. path, make(), options.timeout, path)
 end
 
 -- Streams, with plain Lua. There are no time limits.
@@ -334,8 +335,10 @@ function transport.open(address, options)
   if found then
     return found, token
   end
-  fault("invalid", ("the address is '%s'; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, "
-    .. "stdio or file:PATH, also in RACEBEAM_ADDRESS"):format(address))
+  local given = address == "" and "there is no address, and the variable RACEBEAM_ADDRESS is not set"
+    or ("the address is '%s'"):format(address)
+  fault("invalid", given .. "; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio or file:PATH, also in "
+    .. "RACEBEAM_ADDRESS")
 end
 
 return transport

@@ -1,5 +1,5 @@
-// The commands of the line protocol: one table, from which they are found, checked, explained and, by a test,
-// compared with protocol/PROTOCOL.md.
+// The commands of the line protocol: one table, from which they are found, checked and explained. It is made
+// from protocol/protocol.toml.
 #pragma once
 
 #include <span>

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "games/similar.hpp"
+#include "protocol/description/tables.hpp"
 #include "protocol/encoding/encoding.hpp"
 #include "protocol/line/commands/command_table.hpp"
 #include "protocol/line/field.hpp"
@@ -38,6 +39,9 @@ std::string about(const SettingRow& row) {
 std::string about(const PresetRow& row) { return joined({row.name, " (", row.source, ") sets ", row.words}); }
 std::string about(const FieldRow& row) { return plain(joined({row.name, ": ", row.summary})); }
 std::string about(const EncodingRow& row) { return joined({row.name, ": ", row.summary}); }
+std::string about(const description::Choice& row) {
+  return plain(joined({row.key, "=", row.value, ": ", row.meaning}));
+}
 std::string about(const ErrorRow& row) { return plain(joined({row.name, ": ", row.meaning})); }
 
 template <typename Rows>
@@ -123,6 +127,12 @@ bool add_commands(std::string_view name, HelpText& text) {
   return text.entries.size() > before;
 }
 
+// Adds the values that a key of a command may have, or the value of that name.
+void add_choices(std::string_view name, HelpText& text) {
+  for (const description::Choice& choice : description::kChoices)
+    if (choice.key == name || choice.value == name) text.entries.push_back(about(choice));
+}
+
 template <typename... Rows>
 [[noreturn]] void refuse(std::string_view name, const Rows&... rows) {
   std::vector<std::string_view> known;
@@ -175,7 +185,10 @@ HelpText help_on(std::string_view name) {
       find_in(preset_rows(), name, "a preset of load, as preset=NAME:", text) ||
       find_in(encodings(), name, "an encoding of fields that are bytes, as FIELD:ENCODING:", text) ||
       find_in(codes(), name, "the code of an error:", text);
-  if (add_commands(name, text) || found) return text;
+  if (add_commands(name, text) || found) {
+    add_choices(name, text);
+    return text;
+  }
   refuse(name, kTopics, commands(), setting_rows(), field_rows(), preset_rows(), encodings(), codes());
 }
 

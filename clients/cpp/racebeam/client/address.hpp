@@ -25,11 +25,12 @@ struct Address {
 };
 
 [[noreturn]] inline void refuse_address(std::string_view text) {
+  const std::string given = text.empty() ? "there is no address, and the variable RACEBEAM_ADDRESS is not set"
+                                         : std::string("the address is '").append(text).append("'");
   throw std::invalid_argument(
-      std::string("the address is '")
-          .append(text)
-          .append("'; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio or "
-                  "file:PATH, also in RACEBEAM_ADDRESS"));
+      given +
+      "; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio or "
+      "file:PATH, also in RACEBEAM_ADDRESS");
 }
 
 inline Address parse_address(std::string_view text);

@@ -24,10 +24,10 @@ namespace racebeam::client {
 template <class Derived>
 class Commands {
  public:
-  /// Name and limits of the server: Group.
-  auto hello() { return ask(first, "hello"); }
-  /// The same, with the token that the server requires.
-  auto hello(std::string_view token) { return ask(first, "hello", Setting("token", token)); }
+  // Commands whose methods only send their words
+#include "racebeam/client/command_methods.inc"
+
+  // Commands that need more
 
   /// Explains a command, setting, field, preset, encoding or error code to people: std::string.
   template <class... Words>
@@ -36,11 +36,6 @@ class Commands {
                topic...);
   }
 
-  /// The games whose images the server has, or with `all` those it knows: a list of names.
-  template <class... Words>
-  auto games(const Words&... which) {
-    return ask(list("games"), "games", which...);
-  }
   /// What the server knows about a game: Group.
   auto game(std::string_view name) { return ask(first, "games", name); }
 
@@ -57,17 +52,6 @@ class Commands {
     return ask(first, "load inline", Setting("image", to_base64(image)), settings...);
   }
 
-  /// The settings in effect: Group.
-  auto settings() { return ask(first, "settings"); }
-  /// Changes mode or difficulty: both, Group.
-  template <class... Settings>
-  auto set(const Settings&... settings) {
-    return ask(first, "set", settings...);
-  }
-  /// The game's modes for one player: a list of numbers.
-  auto modes() { return ask(numbers("modes"), "modes"); }
-  /// The game's difficulties: a list of numbers.
-  auto difficulties() { return ask(numbers("difficulties"), "difficulties"); }
   /// Names for bytes of the fields `ram` and `tia`: ram_names, pairs of index and name, and tia_names, in
   /// order. Group.
   auto names() { return ask(first, "names"); }
@@ -87,31 +71,10 @@ class Commands {
         "actions");
   }
 
-  /// Selects what replies carry, such as `"reward", "screen:delta"`; without fields, asks for the selection:
-  /// a list.
-  template <class... Words>
-  auto observe(const Words&... fields) {
-    return ask(list("fields"), "observe", fields...);
-  }
-  /// Shows fields once; without fields, those of `observe`: Group.
-  template <class... Words>
-  auto look(const Words&... fields) {
-    return ask(first, "look", fields...);
-  }
   /// The colours of the field `screen`: Palette.
   auto palette() {
     return ask([](const Reply& reply) { return Palette(reply.first().bytes("palette")); }, "look palette");
   }
-
-  /// Plays actions until the episode ends, such as `"FIRE", "UP*3", 5`: Group.
-  template <class... Words>
-  auto act(const Words&... words) {
-    return ask(first, "act", words...);
-  }
-  /// Begins an episode; the random generator continues: Group.
-  auto reset() { return ask(first, "reset"); }
-  /// Powers on anew with a seed: Group.
-  auto reset(std::uint32_t seed) { return ask(first, "reset", Setting("seed", seed)); }
 
   /// Reads bytes of RAM: Bytes.
   auto peek(int index, int count = 1) {
@@ -123,23 +86,12 @@ class Commands {
     return ask(first, "poke", index, to_hex(bytes));
   }
 
-  /// Saves the state. With `"random=1"`, with the generator of what is random.
-  template <class... Settings>
-  auto save(std::string_view name, const Settings&... settings) {
-    return ask(first, "save", name, settings...);
-  }
-  /// Restores a state: Group.
-  auto restore(std::string_view name) { return ask(first, "restore", name); }
-  /// Deletes states, or `"all"`.
-  template <class... Words>
-  auto drop(const Words&... names) {
-    return ask(first, "drop", names...);
-  }
-  /// The names of the states: a list.
-  auto states() { return ask(list("states"), "states"); }
   /// A state for later, or for another process: Bytes.
-  auto export_state(std::string_view name) {
-    return ask([](const Reply& reply) { return from_base64(reply.first().text("data")); }, "export", name);
+  /// @param settings `"whole=1"` for the score, the progress of the episode and the stack of screens, too
+  template <class... Settings>
+  auto export_state(std::string_view name, const Settings&... settings) {
+    return ask([](const Reply& reply) { return from_base64(reply.first().text("data")); }, "export", name,
+               settings...);
   }
   /// Saves a state that was exported.
   auto import_state(std::string_view name, std::span<const std::uint8_t> state) {
@@ -161,41 +113,8 @@ class Commands {
     return ask(branches, "branch", state, words);
   }
 
-  /// Creates machines with the loaded game and settings: the Group of each.
-  /// @param count machines
-  /// @param settings such as `"autoreset=same-step"`
-  template <class... Settings>
-  auto open(int count, const Settings&... settings) {
-    return ask(rest, "open", count, settings...);
-  }
-  /// An action for each machine, or one for all: the Group of each.
-  template <class... Words>
-  auto step(const Words&... words) {
-    return ask(rest, "step", words...);
-  }
-  /// Resets machines: the Group of each. `words` are a mask such as `"0110"`, and `seed=N`; both are
-  /// optional.
-  template <class... Words>
-  auto restart(const Words&... words) {
-    return ask(rest, "restart", words...);
-  }
-  /// Closes the machines: the command `close`.
-  auto close_machines() { return ask(first, "close"); }
-
-  /// Begins a recording in the server's folder: Group.
-  /// @param kinds such as `y4m,wav`
-  /// @param name of the files
-  /// @param settings `Setting("machine", N)` records a machine of `open`
-  template <class... Settings>
-  auto record(std::string_view kinds, std::string_view name, const Settings&... settings) {
-    return ask(first, "record", kinds, name, settings...);
-  }
   /// Ends the recording: what was kept, Group.
   auto stop_recording() { return ask(first, "record stop"); }
-  /// Counters of this session: Group.
-  auto stats() { return ask(first, "stats"); }
-  /// Ends the session, as the server sees it.
-  auto quit() { return ask(first, "quit"); }
 
  protected:
   Commands() = default;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "racebeam/client/field_table.hpp"
 #include "racebeam/client/reply.hpp"
 
 namespace racebeam::client::detail {
@@ -24,34 +26,73 @@ class Fields {
     const std::string_view command = words.empty() ? std::string_view{} : words[0];
     if (!words.empty()) words.erase(words.begin());
     prepare(command, words, line);
-    const bool looks = command == "look" && !words.empty();
-    const Encodings once = looks ? encodings(words) : Encodings{};
-    const Encodings& chosen = looks ? once : chosen_;
+    const bool watches = command == "watch", looks = command == "look" && !words.empty();
+    const std::vector<std::string_view> fields = watches ? watched_fields(words) : words;
+    const Encodings once = looks || watches ? encodings(fields) : Encodings{};
+    const Encodings& chosen = looks || watches ? once : chosen_;
+    Source* const watched = watches ? &watched_session(words.at(0), fields, line) : nullptr;
     raw_ = raw;
-    return Reply(std::move(line),
-                 [&](Group::Value& value, std::size_t machine) { decode_value(value, machine, chosen); });
+    return Reply(std::move(line), [&](Group::Value& value, std::size_t machine) {
+      decode_value(value, watched != nullptr ? *watched : this->machine(machine), chosen);
+    });
   }
 
  private:
   using Encodings = std::map<std::string, Encoding, std::less<>>;
+
+  /// What deltas have made of the fields of a machine, and the height of its screen.
+  struct Source {
+    std::vector<std::string> fields;  ///< of a watched session
+    std::size_t height = 0;
+    std::map<std::string, Bytes, std::less<>> arrays;
+  };
 
   static constexpr std::size_t kWidth = 160;
 
   void prepare(std::string_view command, const std::vector<std::string_view>& words, std::string_view line) {
     if (command == "observe" && !words.empty()) {
       chosen_ = encodings(words);
-      arrays_.clear();
+      machines_.clear();
     } else if (command == "load") {
-      const std::size_t at = line.find(" height=");
-      if (at == std::string_view::npos) throw std::invalid_argument("the reply of load has no height");
-      height_ = to_number<std::size_t>(split(line.substr(at + 8), ' ').at(0));
-      arrays_.clear();
+      const auto height = height_of(line);
+      if (!height) throw std::invalid_argument("the reply of load has no height");
+      height_ = *height;
+      machines_.clear();
     } else if (command == "open") {
-      std::erase_if(arrays_, [](const auto& array) { return array.first.first > 0; });
+      std::erase_if(machines_, [](const auto& machine) { return machine.first > 0; });
     }
   }
 
-  void decode_value(Group::Value& value, std::size_t machine, const Encodings& chosen) {
+  static std::optional<std::size_t> height_of(std::string_view line) {
+    constexpr std::string_view kHeight = " height=";
+    const std::size_t at = line.find(kHeight);
+    if (at == std::string_view::npos) return std::nullopt;
+    return to_number<std::size_t>(split(line.substr(at + kHeight.size()), ' ').at(0));
+  }
+
+  Source& machine(std::size_t number) {
+    return machines_.try_emplace(number, Source{{}, height_, {}}).first->second;
+  }
+
+  /// Of a request `watch NAME [since=FRAME] FIELD...`.
+  static std::vector<std::string_view> watched_fields(const std::vector<std::string_view>& words) {
+    std::vector<std::string_view> fields;
+    for (std::size_t at = 1; at < words.size(); ++at)
+      if (words[at].find('=') == std::string_view::npos) fields.push_back(words[at]);
+    return fields;
+  }
+
+  /// A watched session. It begins anew with other fields, and with another height.
+  Source& watched_session(std::string_view name, const std::vector<std::string_view>& fields,
+                          std::string_view line) {
+    Source& known = watched_[std::string(name)];
+    const std::size_t height = height_of(line).value_or(height_);
+    if (known.height != height || !std::ranges::equal(known.fields, fields))
+      known = Source{{fields.begin(), fields.end()}, height, {}};
+    return known;
+  }
+
+  void decode_value(Group::Value& value, Source& source, const Encodings& chosen) {
     constexpr std::string_view kFinal = "final_";
     const std::string_view field =
         value.key.starts_with(kFinal) ? value.key.substr(kFinal.size()) : value.key;
@@ -61,7 +102,7 @@ class Fields {
     if (found->second == Encoding::kRaw) {
       value.bytes = take_raw(to_number<std::size_t>(value.text));
     } else if (found->second == Encoding::kDelta) {
-      value.bytes = changed(machine, field, value.text);
+      value.bytes = changed(source, field, value.text);
     } else {
       value.bytes = decode(found->second, value.text);
     }
@@ -74,21 +115,17 @@ class Fields {
     return {bytes.begin(), bytes.end()};
   }
 
-  const Bytes& changed(std::size_t machine, std::string_view field, std::string_view delta) {
-    Bytes& array = arrays_.try_emplace({machine, std::string(field)}, size(field)).first->second;
+  static const Bytes& changed(Source& source, std::string_view field, std::string_view delta) {
+    auto found = source.arrays.find(field);
+    if (found == source.arrays.end())
+      found = source.arrays.try_emplace(std::string(field), size(field, source.height)).first;
+    Bytes& array = found->second;
     apply_delta(array, delta);
     return array;
   }
 
   /// The usual encoding of a field; nothing for fields that are not bytes.
   static std::optional<Encoding> usual_encoding(std::string_view field) {
-    constexpr std::array<std::pair<std::string_view, Encoding>, 7> kUsual{{{"ram", Encoding::kHex},
-                                                                           {"tia", Encoding::kHex},
-                                                                           {"screen", Encoding::kRle},
-                                                                           {"rgb", Encoding::kZlib},
-                                                                           {"grey", Encoding::kZlib},
-                                                                           {"palette", Encoding::kHex},
-                                                                           {"audio", Encoding::kHex}}};
     for (const auto& [name, encoding] : kUsual)
       if (name == field) return encoding;
     if (small_size(field) > 0) return Encoding::kZlib;
@@ -118,21 +155,21 @@ class Fields {
     return parts.size() < 3 ? size * 84 : size;  // grey84 and grey84xN are square
   }
 
-  std::size_t size(std::string_view field) const {
-    constexpr std::array<std::pair<std::string_view, std::size_t>, 4> kSizes{
-        {{"ram", 128}, {"tia", 53}, {"palette", std::size_t{256} * 3}, {"audio", 512}}};
+  static std::size_t size(std::string_view field, std::size_t height) {
     for (const auto& [name, bytes] : kSizes)
       if (name == field) return bytes;
     if (const std::size_t small = small_size(field)) return small;
-    return height_ * kWidth * (field == "rgb" ? 3 : 1);
+    for (const auto& [name, bytes] : kPixels)
+      if (name == field) return height * kWidth * bytes;
+    throw std::invalid_argument(std::string("the size of ").append(field).append(" is not known"));
   }
 
   Encodings chosen_;
-  std::map<std::pair<std::size_t, std::string>, Bytes>
-      arrays_;  // what deltas have made; machine 0 is that of load
+  std::map<std::size_t, Source> machines_;  // 0 is that of load
+  std::map<std::string, Source> watched_;   // by the name of the session
   std::size_t height_ = 0;
-  std::string_view
-      raw_;  // bytes behind the line of the reply that is being decoded, which no field has taken
+  // Bytes behind the line of the reply that is being decoded, which no field has taken.
+  std::string_view raw_;
 };
 
 }  // namespace racebeam::client::detail

@@ -144,8 +144,9 @@ async function openDirectly(address, options) {
     case "pipes":
       return pipes(path);
     default:
-      throw new TypeError(`the address is '${address}'; it takes tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT, wss://HOST:PORT, `
-        + "unix:PATH, pipes:PREFIX, stdio or file:PATH, also in RACEBEAM_ADDRESS");
+      throw new TypeError((address ? `the address is '${address}'` : "there is no address, and the variable RACEBEAM_ADDRESS is not set")
+        + "; it takes tcp://HOST:PORT, tls://HOST:PORT, ws://HOST:PORT, wss://HOST:PORT, unix:PATH, pipes:PREFIX, stdio or file:PATH, "
+        + "also in RACEBEAM_ADDRESS");
   }
 }
 

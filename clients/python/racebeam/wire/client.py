@@ -21,6 +21,7 @@ import binascii
 import collections
 import contextlib
 import json
+import math
 import os
 import re
 import shlex
@@ -40,11 +41,31 @@ ANNOUNCEMENT = 1  # the version of announce files that this client reads
 LONGEST_REPLY = 1 << 28  # bytes; a server that sends a longer line is taken for broken
 MOST_UNSENT = 1 << 13  # bytes of requests that are gathered
 
+# generated: fields, from protocol/protocol.toml
 # What bytes are written in when `observe` does not say.
-USUAL_ENCODING = {"ram": "hex", "tia": "hex", "screen": "rle", "rgb": "zlib", "grey": "zlib", "palette": "hex", "audio": "hex"}
+USUAL_ENCODING = {
+    "ram": "hex",
+    "tia": "hex",
+    "screen": "rle",
+    "rgb": "zlib",
+    "grey": "zlib",
+    "palette": "hex",
+    "audio": "hex",
+}
+SHAPES: dict[str, tuple[int | str, ...]] = {
+    "ram": (128,),
+    "tia": (53,),
+    "screen": ("height", 160),
+    "rgb": ("height", 160, 3),
+    "grey": ("height", 160),
+    "palette": (256, 3),
+    "audio": (512,),
+}
+# end of fields
 
 WAIT = re.compile(r"(file:.+)\?wait=(.*)", re.DOTALL)
 SECONDS = re.compile(r"[0-9]{1,9}(\.[0-9]+)?")
+ADDRESSES = "it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio or file:PATH, also in RACEBEAM_ADDRESS"
 FILES = "file:PATH takes the --ready-file or --announce file of a server"
 BETWEEN_TRIES = 0.05  # seconds
 
@@ -54,6 +75,7 @@ NUMBER = re.compile(r"-?(0|[1-9]\d{0,14})(\.\d+)?")
 RAW = re.compile(r" raw=(\S+)$")
 Texts = dict[str, Any]  # texts by key, and bytes where the encoding is raw
 Values = dict[str, Any]
+Arrays = dict[str, bytearray]  # what deltas have made so far, by field
 Opened = TypeVar("Opened")
 Got = TypeVar("Got")
 
@@ -67,6 +89,14 @@ class Refused(Exception):
 
     def __str__(self) -> str:
         return f"{self.code}: {self.sentence}"
+
+
+class Watched(NamedTuple):
+    """What the deltas of a watched session belong to. With other fields or another height they begin anew."""
+
+    fields: list[str]
+    height: int
+    arrays: Arrays
 
 
 class Reply(NamedTuple):
@@ -126,9 +156,39 @@ def _groups(text: str) -> list[Texts]:
     return [dict(word.split("=", 1) for word in group.split(" ") if "=" in word) for group in f" {text}".split(" |")]
 
 
+def _watched_fields(words: list[str]) -> list[str]:
+    """Of a request `watch NAME [since=FRAME] FIELD...`."""
+    return [word for word in words[2:] if "=" not in word]
+
+
+def _shape(field: str, height: int) -> tuple[int, ...]:
+    """Of a field of bytes, of a machine whose screen has `height` rows."""
+    if field.startswith("grey84") and field.count("x") < 2:
+        screens = field.partition("x")[2]
+        return (int(screens), 84, 84) if screens else (84, 84)
+    if stack := STACK.fullmatch(field):
+        width, rows, depth = map(int, stack.groups())
+        return (depth, rows, width, 3) if field.startswith("rgb") else (depth, rows, width)
+    return tuple(height if length == "height" else int(length) for length in SHAPES[field])
+
+
+def _word(value: object) -> str:
+    return str(int(value) if isinstance(value, bool) else value)
+
+
+def _words(value: object) -> list[object]:
+    """A word that may be left out."""
+    return [] if value is None else [value]
+
+
+def _pairs(**settings: object) -> list[str]:
+    """KEY=VALUE of those that are not None."""
+    return [f"{key}={_word(value)}" for key, value in settings.items() if value is not None]
+
+
 def _line_of(words: Iterable[object], settings: Mapping[str, object]) -> str:
     """A request without its end."""
-    line = " ".join([*map(str, words), *(f"{key}={value}" for key, value in settings.items())])
+    line = " ".join([*map(_word, words), *_pairs(**settings)])
     if "\n" in line or line.lstrip(" ").startswith("#"):
         raise ValueError(f"a request is one line, and no comment: {line!r}")
     return line
@@ -210,6 +270,8 @@ def reached(address: str | None, opened: Callable[[str], Opened]) -> tuple[Opene
     """What `opened` returns for `address`, and for RACEBEAM_ADDRESS without one; the address itself, or the one in the file that it
     names; and the token of an announce file. Tries again as long as the address says."""
     address = address or os.environ.get("RACEBEAM_ADDRESS", "")
+    if not address:
+        raise ValueError(f"there is no address, and the variable RACEBEAM_ADDRESS is not set; {ADDRESSES}")
     waits = WAIT.fullmatch(address)
     if waits and not SECONDS.fullmatch(waits[2]):
         raise ValueError(f"the address is {address!r}; ?wait= takes seconds, from 0 to 999999999")
@@ -299,8 +361,7 @@ def connected(address: str, timeout: float | None) -> tuple[socket.socket, str]:
             raise
         return connection, ""
     if kind not in ("tcp", "tls") or not rest.startswith("//") or not host or not port.isdecimal():
-        raise ValueError(f"the address is {address!r}; it takes tcp://HOST:PORT, tls://HOST:PORT, unix:PATH, pipes:PREFIX, stdio "
-                         "or file:PATH, also in RACEBEAM_ADDRESS")
+        raise ValueError(f"the address is {address!r}; {ADDRESSES}")
     host = host.removeprefix("[").removesuffix("]")
     connection = socket.create_connection((host, int(port)), timeout)
     connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -405,7 +466,8 @@ class Session:
         self.encodings: dict[str, str] = {}  # of the fields that observe chose
         self.offered: list[str] = []  # the server's encodings, after a greeting
         self.height = 0
-        self.arrays: dict[tuple[int, str], bytearray] = {}  # (machine, field): what deltas have made so far
+        self.arrays: dict[int, Arrays] = {}  # of machines; 0 is that of load
+        self.watched: dict[str, Watched] = {}  # by name
         self.address = ""
         self._again: Callable[[], Session] | None = None
         self._process = os.getpid()
@@ -562,7 +624,11 @@ class Session:
     def all_decoded(self, words: list[str], groups: list[Texts]) -> list[Values]:
         """The groups of the reply to a request of these words, with numbers and bytes."""
         encodings = self._encodings_of(words)
-        return [self.decoded(texts, machine, encodings) for machine, texts in enumerate(groups)]
+        if words[:1] == ["watch"]:
+            watched = self._watched(words, groups[0])
+            return [self.decoded(texts, watched.arrays, encodings, watched.height) for texts in groups]
+        return [self.decoded(texts, self.arrays.setdefault(machine, {}), encodings, self.height)
+                for machine, texts in enumerate(groups)]
 
     def _receive(self) -> tuple[list[str], list[Texts]]:
         """The words of the oldest request without a reply, and the groups of its reply."""
@@ -616,7 +682,7 @@ class Session:
             self.height = int(told["height"])
             self.arrays.clear()
         elif command == "open":
-            self.arrays = {key: array for key, array in self.arrays.items() if key[0] == 0}
+            self.arrays = {0: self.arrays.get(0, {})}
 
     def _bytes(self, count: int) -> bytes | bytearray:
         """Those that follow a line."""
@@ -688,56 +754,54 @@ class Session:
 
     # Observations
 
-    def decoded(self, texts: Texts, machine: int = 0, encodings: dict[str, str] | None = None) -> Values:
-        """The fields of one group, as numbers and bytes."""
-        encodings = self.encodings if encodings is None else encodings
+    def decoded(self, texts: Texts, arrays: Arrays, encodings: dict[str, str], height: int) -> Values:
+        """The fields of one group, as numbers and bytes. Screens have `height` rows."""
         try:
-            return {key: self._value(machine, key.removeprefix("final_"), text, encodings) for key, text in texts.items()}
+            return {key: self._value(key.removeprefix("final_"), text, arrays, encodings, height) for key, text in texts.items()}
         except (ValueError, IndexError, zlib.error, binascii.Error) as error:
             raise self.lost(ConnectionError(f"a field of its reply is damaged: {error}")) from error
 
-    def _value(self, machine: int, field: str, text: str, encodings: dict[str, str]) -> Any:
+    def _value(self, field: str, text: str, arrays: Arrays, encodings: dict[str, str], height: int) -> Any:
         encoding = encodings.get(field)
         if encoding is None:
             return number(text)
         if encoding != "delta":
-            return self._shaped(field, DECODERS[encoding](text))
-        array = self.arrays.setdefault((machine, field), bytearray(self._size(field)))
-        apply_delta(array, text)
-        return self._shaped(field, bytes(array))
+            return self._shaped(DECODERS[encoding](text), field, height)
+        if field not in arrays:
+            arrays[field] = bytearray(math.prod(_shape(field, height)))
+        apply_delta(arrays[field], text)
+        return self._shaped(bytes(arrays[field]), field, height)
 
     def _encodings_of(self, words: list[str]) -> dict[str, str]:
-        """Of the fields in the reply to a request of these words."""
+        """Of the fields in the reply to a request of these words: those that it names, or else those that observe chose."""
+        if words[:1] == ["watch"]:
+            return self._encodings(_watched_fields(words))
         return self._encodings(words[1:]) if words[:1] == ["look"] and len(words) > 1 else self.encodings
 
-    def _shape(self, field: str) -> tuple[int, ...]:
-        if field.startswith("grey84") and field.count("x") < 2:
-            screens = field.partition("x")[2]
-            return (int(screens), 84, 84) if screens else (84, 84)
-        if stack := STACK.fullmatch(field):
-            width, height, depth = map(int, stack.groups())
-            return (depth, height, width, 3) if field.startswith("rgb") else (depth, height, width)
-        return {"ram": (128,), "tia": (53,), "palette": (256, 3), "audio": (512,), "screen": (self.height, 160),
-                "grey": (self.height, 160), "rgb": (self.height, 160, 3)}[field]
+    def _watched(self, words: list[str], texts: Texts) -> Watched:
+        fields, height = _watched_fields(words), int(texts.get("height", self.height))
+        kept = self.watched.get(words[1])
+        if kept is None or kept[:2] != (fields, height):
+            kept = self.watched[words[1]] = Watched(fields, height, {})
+        return kept
 
-    def _size(self, field: str) -> int:
-        size = 1
-        for length in self._shape(field):
-            size *= length
-        return size
-
-    def _shaped(self, field: str, data: bytes) -> Any:
+    def _shaped(self, data: bytes, field: str, height: int) -> Any:
         if not self.arrays_wanted:
             return data
         import numpy
 
-        return numpy.frombuffer(data, numpy.uint8).reshape(self._shape(field))
+        return numpy.frombuffer(data, numpy.uint8).reshape(_shape(field, height))
 
-    def _shown(self, *words: object, **settings: object) -> Values:
-        return self._exchange(lambda: self.decoded(self._receive()[1][0]), *words, **settings)
+    def _first(self, *words: object) -> Values:
+        """The first group of a reply, with numbers and bytes."""
+        return self.request(*words)[0]
 
-    def _machines(self, *words: object, **settings: object) -> list[Values]:
-        return self._exchange(lambda: self.all_decoded(*self._receive())[1:], *words, **settings)
+    def _rest(self, *words: object) -> list[Values]:
+        """The groups after the first."""
+        return self.request(*words)[1:]
+
+    def _ints_of(self, key: str, *words: object) -> list[int]:
+        return [int(text) for text in self.list_of(key, *words)]
 
     @staticmethod
     def _encodings(fields: Iterable[str]) -> dict[str, str]:
@@ -748,10 +812,7 @@ class Session:
         }
         return {name: encoding or usual[name] for name, _, encoding in pairs if encoding or usual[name]}
 
-    # Commands
-
-    def hello(self, token: str | None = None) -> Values:
-        return self.values("hello", token=token) if token else self.values("hello")
+    # Commands. Those that need more than their words, and then the others, in the order of the document.
 
     def help(self, *words: str) -> str:
         return self._exchange(self._help, "help", *words)
@@ -759,35 +820,23 @@ class Session:
     def _help(self) -> str:
         return self.read_status(self._line())[1]
 
-    def games(self, *words: str) -> list[str]:
-        return self.list_of("games", "games", *words)
-
     def game(self, name: str) -> Values:
         """What is known of one game."""
-        return self.values("games", name)
+        return self._first("games", name)
 
     def load(self, game: str, image: bytes | None = None, **settings: object) -> Values:
-        """`image`: the bytes of a cartridge, when `game` is "inline". as_=GAME: the rules of another game."""
-        if "as_" in settings:
-            settings["as"] = settings.pop("as_")
-        if image is not None:
-            settings["image"] = base64.b64encode(image).decode()
-        return self.values("load", game, **settings)
+        """Power on and begin an episode.
 
-    def settings(self) -> Values:
-        return self.values("settings")
-
-    def set(self, **settings: int) -> Values:
-        return self.values("set", **settings)
-
-    def modes(self) -> list[int]:
-        return [int(mode) for mode in self.list_of("modes", "modes")]
+        Args:
+            image: The bytes of a cartridge, when `game` is "inline".
+            settings: Those of the protocol. `as_` is its setting `as`, the game whose rules apply.
+        """
+        rules = settings.pop("as_", None)
+        data = None if image is None else base64.b64encode(image).decode()
+        return self._first("load", game, *_pairs(image=data, **{"as": rules}, **settings))
 
     def two_player_modes(self) -> list[int]:
-        return [int(mode) for mode in self.list_of("two_player_modes", "modes")]
-
-    def difficulties(self) -> list[int]:
-        return [int(difficulty) for difficulty in self.list_of("difficulties", "difficulties")]
+        return self._ints_of("two_player_modes", "modes")
 
     def actions(self) -> dict[int, str]:
         """Names by number."""
@@ -800,23 +849,10 @@ class Session:
         pairs = (pair.split(":") for pair in found["ram_names"].split(",") if pair)
         return {int(index): name for index, name in pairs}, found["tia_names"].split(",")
 
-    def observe(self, *fields: str) -> list[str]:
-        return self.list_of("fields", "observe", *fields)
-
-    def look(self, *fields: str) -> Values:
-        encodings = self._encodings(fields) if fields else None
-        return self._exchange(lambda: self.decoded(self._receive()[1][0], 0, encodings), "look", *fields)
-
     def palette(self) -> list[tuple[int, int, int]]:
         """Red, green and blue of each value that a pixel of `screen` can have."""
         data = bytes.fromhex(self.ask("look", "palette:hex")[0]["palette"])
         return [(data[at], data[at + 1], data[at + 2]) for at in range(0, len(data), 3)]
-
-    def act(self, *actions: object) -> Values:
-        return self._shown("act", *actions)
-
-    def reset(self, seed: int | None = None) -> Values:
-        return self._shown("reset", **({} if seed is None else {"seed": seed}))
 
     def peek(self, index: int, count: int = 1) -> bytes:
         return bytes.fromhex(self.ask("peek", index, count)[0]["bytes"])
@@ -824,22 +860,13 @@ class Session:
     def poke(self, index: int, data: bytes) -> None:
         self.ask("poke", index, data.hex().upper())
 
-    def save(self, name: str, random: int = 0, machine: int | None = None) -> None:
-        """`machine`: one of those of open(), 0 the first."""
-        self.ask("save", name, random=random, **({} if machine is None else {"machine": machine}))
+    def export_state(self, name: str, whole: bool | int = False) -> bytes:
+        """Return a state, for later or for another process.
 
-    def restore(self, name: str, machine: int | None = None) -> Values:
-        return self._shown("restore", name, **({} if machine is None else {"machine": machine}))
-
-    def drop(self, *names: str) -> None:
-        self.ask("drop", *names)
-
-    def states(self) -> list[str]:
-        return self.list_of("states", "states")
-
-    def export_state(self, name: str, whole: int = 0) -> bytes:
-        """`whole`: 1 for the score, the progress of the episode and the stack of screens, too."""
-        return base64.b64decode(self.ask("export", name, **({"whole": whole} if whole else {}))[0]["data"])
+        Args:
+            whole: With the score, the progress of the episode and the stack of screens.
+        """
+        return base64.b64decode(self.ask("export", name, *_pairs(whole=whole or None))[0]["data"])
 
     def import_state(self, name: str, data: bytes) -> None:
         self.ask("import", name, base64.b64encode(data).decode())
@@ -847,33 +874,181 @@ class Session:
     def branch(self, name: str, *sequences: Iterable[object], keep: str | None = None) -> list[Values]:
         """Each sequence is a list of actions. Returns a dictionary for each, with `rewards`, and `rewards_b` if there are, as
         lists."""
-        words = [f"keep={keep}"] if keep else []
-        words += [",".join(map(str, actions)) for actions in sequences]
+        words = [*_pairs(keep=keep), *(",".join(map(str, actions)) for actions in sequences)]
         return [{key: decode_rewards(text) if key.startswith("rewards") else number(text) for key, text in texts.items()}
                 for texts in self.ask("branch", name, *words)[1:]]
 
-    def open(self, count: int, autoreset: str = "next-step", **settings: object) -> list[Values]:
-        return self._machines("open", count, autoreset=autoreset, **settings)
+    def close(self) -> None:
+        """Close the machines, as close_machines() does. The session goes on."""
+        self.close_machines()
+
+    def stop_recording(self) -> Values:
+        return self._first("record", "stop")
+
+    # generated: commands, from protocol/protocol.toml
+
+    def hello(self, token: str | None = None) -> Values:
+        """The server's name, version and limits.
+
+        Args:
+            token: That the server requires.
+        """
+        return self._first("hello", *_pairs(token=token))
+
+    def games(self, which: str | None = None) -> list[str]:
+        """List the games whose image is here, or all known games; or describe one."""
+        return self.list_of("games", "games", *_words(which))
+
+    def settings(self) -> Values:
+        """The settings in effect."""
+        return self._first("settings")
+
+    def set(self, mode: int | None = None, difficulty: int | None = None) -> Values:
+        """Change the mode, from the next reset on, or the difficulty, at once.
+
+        Args:
+            mode: See modes.
+            difficulty: See difficulties.
+        """
+        return self._first("set", *_pairs(mode=mode, difficulty=difficulty))
+
+    def modes(self) -> list[int]:
+        """The game's modes."""
+        return self._ints_of("modes", "modes")
+
+    def difficulties(self) -> list[int]:
+        """The game's difficulties."""
+        return self._ints_of("difficulties", "difficulties")
+
+    def observe(self, *fields: str) -> list[str]:
+        """Select the fields of replies.
+
+        Args:
+            fields: Without them, asks for the selection.
+        """
+        return self.list_of("fields", "observe", *fields)
+
+    def look(self, *fields: str) -> Values:
+        """Show these fields once; without fields, the selected ones."""
+        return self._first("look", *fields)
+
+    def act(self, *actions: object) -> Values:
+        """Play actions until the episode ends."""
+        return self._first("act", *actions)
+
+    def reset(self, seed: int | None = None) -> Values:
+        """Begin an episode; with a seed, power on anew with it.
+
+        Args:
+            seed: Powers on anew with it.
+        """
+        return self._first("reset", *_pairs(seed=seed))
+
+    def save(self, name: str, random: bool | int | None = None, machine: int | None = None) -> None:
+        """Save the state; random=1: with the random generator.
+
+        Args:
+            random: 1: with the random generator.
+            machine: One of those of open, 0 the first.
+        """
+        self.ask("save", name, *_pairs(random=random, machine=machine))
+
+    def restore(self, name: str, machine: int | None = None) -> Values:
+        """Restore a saved state.
+
+        Args:
+            machine: One of those of open, 0 the first.
+        """
+        return self._first("restore", name, *_pairs(machine=machine))
+
+    def drop(self, *names: str) -> None:
+        """Delete states."""
+        self.ask("drop", *names)
+
+    def states(self) -> list[str]:
+        """The names of the states."""
+        return self.list_of("states", "states")
+
+    def open(
+        self,
+        count: int,
+        autoreset: str | None = None,
+        steps: str | None = None,
+        start: str | None = None,
+        lives: str | None = None,
+        stack: str | None = None,
+        pool: bool | int | None = None,
+    ) -> list[Values]:
+        """Create N machines with the loaded game and settings; their seeds count up.
+
+        Args:
+            autoreset: What happens at the end of an episode.
+            steps: What a step is.
+            start: How an episode begins; with steps=frames.
+            lives: What a lost life does; with steps=frames.
+            stack: What a stack of screens begins with; with steps=frames.
+            pool: Which frames a stack shows; with steps=frames.
+        """
+        return self._rest(
+            "open",
+            count,
+            *_pairs(autoreset=autoreset, steps=steps, start=start, lives=lives, stack=stack, pool=pool),
+        )
 
     def step(self, *actions: object) -> list[Values]:
-        return self._machines("step", *actions)
+        """Play one act on each machine: an action each, or one for all."""
+        return self._rest("step", *actions)
 
-    def restart(self, *mask: str, seed: int | None = None) -> list[Values]:
-        return self._machines("restart", *mask, **({} if seed is None else {"seed": seed}))
+    def restart(self, mask: str | None = None, seed: int | None = None) -> list[Values]:
+        """Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
 
-    def close(self) -> None:
-        """Gives the machines of open() back."""
+        Args:
+            seed: Powers on anew: machine 0 with N, machine 1 with N + 1, and so on.
+        """
+        return self._rest("restart", *_words(mask), *_pairs(seed=seed))
+
+    def close_machines(self) -> None:
+        """Close the machines."""
         self.ask("close")
 
     def record(self, kinds: str, name: str, machine: int | None = None) -> Values:
-        """`kinds`: one, or several as in "y4m,wav"; `machine`: one of those of open(), 0 the first."""
-        return self.values("record", kinds, name, **({} if machine is None else {"machine": machine}))
+        """Record frames, sound or both into the server's folder.
 
-    def stop_recording(self) -> Values:
-        return self.values("record", "stop")
+        Args:
+            machine: One of those of open, 0 the first.
+        """
+        return self._first("record", kinds, name, *_pairs(machine=machine))
+
+    def share(self, name: str, watchers: int | None = None) -> Values:
+        """Let other sessions watch the game under this name.
+
+        Args:
+            watchers: How many may watch at the same time.
+        """
+        return self._first("share", name, *_pairs(watchers=watchers))
+
+    def unshare(self) -> None:
+        """End what share has begun."""
+        self.ask("unshare")
+
+    def shared(self) -> list[Values]:
+        """List the shared sessions."""
+        return self._rest("shared")
+
+    def watch(self, name: str, *fields: str, since: int | None = None) -> Values:
+        """Show a shared session as it was lately.
+
+        Args:
+            since: The frame of the last reply; the fields come only if there is a newer one.
+        """
+        return self._first("watch", name, *_pairs(since=since), *fields)
 
     def stats(self) -> Values:
-        return self.values("stats")
+        """Counters of this session."""
+        return self._first("stats")
 
     def quit(self) -> None:
+        """End the session."""
         self.ask("quit")
+
+    # end of commands

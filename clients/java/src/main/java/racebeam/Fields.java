@@ -11,13 +11,15 @@ import java.util.regex.Pattern;
 
 /** Decodes the fields of replies. It follows what requests that were granted change about later replies. */
 final class Fields {
-  private static final Map<String, Encoding> USUAL = Map.of("ram", Encoding.HEX, "tia", Encoding.HEX, "screen", Encoding.RLE,
-      "rgb", Encoding.ZLIB, "grey", Encoding.ZLIB, "palette", Encoding.HEX, "audio", Encoding.HEX);
   private static final Pattern SMALL = Pattern.compile("grey84(?:x(\\d+))?|(grey|rgb)(\\d+)x(\\d+)x(\\d+)");
   private static final int WIDTH = 160;
 
+  /** What deltas have made of the fields of a machine, by their names, and the height of its screen. */
+  private record Source(List<String> fields, int height, Map<String, byte[]> arrays) { }
+
   private Map<String, Encoding> chosen = Map.of();
-  private Map<Integer, Map<String, byte[]>> arrays = new HashMap<>(); // by machine; 0 is that of load
+  private final Map<Integer, Source> machines = new HashMap<>(); // 0 is that of load
+  private final Map<String, Source> watched = new HashMap<>(); // by the name of the session
   private int height;
 
   /** The groups of a reply, decoded. `words`: those of the request; `raw`: the bytes that followed the reply's line. */
@@ -28,20 +30,23 @@ final class Fields {
       case "observe" -> {
         if (!fields.isEmpty()) {
           chosen = encodings(fields);
-          arrays.clear();
+          machines.clear();
         }
       }
       case "load" -> {
         height = Integer.parseInt(groups.get(0).get("height"));
-        arrays.clear();
+        machines.clear();
       }
-      case "open" -> arrays.keySet().removeIf(machine -> machine > 0);
+      case "open" -> machines.keySet().removeIf(machine -> machine > 0);
       default -> { }
     }
-    Map<String, Encoding> encodings = command.equals("look") && !fields.isEmpty() ? encodings(fields) : chosen;
+    boolean watches = command.equals("watch");
+    List<String> asked = watches ? watchedFields(fields) : fields;
+    Map<String, Encoding> encodings = watches || command.equals("look") && !fields.isEmpty() ? encodings(asked) : chosen;
     Group[] decoded = new Group[groups.size()];
-    for (int machine = 0; machine < decoded.length; ++machine) {
-      decoded[machine] = decode(machine, groups.get(machine), encodings, raw);
+    for (int number = 0; number < decoded.length; ++number) {
+      Source source = watches ? watched(fields.get(0), asked, groups.get(0)) : machine(number);
+      decoded[number] = decode(source, groups.get(number), encodings, raw);
     }
     if (raw.hasRemaining()) {
       throw new IllegalArgumentException(raw.remaining() + " bytes follow the line that belong to no field");
@@ -49,14 +54,31 @@ final class Fields {
     return List.of(decoded);
   }
 
-  private Group decode(int machine, Map<String, String> texts, Map<String, Encoding> encodings, ByteBuffer raw) {
+  /** Of a request {@code watch NAME [since=FRAME] FIELD...}. */
+  private static List<String> watchedFields(List<String> words) {
+    return words.stream().skip(1).filter(word -> word.indexOf('=') < 0).toList();
+  }
+
+  private Source machine(int number) {
+    return machines.computeIfAbsent(number, unused -> new Source(List.of(), height, new HashMap<>()));
+  }
+
+  /** A watched session begins anew with other fields, and with another height. */
+  private Source watched(String name, List<String> fields, Map<String, String> texts) {
+    String told = texts.get("height");
+    int rows = told == null ? height : Integer.parseInt(told);
+    return watched.compute(name, (unused, known) -> known != null && known.fields.equals(fields) && known.height == rows
+        ? known : new Source(fields, rows, new HashMap<>()));
+  }
+
+  private Group decode(Source source, Map<String, String> texts, Map<String, Encoding> encodings, ByteBuffer raw) {
     Map<String, byte[]> bytes = new LinkedHashMap<>();
     texts.entrySet().removeIf(entry -> {
       String field = entry.getKey().startsWith("final_") ? entry.getKey().substring(6) : entry.getKey();
       Encoding encoding = encodings.get(field);
       if (encoding != null) {
         bytes.put(entry.getKey(), switch (encoding) {
-          case DELTA -> changed(machine, field, entry.getValue());
+          case DELTA -> changed(source, field, entry.getValue());
           case RAW -> taken(raw, Integer.parseInt(entry.getValue()));
           default -> encoding.decode(entry.getValue());
         });
@@ -75,23 +97,17 @@ final class Fields {
     return bytes;
   }
 
-  private byte[] changed(int machine, String field, String delta) {
-    byte[] array = arrays.computeIfAbsent(machine, unused -> new HashMap<>()).computeIfAbsent(field, unused -> new byte[size(field)]);
+  private static byte[] changed(Source source, String field, String delta) {
+    byte[] array = source.arrays.computeIfAbsent(field, unused -> new byte[size(field, source.height)]);
     Encoding.applyDelta(array, delta);
     return array.clone();
   }
 
-  private int size(String field) {
+  private static int size(String field, int height) {
     Matcher small = SMALL.matcher(field);
     if (!small.matches()) {
-      return switch (field) {
-        case "ram" -> 128;
-        case "tia" -> 53;
-        case "palette" -> 256 * 3;
-        case "audio" -> 512;
-        case "rgb" -> height * WIDTH * 3;
-        default -> height * WIDTH;
-      };
+      Integer size = FieldTable.SIZES.get(field);
+      return size != null ? size : height * WIDTH * FieldTable.PIXELS.get(field);
     }
     if (small.group(2) == null) {
       return 84 * 84 * (small.group(1) == null ? 1 : Integer.parseInt(small.group(1)));
@@ -108,7 +124,7 @@ final class Fields {
     for (String field : fields) {
       int colon = field.indexOf(':');
       String name = colon < 0 ? field : field.substring(0, colon);
-      Encoding usual = SMALL.matcher(name).matches() ? Encoding.ZLIB : USUAL.get(name);
+      Encoding usual = SMALL.matcher(name).matches() ? Encoding.ZLIB : FieldTable.USUAL.get(name);
       Encoding encoding = colon < 0 ? usual : Encoding.valueOf(field.substring(colon + 1).toUpperCase(Locale.ROOT));
       if (encoding != null) {
         found.put(name, encoding);

@@ -20,9 +20,9 @@ import java.util.stream.Collectors;
  * It throws {@link IOException} if the server has gone, does not answer in time, or sends what is no reply. The session has
  * then ended.
  */
-public final class Session implements AutoCloseable {
-  /** Bytes of requests without a reply. A server that cannot send its replies stops reading, so this must fit in its pipe. */
+public final class Session extends Commands implements AutoCloseable {
   private static final Pattern NOT_SHOWN = Pattern.compile("[^ -~]");
+  /** Bytes of requests without a reply. A server that cannot send its replies stops reading, so this must fit in its pipe. */
   private static final int MOST_AHEAD = 1 << 15;
 
   private record Outcome(Reply reply, RefusedException refusal) {
@@ -60,13 +60,7 @@ public final class Session implements AutoCloseable {
 
   // Requests and replies
 
-  /**
-   * Sends a request, and returns its reply. Replies of requests that were sent ahead stay to be received.
-   *
-   * @param line such as {@code act FIRE}
-   * @return its reply
-   * @throws IOException if the session has ended
-   */
+  @Override
   public synchronized Reply request(String line) throws IOException {
     send(line);
     while (unanswered.size() > 1) {
@@ -182,42 +176,7 @@ public final class Session implements AutoCloseable {
     return request(line).first();
   }
 
-  private static String words(String command, String... words) {
-    return words.length == 0 ? command : command + " " + String.join(" ", words);
-  }
-
-  // Commands
-
-  /**
-   * Name and limits of the server.
-   *
-   * @return what protocol/PROTOCOL.md lists
-   * @throws IOException if the session has ended
-   */
-  public Group hello() throws IOException {
-    return first("hello");
-  }
-
-  /**
-   * The same, with a token.
-   *
-   * @param token that the server requires
-   * @return name and limits of the server
-   * @throws IOException if the session has ended
-   */
-  public Group hello(String token) throws IOException {
-    return first("hello token=" + token);
-  }
-
-  /**
-   * The games whose images the server has.
-   *
-   * @return their names
-   * @throws IOException if the session has ended
-   */
-  public List<String> games() throws IOException {
-    return first("games").list("games");
-  }
+  // Commands that need more than their words
 
   /**
    * One game.
@@ -266,47 +225,6 @@ public final class Session implements AutoCloseable {
   }
 
   /**
-   * The settings in effect.
-   *
-   * @return the settings
-   * @throws IOException if the session has ended
-   */
-  public Group settings() throws IOException {
-    return first("settings");
-  }
-
-  /**
-   * Changes mode or difficulty.
-   *
-   * @param settings mode, difficulty or both
-   * @return both
-   * @throws IOException if the session has ended
-   */
-  public Group set(Map<String, Integer> settings) throws IOException {
-    return first("set" + Racebeam.pairs(settings));
-  }
-
-  /**
-   * The game's modes for one player.
-   *
-   * @return their numbers
-   * @throws IOException if the session has ended
-   */
-  public List<Integer> modes() throws IOException {
-    return first("modes").list("modes").stream().map(Integer::valueOf).toList();
-  }
-
-  /**
-   * The game's difficulties.
-   *
-   * @return their numbers
-   * @throws IOException if the session has ended
-   */
-  public List<Integer> difficulties() throws IOException {
-    return first("difficulties").list("difficulties").stream().map(Integer::valueOf).toList();
-  }
-
-  /**
    * Names for bytes of the fields ram and tia.
    *
    * @return ram_names: pairs of index and name; tia_names: the names in order
@@ -331,28 +249,6 @@ public final class Session implements AutoCloseable {
   }
 
   /**
-   * Chooses what replies carry; without fields, asks what was chosen.
-   *
-   * @param fields such as {@code "reward", "screen:delta"}
-   * @return the fields
-   * @throws IOException if the session has ended
-   */
-  public List<String> observe(String... fields) throws IOException {
-    return first(words("observe", fields)).list("fields");
-  }
-
-  /**
-   * What the machine shows.
-   *
-   * @param fields to show; without, those of {@code observe}
-   * @return the fields
-   * @throws IOException if the session has ended
-   */
-  public Group look(String... fields) throws IOException {
-    return first(words("look", fields));
-  }
-
-  /**
    * The colours of the field screen.
    *
    * @return a palette
@@ -360,17 +256,6 @@ public final class Session implements AutoCloseable {
    */
   public Palette palette() throws IOException {
     return new Palette(look("palette").bytes("palette"));
-  }
-
-  /**
-   * Plays actions until the episode ends.
-   *
-   * @param actions such as {@code "FIRE", "UP*3", "5/LEFT@0.5"}
-   * @return the chosen fields
-   * @throws IOException if the session has ended
-   */
-  public Group act(String... actions) throws IOException {
-    return first(words("act", actions));
   }
 
   /**
@@ -382,27 +267,6 @@ public final class Session implements AutoCloseable {
    */
   public Group act(int action) throws IOException {
     return first("act " + action);
-  }
-
-  /**
-   * Begins an episode; what is random goes on.
-   *
-   * @return the chosen fields
-   * @throws IOException if the session has ended
-   */
-  public Group reset() throws IOException {
-    return first("reset");
-  }
-
-  /**
-   * Powers on anew with a seed.
-   *
-   * @param seed 0 to 4294967295
-   * @return the chosen fields
-   * @throws IOException if the session has ended
-   */
-  public Group reset(long seed) throws IOException {
-    return first("reset seed=" + seed);
   }
 
   /**
@@ -433,16 +297,6 @@ public final class Session implements AutoCloseable {
   }
 
   /**
-   * Keeps the state.
-   *
-   * @param name of the state
-   * @throws IOException if the session has ended
-   */
-  public void save(String name) throws IOException {
-    request("save " + name);
-  }
-
-  /**
    * Keeps the state with the generator of what is random.
    *
    * @param name of the state
@@ -450,37 +304,6 @@ public final class Session implements AutoCloseable {
    */
   public void saveWithRandom(String name) throws IOException {
     request("save " + name + " random=1");
-  }
-
-  /**
-   * Returns to a state.
-   *
-   * @param name of the state
-   * @return the chosen fields
-   * @throws IOException if the session has ended
-   */
-  public Group restore(String name) throws IOException {
-    return first("restore " + name);
-  }
-
-  /**
-   * Forgets states.
-   *
-   * @param names of states, or {@code "all"}
-   * @throws IOException if the session has ended
-   */
-  public void drop(String... names) throws IOException {
-    request(words("drop", names));
-  }
-
-  /**
-   * The states.
-   *
-   * @return their names
-   * @throws IOException if the session has ended
-   */
-  public List<String> states() throws IOException {
-    return first("states").list("states");
   }
 
   /**
@@ -492,6 +315,17 @@ public final class Session implements AutoCloseable {
    */
   public byte[] exportState(String name) throws IOException {
     return Encoding.BASE64.decode(first("export " + name).text("data"));
+  }
+
+  /**
+   * The same, with the score, the progress of the episode and the stack of screens.
+   *
+   * @param name of the state
+   * @return its bytes
+   * @throws IOException if the session has ended
+   */
+  public byte[] exportWhole(String name) throws IOException {
+    return Encoding.BASE64.decode(first("export " + name + " whole=1").text("data"));
   }
 
   /**
@@ -536,29 +370,6 @@ public final class Session implements AutoCloseable {
   }
 
   /**
-   * Opens machines with the game and the settings that are loaded.
-   *
-   * @param count machines
-   * @param settings such as {@code Map.of("autoreset", "same-step")}
-   * @return the chosen fields of each
-   * @throws IOException if the session has ended
-   */
-  public List<Group> open(int count, Map<String, ?> settings) throws IOException {
-    return request("open " + count + Racebeam.pairs(settings)).rest();
-  }
-
-  /**
-   * An action for each machine, or one for all.
-   *
-   * @param actions of the machines
-   * @return the chosen fields of each machine
-   * @throws IOException if the session has ended
-   */
-  public List<Group> step(String... actions) throws IOException {
-    return request(words("step", actions)).rest();
-  }
-
-  /**
    * Actions by their numbers.
    *
    * @param actions one for each machine, or one for all
@@ -567,51 +378,6 @@ public final class Session implements AutoCloseable {
    */
   public List<Group> step(int... actions) throws IOException {
     return step(Arrays.stream(actions).mapToObj(Integer::toString).toArray(String[]::new));
-  }
-
-  /**
-   * Resets machines.
-   *
-   * @param words a mask such as {@code "0110"}, and {@code "seed=N"}; each may be left out
-   * @return the chosen fields of each machine
-   * @throws IOException if the session has ended
-   */
-  public List<Group> restart(String... words) throws IOException {
-    return request(words("restart", words)).rest();
-  }
-
-  /**
-   * Gives the machines of {@link #open} back: the command close.
-   *
-   * @throws IOException if the session has ended
-   */
-  public void closeMachines() throws IOException {
-    request("close");
-  }
-
-  /**
-   * Begins a recording below the server's folder.
-   *
-   * @param kinds such as {@code "y4m,wav"}
-   * @param name of the files
-   * @return what is recorded
-   * @throws IOException if the session has ended
-   */
-  public Group record(String kinds, String name) throws IOException {
-    return first("record " + kinds + " " + name);
-  }
-
-  /**
-   * Begins a recording of a machine of {@link #open}.
-   *
-   * @param kinds such as {@code "y4m,wav"}
-   * @param name of the files
-   * @param machine 0 is the first
-   * @return what is recorded
-   * @throws IOException if the session has ended
-   */
-  public Group record(String kinds, String name, int machine) throws IOException {
-    return first("record " + kinds + " " + name + " machine=" + machine);
   }
 
   /**
@@ -625,16 +391,6 @@ public final class Session implements AutoCloseable {
   }
 
   /**
-   * What this session has done.
-   *
-   * @return counts
-   * @throws IOException if the session has ended
-   */
-  public Group stats() throws IOException {
-    return first("stats");
-  }
-
-  /**
    * Explains a command, setting, field, preset, encoding or error code, for people.
    *
    * @param word to explain, or nothing
@@ -642,15 +398,6 @@ public final class Session implements AutoCloseable {
    * @throws IOException if the session has ended
    */
   public String help(String... word) throws IOException {
-    return request(words("help", word)).line().substring("ok ".length());
-  }
-
-  /**
-   * Ends the session, as the server sees it.
-   *
-   * @throws IOException if the session has ended
-   */
-  public void quit() throws IOException {
-    request("quit");
+    return request("help" + words(word)).line().substring("ok ".length());
   }
 }

@@ -1,0 +1,21 @@
+// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.
+// clang-format off
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "racebeam/client/encoding.hpp"
+
+namespace racebeam::client::detail {
+
+/// What bytes are written in where the client does not say.
+inline constexpr std::array<std::pair<std::string_view, Encoding>, 7> kUsual{{{"ram", Encoding::kHex}, {"tia", Encoding::kHex}, {"screen", Encoding::kRle}, {"rgb", Encoding::kZlib}, {"grey", Encoding::kZlib}, {"palette", Encoding::kHex}, {"audio", Encoding::kHex}}};
+/// Bytes of fields that always have the same number.
+inline constexpr std::array<std::pair<std::string_view, std::size_t>, 4> kSizes{{{"ram", 128}, {"tia", 53}, {"palette", 768}, {"audio", 512}}};
+/// Bytes of a pixel of fields that have the size of the screen.
+inline constexpr std::array<std::pair<std::string_view, std::size_t>, 3> kPixels{{{"screen", 1}, {"rgb", 3}, {"grey", 1}}};
+
+}  // namespace racebeam::client::detail

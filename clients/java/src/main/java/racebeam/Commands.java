@@ -1,0 +1,437 @@
+// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.
+package racebeam;
+
+import java.io.IOException;
+import java.util.List;
+import java.util.Map;
+
+/** The commands whose methods only send their words. */
+public abstract sealed class Commands permits Session {
+  Commands() { }
+
+  /**
+   * Sends a request, and returns its reply. Replies of requests that were sent ahead stay to be received.
+   *
+   * @param line such as {@code act FIRE}
+   * @return its reply
+   * @throws IOException if the session has ended
+   */
+  public abstract Reply request(String line) throws IOException;
+
+  static String words(String... words) {
+    return words.length == 0 ? "" : " " + String.join(" ", words);
+  }
+
+  private static List<Integer> integers(List<String> texts) {
+    return texts.stream().map(Integer::valueOf).toList();
+  }
+
+  /**
+   * The server's name, version and limits.
+   *
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group hello() throws IOException {
+    return request("hello").first();
+  }
+
+  /**
+   * The server's name, version and limits.
+   *
+   * @param token that the server requires
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group hello(String token) throws IOException {
+    return request("hello" + " token=" + token).first();
+  }
+
+  /**
+   * List the games whose image is here, or all known games; or describe one.
+   *
+   * @return the list games of the reply
+   * @throws IOException if the session has ended
+   */
+  public List<String> games() throws IOException {
+    return request("games").first().list("games");
+  }
+
+  /**
+   * List the games whose image is here, or all known games; or describe one.
+   *
+   * @param which all|GAME
+   * @return the list games of the reply
+   * @throws IOException if the session has ended
+   */
+  public List<String> games(String which) throws IOException {
+    return request("games" + " " + which).first().list("games");
+  }
+
+  /**
+   * The settings in effect.
+   *
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group settings() throws IOException {
+    return request("settings").first();
+  }
+
+  /**
+   * Change the mode, from the next reset on, or the difficulty, at once.
+   *
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group set() throws IOException {
+    return request("set").first();
+  }
+
+  /**
+   * Change the mode, from the next reset on, or the difficulty, at once.
+   *
+   * @param settings mode: see modes; difficulty: see difficulties
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group set(Map<String, ?> settings) throws IOException {
+    return request("set" + Racebeam.pairs(settings)).first();
+  }
+
+  /**
+   * The game's modes.
+   *
+   * @return the list modes of the reply
+   * @throws IOException if the session has ended
+   */
+  public List<Integer> modes() throws IOException {
+    return integers(request("modes").first().list("modes"));
+  }
+
+  /**
+   * The game's difficulties.
+   *
+   * @return the list difficulties of the reply
+   * @throws IOException if the session has ended
+   */
+  public List<Integer> difficulties() throws IOException {
+    return integers(request("difficulties").first().list("difficulties"));
+  }
+
+  /**
+   * Select the fields of replies.
+   *
+   * @param fields without them, asks for the selection
+   * @return the list fields of the reply
+   * @throws IOException if the session has ended
+   */
+  public List<String> observe(String... fields) throws IOException {
+    return request("observe" + words(fields)).first().list("fields");
+  }
+
+  /**
+   * Show these fields once; without fields, the selected ones.
+   *
+   * @param fields FIELD[:ENCODING]...
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group look(String... fields) throws IOException {
+    return request("look" + words(fields)).first();
+  }
+
+  /**
+   * Play actions until the episode ends.
+   *
+   * @param actions A[&#64;STRENGTH][/B[&#64;STRENGTH]][*TIMES]...
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group act(String... actions) throws IOException {
+    return request("act" + words(actions)).first();
+  }
+
+  /**
+   * Begin an episode; with a seed, power on anew with it.
+   *
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group reset() throws IOException {
+    return request("reset").first();
+  }
+
+  /**
+   * Begin an episode; with a seed, power on anew with it.
+   *
+   * @param seed powers on anew with it
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group reset(long seed) throws IOException {
+    return request("reset" + " seed=" + seed).first();
+  }
+
+  /**
+   * Save the state; random=1: with the random generator.
+   *
+   * @param name NAME
+   * @throws IOException if the session has ended
+   */
+  public void save(String name) throws IOException {
+    request("save" + " " + name);
+  }
+
+  /**
+   * Save the state; random=1: with the random generator.
+   *
+   * @param name NAME
+   * @param settings random: 1: with the random generator; machine: one of those of open, 0 the first
+   * @throws IOException if the session has ended
+   */
+  public void save(String name, Map<String, ?> settings) throws IOException {
+    request("save" + " " + name + Racebeam.pairs(settings));
+  }
+
+  /**
+   * Restore a saved state.
+   *
+   * @param name NAME
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group restore(String name) throws IOException {
+    return request("restore" + " " + name).first();
+  }
+
+  /**
+   * Restore a saved state.
+   *
+   * @param name NAME
+   * @param machine one of those of open, 0 the first
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group restore(String name, long machine) throws IOException {
+    return request("restore" + " " + name + " machine=" + machine).first();
+  }
+
+  /**
+   * Delete states.
+   *
+   * @param names NAME...|all
+   * @throws IOException if the session has ended
+   */
+  public void drop(String... names) throws IOException {
+    request("drop" + words(names));
+  }
+
+  /**
+   * The names of the states.
+   *
+   * @return the list states of the reply
+   * @throws IOException if the session has ended
+   */
+  public List<String> states() throws IOException {
+    return request("states").first().list("states");
+  }
+
+  /**
+   * Create N machines with the loaded game and settings; their seeds count up.
+   *
+   * @param count N
+   * @return the groups after the first
+   * @throws IOException if the session has ended
+   */
+  public List<Group> open(long count) throws IOException {
+    return request("open" + " " + count).rest();
+  }
+
+  /**
+   * Create N machines with the loaded game and settings; their seeds count up.
+   *
+   * @param count N
+   * @param settings autoreset: what happens at the end of an episode; steps: what a step is; start: how an episode begins; with steps=frames; lives: what a lost life does; with steps=frames; stack: what a stack of screens begins with; with steps=frames; pool: which frames a stack shows; with steps=frames
+   * @return the groups after the first
+   * @throws IOException if the session has ended
+   */
+  public List<Group> open(long count, Map<String, ?> settings) throws IOException {
+    return request("open" + " " + count + Racebeam.pairs(settings)).rest();
+  }
+
+  /**
+   * Play one act on each machine: an action each, or one for all.
+   *
+   * @param actions ACTION...
+   * @return the groups after the first
+   * @throws IOException if the session has ended
+   */
+  public List<Group> step(String... actions) throws IOException {
+    return request("step" + words(actions)).rest();
+  }
+
+  /**
+   * Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
+   *
+   * @return the groups after the first
+   * @throws IOException if the session has ended
+   */
+  public List<Group> restart() throws IOException {
+    return request("restart").rest();
+  }
+
+  /**
+   * Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
+   *
+   * @param seed powers on anew: machine 0 with N, machine 1 with N + 1, and so on
+   * @return the groups after the first
+   * @throws IOException if the session has ended
+   */
+  public List<Group> restart(long seed) throws IOException {
+    return request("restart" + " seed=" + seed).rest();
+  }
+
+  /**
+   * Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
+   *
+   * @param mask MASK
+   * @return the groups after the first
+   * @throws IOException if the session has ended
+   */
+  public List<Group> restart(String mask) throws IOException {
+    return request("restart" + " " + mask).rest();
+  }
+
+  /**
+   * Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
+   *
+   * @param mask MASK
+   * @param seed powers on anew: machine 0 with N, machine 1 with N + 1, and so on
+   * @return the groups after the first
+   * @throws IOException if the session has ended
+   */
+  public List<Group> restart(String mask, long seed) throws IOException {
+    return request("restart" + " " + mask + " seed=" + seed).rest();
+  }
+
+  /**
+   * Close the machines.
+   *
+   * @throws IOException if the session has ended
+   */
+  public void closeMachines() throws IOException {
+    request("close");
+  }
+
+  /**
+   * Record frames, sound or both into the server's folder.
+   *
+   * @param kinds png|gif|y4m|wav|webm|mp4[,...
+   * @param name NAME
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group record(String kinds, String name) throws IOException {
+    return request("record" + " " + kinds + " " + name).first();
+  }
+
+  /**
+   * Record frames, sound or both into the server's folder.
+   *
+   * @param kinds png|gif|y4m|wav|webm|mp4[,...
+   * @param name NAME
+   * @param machine one of those of open, 0 the first
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group record(String kinds, String name, long machine) throws IOException {
+    return request("record" + " " + kinds + " " + name + " machine=" + machine).first();
+  }
+
+  /**
+   * Let other sessions watch the game under this name.
+   *
+   * @param name NAME
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group share(String name) throws IOException {
+    return request("share" + " " + name).first();
+  }
+
+  /**
+   * Let other sessions watch the game under this name.
+   *
+   * @param name NAME
+   * @param watchers how many may watch at the same time
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group share(String name, long watchers) throws IOException {
+    return request("share" + " " + name + " watchers=" + watchers).first();
+  }
+
+  /**
+   * End what share has begun.
+   *
+   * @throws IOException if the session has ended
+   */
+  public void unshare() throws IOException {
+    request("unshare");
+  }
+
+  /**
+   * List the shared sessions.
+   *
+   * @return the groups after the first
+   * @throws IOException if the session has ended
+   */
+  public List<Group> shared() throws IOException {
+    return request("shared").rest();
+  }
+
+  /**
+   * Show a shared session as it was lately.
+   *
+   * @param name NAME
+   * @param fields FIELD[:ENCODING]...
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group watch(String name, String... fields) throws IOException {
+    return request("watch" + " " + name + words(fields)).first();
+  }
+
+  /**
+   * Show a shared session as it was lately.
+   *
+   * @param name NAME
+   * @param since the frame of the last reply; the fields come only if there is a newer one
+   * @param fields FIELD[:ENCODING]...
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group watch(String name, long since, String... fields) throws IOException {
+    return request("watch" + " " + name + " since=" + since + words(fields)).first();
+  }
+
+  /**
+   * Counters of this session.
+   *
+   * @return the first group of the reply
+   * @throws IOException if the session has ended
+   */
+  public Group stats() throws IOException {
+    return request("stats").first();
+  }
+
+  /**
+   * End the session.
+   *
+   * @throws IOException if the session has ended
+   */
+  public void quit() throws IOException {
+    request("quit");
+  }
+}

@@ -1,0 +1,185 @@
+-- Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.
+
+-- The commands whose methods only send their words. `request` is a session's.
+
+local methods = {}
+
+-- The setting of a method that takes one: its value, or a table that has it.
+local function keyed(key, value)
+  return type(value) == "table" and value or value ~= nil and { [key] = value } or ""
+end
+
+local function first(session, ...)
+  return session:request(...)[1]
+end
+
+local function rest(session, ...)
+  local groups = session:request(...)
+  table.remove(groups, 1)
+  return groups
+end
+
+local function nothing(session, ...)
+  session:request(...)
+end
+
+local function list(session, key, ...)
+  local found = {}
+  for part in tostring(first(session, ...)[key]):gmatch("[^,]+") do
+    found[#found + 1] = part
+  end
+  return found
+end
+
+local function ints(session, key, ...)
+  local found = list(session, key, ...)
+  for at, text in ipairs(found) do
+    found[at] = tonumber(text)
+  end
+  return found
+end
+
+-- The server's name, version and limits.
+-- token: that the server requires.
+function methods:hello(token)
+  return first(self, "hello", keyed("token", token))
+end
+
+-- List the games whose image is here, or all known games; or describe one.
+function methods:games(which)
+  return list(self, "games", "games", which or "")
+end
+
+-- The settings in effect.
+function methods:settings()
+  return first(self, "settings")
+end
+
+-- Change the mode, from the next reset on, or the difficulty, at once.
+-- mode: see modes.
+-- difficulty: see difficulties.
+function methods:set(settings)
+  return first(self, "set", settings or "")
+end
+
+-- The game's modes.
+function methods:modes()
+  return ints(self, "modes", "modes")
+end
+
+-- The game's difficulties.
+function methods:difficulties()
+  return ints(self, "difficulties", "difficulties")
+end
+
+-- Select the fields of replies.
+-- fields: without them, asks for the selection.
+function methods:observe(...)
+  return list(self, "fields", "observe", ...)
+end
+
+-- Show these fields once; without fields, the selected ones.
+function methods:look(...)
+  return first(self, "look", ...)
+end
+
+-- Play actions until the episode ends.
+function methods:act(...)
+  return first(self, "act", ...)
+end
+
+-- Begin an episode; with a seed, power on anew with it.
+-- seed: powers on anew with it.
+function methods:reset(seed)
+  return first(self, "reset", keyed("seed", seed))
+end
+
+-- Save the state; random=1: with the random generator.
+-- random: 1: with the random generator.
+-- machine: one of those of open, 0 the first.
+function methods:save(name, settings)
+  nothing(self, "save", name, settings or "")
+end
+
+-- Restore a saved state.
+-- machine: one of those of open, 0 the first.
+function methods:restore(name, machine)
+  return first(self, "restore", name, keyed("machine", machine))
+end
+
+-- Delete states.
+function methods:drop(...)
+  nothing(self, "drop", ...)
+end
+
+-- The names of the states.
+function methods:states()
+  return list(self, "states", "states")
+end
+
+-- Create N machines with the loaded game and settings; their seeds count up.
+-- autoreset: what happens at the end of an episode.
+-- steps: what a step is.
+-- start: how an episode begins; with steps=frames.
+-- lives: what a lost life does; with steps=frames.
+-- stack: what a stack of screens begins with; with steps=frames.
+-- pool: which frames a stack shows; with steps=frames.
+function methods:open(count, settings)
+  return rest(self, "open", count, settings or "")
+end
+
+-- Play one act on each machine: an action each, or one for all.
+function methods:step(...)
+  return rest(self, "step", ...)
+end
+
+-- Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
+-- seed: powers on anew: machine 0 with N, machine 1 with N + 1, and so on.
+function methods:restart(mask, seed)
+  return rest(self, "restart", mask or "", keyed("seed", seed))
+end
+
+-- Close the machines.
+function methods:close_machines()
+  nothing(self, "close")
+end
+
+-- Record frames, sound or both into the server's folder.
+-- machine: one of those of open, 0 the first.
+function methods:record(kinds, name, machine)
+  return first(self, "record", kinds, name, keyed("machine", machine))
+end
+
+-- Let other sessions watch the game under this name.
+-- watchers: how many may watch at the same time.
+function methods:share(name, watchers)
+  return first(self, "share", name, keyed("watchers", watchers))
+end
+
+-- End what share has begun.
+function methods:unshare()
+  nothing(self, "unshare")
+end
+
+-- List the shared sessions.
+function methods:shared()
+  return rest(self, "shared")
+end
+
+-- Show a shared session as it was lately.
+-- since: the frame of the last reply; the fields come only if there is a newer one.
+function methods:watch(name, settings, ...)
+  return first(self, "watch", name, settings or "", ...)
+end
+
+-- Counters of this session.
+function methods:stats()
+  return first(self, "stats")
+end
+
+-- End the session.
+function methods:quit()
+  nothing(self, "quit")
+end
+
+return methods

@@ -1,0 +1,12 @@
+-- Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.
+
+return {
+  -- What bytes are written in where the client does not say.
+  usual = { ram = "hex", tia = "hex", screen = "rle", rgb = "zlib", grey = "zlib", palette = "hex", audio = "hex" },
+  -- Bytes of fields that always have the same number.
+  sizes = { ram = 128, tia = 53, palette = 768, audio = 512 },
+  -- Bytes of a pixel of fields that have the size of the screen.
+  pixels = { screen = 1, rgb = 3, grey = 1 },
+  -- What is true or false: 0 would be true in Lua.
+  flags = { terminated = true, truncated = true, game_over = true, over = true },
+}

@@ -1,0 +1,211 @@
+"""The description of the protocol, protocol/protocol.toml, as objects. A mistake in it raises ValueError."""
+
+import dataclasses
+import math
+import pathlib
+import re
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SOURCE = ROOT / "protocol/protocol.toml"
+
+NEEDS = ("nothing", "admission", "game", "machines")
+TYPES = ("int", "real", "text", "flag", "ints", "texts", "hex", "base64", "rewards", "names")
+SEVERAL = ("fields", "actions", "lists", "settings", "texts")  # types of arguments of several words
+RETURNS = re.compile(r"first|groups|nothing|own|(list|ints) \w+")
+NAME = re.compile(r"[a-z][a-z0-9_]*")
+
+
+@dataclasses.dataclass(frozen=True)
+class Argument:
+    """A word of a request, or a pair KEY=VALUE."""
+
+    type: str
+    word: str = ""
+    key: str = ""
+    text: str = ""
+    choices: dict[str, str] = dataclasses.field(default_factory=dict)
+    optional: bool = False
+    about: str = ""
+
+    @property
+    def name(self):
+        return self.word or self.key
+
+    @property
+    def is_repeated(self):
+        return self.type in SEVERAL
+
+    @property
+    def usage(self):
+        text = self.text or "|".join(self.choices)
+        text = f"{self.key}={text}" if self.key else text
+        return f"[{text}]" if self.optional else text
+
+
+@dataclasses.dataclass(frozen=True)
+class Command:
+    name: str
+    needs: str
+    summary: str
+    returns: str
+    since: str
+    hint: str = ""
+    example: str = ""
+    usage: str = ""
+    method: str = ""
+    shows: str = ""
+    echoes: str = ""
+    least: int = -1
+    most: int | float = -1
+    arguments: tuple[Argument, ...] = ()
+    reply: dict[str, str] = dataclasses.field(default_factory=dict)
+    groups: dict[str, str] = dataclasses.field(default_factory=dict)
+
+    @property
+    def words(self):
+        return [argument for argument in self.arguments if argument.word]
+
+    @property
+    def keys(self):
+        return [argument for argument in self.arguments if argument.key]
+
+
+@dataclasses.dataclass(frozen=True)
+class Setting:
+    name: str
+    type: str
+    accepted: str
+    default: str
+    summary: str
+    since: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Preset:
+    name: str
+    source: str
+    sets: str
+    since: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Field:
+    name: str
+    summary: str
+    since: str
+    type: str = "int"
+    of_request: bool = False
+    shape: tuple[int | str, ...] = ()
+    encoding: str = ""
+
+    @property
+    def is_stack(self):
+        """Whether the size is in the name."""
+        return "N" in self.shape
+
+    @property
+    def fixed_size(self):
+        """The bytes, where they are always the same."""
+        return math.prod(self.shape) if self.shape and all(isinstance(length, int) for length in self.shape) else None
+
+    @property
+    def bytes_of_pixel(self):
+        """Of a field of the size of the screen."""
+        return math.prod(self.shape[2:])
+
+
+@dataclasses.dataclass(frozen=True)
+class Encoding:
+    name: str
+    summary: str
+    since: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Error:
+    code: str
+    meaning: str
+    since: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Protocol:
+    version: int
+    commands: tuple[Command, ...]
+    aliases: dict[str, str]
+    settings: tuple[Setting, ...]
+    presets: tuple[Preset, ...]
+    fields: tuple[Field, ...]
+    encodings: tuple[Encoding, ...]
+    errors: tuple[Error, ...]
+
+    @property
+    def byte_fields(self):
+        """Those whose names are fixed."""
+        return [field for field in self.fields if field.shape and not field.is_stack]
+
+
+def expect(condition, sentence):
+    if not condition:
+        raise ValueError(f"{SOURCE}: {sentence}")
+
+
+def rows(table, kind, document):
+    """The rows of a table of the document, as objects."""
+    known = {field.name for field in dataclasses.fields(kind)}
+    for row in document.get(table, []):
+        unknown = set(row) - known
+        expect(not unknown, f"a {table} has no {', '.join(sorted(unknown))}; it has {', '.join(sorted(known))}")
+        try:
+            yield kind(**{"since": document["since"], **{key: tuple(value) if isinstance(value, list) else value
+                                                          for key, value in row.items()}})
+        except TypeError as error:
+            raise ValueError(f"{SOURCE}: {table} {row.get('name', row.get('code', ''))}: {error}") from None
+
+
+def completed(command):
+    """A command with its arguments as objects, and with what follows from them."""
+    arguments = tuple(Argument(**argument) for argument in command.arguments)
+    required = sum(1 for argument in arguments if not argument.optional)
+    most = math.inf if any(argument.is_repeated for argument in arguments) else len(arguments)
+    return dataclasses.replace(
+        command, arguments=arguments, method=command.method or command.name,
+        usage=command.usage or " ".join(argument.usage for argument in arguments),
+        least=required if command.least < 0 else command.least, most=most if command.most < 0 else command.most)
+
+
+def check(protocol):
+    for command in protocol.commands:
+        where = f"command {command.name}: "
+        expect(NAME.fullmatch(command.name), f"{where}the name has other signs than a to z, 0 to 9 and _")
+        expect(command.needs in NEEDS, f"{where}needs is {command.needs!r}; it is one of {', '.join(NEEDS)}")
+        expect(RETURNS.fullmatch(command.returns), f"{where}returns is {command.returns!r}")
+        expect(command.shows in ("", "first", "groups", "asked"), f"{where}shows is {command.shows!r}")
+        for argument in command.arguments:
+            expect(bool(argument.word) != bool(argument.key), f"{where}an argument has either a word or a key")
+            expect(argument.type in TYPES + SEVERAL, f"{where}the type of {argument.name} is {argument.type!r}")
+        for key, kind in (command.reply | command.groups).items():
+            expect(kind in TYPES, f"{where}the type of the key {key} is {kind!r}; it is one of {', '.join(TYPES)}")
+    encodings = [encoding.name for encoding in protocol.encodings]
+    for field in protocol.fields:
+        expect(bool(field.shape) == bool(field.encoding), f"field {field.name}: a field of bytes has a shape and an encoding")
+        expect(not field.encoding or field.encoding in encodings, f"field {field.name}: there is no encoding {field.encoding!r}")
+    for table in (protocol.commands, protocol.settings, protocol.presets, protocol.fields, protocol.encodings):
+        names = [row.name for row in table]
+        expect(len(set(names)) == len(names), f"a name is there twice: {sorted(name for name in names if names.count(name) > 1)}")
+
+
+def read(path=SOURCE):
+    document = tomllib.loads(path.read_text())
+    protocol = Protocol(
+        version=document["protocol"],
+        commands=tuple(completed(command) for command in rows("command", Command, document)),
+        aliases=document["aliases"],
+        settings=tuple(rows("setting", Setting, document)),
+        presets=tuple(rows("preset", Preset, document)),
+        fields=tuple(rows("field", Field, document)),
+        encodings=tuple(rows("encoding", Encoding, document)),
+        errors=tuple(rows("error", Error, document)))
+    check(protocol)
+    return protocol

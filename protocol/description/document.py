@@ -1,0 +1,56 @@
+"""The tables of protocol/PROTOCOL.md."""
+
+PATH = "protocol/PROTOCOL.md"
+
+
+def code(text):
+    escaped = text.replace("|", "\\|")
+    return f"`{escaped}`"
+
+
+def row(*cells):
+    return "| " + " | ".join(cells) + " |\n"
+
+
+def choices(protocol, command, *keys):
+    """The keys of a command, and the values that they may have, with their meanings."""
+    arguments = next(one.arguments for one in protocol.commands if one.name == command)
+    return [(argument.key, value, meaning) for argument in arguments if argument.key in keys
+            for value, meaning in argument.choices.items()]
+
+
+def autoresets(protocol):
+    rows = [(code(value), meaning) for _, value, meaning in choices(protocol, "open", "autoreset")]
+    return [row(f"{value} (default)" if place == 0 else value, meaning) for place, (value, meaning) in enumerate(rows)]
+
+
+def tables(protocol):
+    """The rows of each table, by the line of its headings."""
+    return {
+        "| command | what it does |": [row(code(f"{command.name} {command.usage}".rstrip()), command.summary)
+                                       for command in protocol.commands],
+        "| setting | values | default | meaning |": [row(code(one.name), one.accepted, one.default, one.summary)
+                                                     for one in protocol.settings],
+        "| preset | sets | source |": [row(code(one.name), code(one.sets), one.source) for one in protocol.presets],
+        "| field | content | encoding |": [row(code(one.name), one.summary, one.encoding) for one in protocol.fields],
+        "| encoding | form |": [row(code(one.name), one.summary) for one in protocol.encodings],
+        "| autoreset | at the end of an episode |": autoresets(protocol),
+        "| key | value | meaning |": [row(code(key), code(value), meaning) for key, value, meaning in choices(
+            protocol, "open", "start", "lives", "stack", "pool")],
+        "| code | meaning |": [row(code(one.code), one.meaning) for one in protocol.errors],
+    }
+
+
+def with_table(text, head, rows):
+    """The document, with the table under this line of headings replaced."""
+    begin = text.index(f"{head}\n|---")
+    first = text.index("\n", begin + len(head) + 1) + 1
+    end = text.find("\n\n", first)
+    return text[:first] + "".join(rows) + (text[end + 1:] if end >= 0 else "")
+
+
+def files(protocol, read):
+    text = read(PATH)
+    for head, rows in tables(protocol).items():
+        text = with_table(text, head, rows)
+    return {PATH: text}

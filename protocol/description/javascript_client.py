@@ -1,0 +1,130 @@
+"""The tables and the methods of the client in JavaScript, and their types for TypeScript."""
+
+from regions import with_region
+
+HEAD = "// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.\n\n"
+FOLDER = "clients/js/src"
+TYPES = {"int": "number", "flag": "0 | 1 | boolean", "text": "string", "fields": "string", "texts": "string", "actions": "Action"}
+RESULTS = {"first": "Group", "groups": "Group[]", "nothing": "void", "list": "string[]", "ints": "number[]"}
+
+
+def camel(name):
+    first, *rest = name.split("_")
+    return first + "".join(part.capitalize() for part in rest)
+
+
+def sentence(text):
+    return text[0].upper() + text[1:] + "."
+
+
+class Signature:
+    """The parameters of a command's method: words, then the settings or the one setting, then what is repeated."""
+
+    def __init__(self, command):
+        self.command = command
+        self.words = [argument for argument in command.words if not argument.is_repeated]
+        self.repeated = next((argument for argument in command.words if argument.is_repeated), None)
+        self.setting = command.keys[0] if len(command.keys) == 1 and not self.repeated else None
+        self.settings = [] if self.setting else command.keys
+
+    def parameters(self):
+        yield from (argument.name for argument in self.words)
+        if self.setting:
+            yield self.setting.name
+        if self.settings:
+            yield "settings = {}"
+        if self.repeated:
+            yield f"...{self.repeated.name}"
+
+    def request(self):
+        """The parts of the request, in its order."""
+        yield f'"{self.command.name}"'
+        told = False
+        for argument in self.command.arguments:
+            if argument.key and self.setting:
+                yield f'keyed("{argument.key}", {argument.name})'
+            elif argument.key and not told:
+                told = True
+                yield "settings"
+            elif argument.is_repeated:
+                yield f"...{argument.name}"
+            elif not argument.key:
+                yield f"{argument.name} ?? []" if argument.optional else argument.name
+
+    def types(self):
+        for argument in self.words:
+            or_settings = " | Settings" * (argument.optional and bool(self.command.keys))
+            yield f"{argument.name}{'?' * argument.optional}: {TYPES[argument.type]}{or_settings}"
+        if self.setting:
+            name, kind = self.setting.name, TYPES[self.setting.type]
+            yield f"{name}?: {kind} | {{ {name}?: {kind} }}"
+        if self.settings:
+            yield f"settings?: {settings_type(self.settings)}"
+        if self.repeated:
+            yield f"...{self.repeated.name}: {TYPES[self.repeated.type]}[]"
+
+
+def settings_type(arguments):
+    keys = [f"{argument.key}?: {typescript(argument)};" for argument in arguments]
+    line = "{ " + " ".join(keys) + " }"
+    return line if len(line) < 80 else "{\n" + "".join(f"    {key}\n" for key in keys) + "  }"
+
+
+def typescript(argument):
+    if argument.choices and argument.type == "text":
+        return " | ".join(f'"{value}"' for value in argument.choices)
+    return TYPES[argument.type]
+
+
+def method(command):
+    kind, _, key = command.returns.partition(" ")
+    signature = Signature(command)
+    request = f"await this.request({', '.join(signature.request())})"
+    body = {"first": f"return ({request})[0];", "groups": f"return ({request}).slice(1);", "nothing": f"{request};",
+            "list": f"return list(({request})[0].{key});", "ints": f"return list(({request})[0].{key}).map(Number);"}[kind]
+    return f"  async {camel(command.method)}({', '.join(signature.parameters())}) {{\n    {body}\n  }}\n"
+
+
+def generated(protocol):
+    return [command for command in protocol.commands if command.returns != "own"]
+
+
+def commands(protocol):
+    methods = "\n".join(method(command) for command in generated(protocol))
+    return (f'{HEAD}import {{ keyed, list }} from "./words.js";\n\n'
+            "/** The commands whose methods only send their words. `request` is a session's. */\n"
+            f"export class Commands {{\n{methods}}}\n")
+
+
+def declaration(command):
+    """The type of a method, and its comment, a line for each parameter that is explained."""
+    kind, _, _ = command.returns.partition(" ")
+    about = [f"{argument.name}: {argument.about}" for argument in command.arguments if argument.about]
+    summary = sentence(command.summary)
+    lines = ["/**", *(f" * {line}" for line in (summary, *about)), " */"] if about else [f"/** {summary} */"]
+    lines.append(f"{camel(command.method)}({', '.join(Signature(command).types())}): Promise<{RESULTS[kind]}>;")
+    return "".join(f"  {line}\n" for line in lines)
+
+
+def entries_of(protocol):
+    """Of the fields of bytes whose names are fixed: usual encodings, sizes, and the bytes of a pixel."""
+    return ([(field.name, f'"{field.encoding}"') for field in protocol.byte_fields],
+            [(field.name, field.fixed_size) for field in protocol.byte_fields if field.fixed_size],
+            [(field.name, field.bytes_of_pixel) for field in protocol.byte_fields if not field.fixed_size])
+
+
+def object_of(pairs):
+    return "{ " + ", ".join(f"{key}: {value}" for key, value in pairs) + " }"
+
+
+def fields(protocol):
+    usual, sizes, pixels = map(object_of, entries_of(protocol))
+    return (f"{HEAD}/** What bytes are written in where the client does not say. */\nexport const USUAL = {usual};\n"
+            f"/** Bytes of fields that always have the same number. */\nexport const SIZES = {sizes};\n"
+            f"/** Bytes of a pixel of fields that have the size of the screen. */\nexport const PIXELS = {pixels};\n")
+
+
+def files(protocol, read):
+    types = f"{FOLDER}/index.d.ts"
+    return {f"{FOLDER}/commands.js": commands(protocol), f"{FOLDER}/field_table.js": fields(protocol),
+            types: with_region(read(types), "  ", "//", "commands", "".join(map(declaration, generated(protocol))))}

@@ -1,0 +1,122 @@
+"""The tables of the program, in C++."""
+
+import math
+
+HEAD = """// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.
+// clang-format off
+"""
+
+
+def quoted(text):
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'
+
+
+def enumerator(name):
+    return "k" + "".join(part.capitalize() for part in name.split("-"))
+
+
+def boolean(value):
+    return "true" if value else "false"
+
+
+def braced(*values):
+    return "    {" + ", ".join(values) + "},\n"
+
+
+def array(kind, name, rows):
+    rows = list(rows)
+    return f"inline constexpr std::array<{kind}, {len(rows)}> {name} = {{{{\n" + "".join(rows) + "}};\n"
+
+
+def error_codes(protocol):
+    codes = "".join(f"  {enumerator(error.code)},\n" for error in protocol.errors)
+    return f"{HEAD}#pragma once\n\nnamespace racebeam {{\n\nenum class ErrorCode {{\n{codes}}};\n\n}}  // namespace racebeam\n"
+
+
+STRUCTS = """#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace racebeam::description {
+
+struct Setting {
+  std::string_view name, accepted, summary;
+};
+
+struct Preset {
+  std::string_view name, words, source;
+};
+
+struct Field {
+  std::string_view name, summary;
+  bool of_request;
+  std::string_view encoding;  // of bytes; empty: a number
+};
+
+struct Choice {  // a value that a key of a command may have
+  std::string_view command, key, value, meaning;
+};
+
+struct Encoding {
+  std::string_view name, summary;
+};
+
+struct Error {
+  std::string_view name, meaning;
+};
+
+// The row of this name. Where there is none, the program does not compile.
+template <typename Rows>
+consteval const auto& row_named(const Rows& rows, std::string_view name) {
+  for (const auto& row : rows)
+    if (row.name == name) return row;
+  throw "there is no row of this name";
+}
+
+// Whether two tables have the same names, in the same order.
+template <typename One, typename Other>
+consteval bool same_names(const One& one, const Other& other) {
+  return std::ranges::equal(one, other, [](const auto& a, const auto& b) { return a.name == b.name; });
+}
+
+"""
+
+
+def tables(protocol):
+    return "\n".join((
+        HEAD + STRUCTS.rstrip("\n") + "\n",
+        array("Setting", "kSettings", (braced(quoted(row.name), quoted(row.accepted), quoted(row.summary)) for row in protocol.settings)),
+        array("Preset", "kPresets", (braced(quoted(row.name), quoted(row.sets), quoted(row.source)) for row in protocol.presets)),
+        array("Field", "kFields", (braced(quoted(row.name), quoted(row.summary), boolean(row.of_request), quoted(row.encoding))
+                                   for row in protocol.fields)),
+        array("Choice", "kChoices", (braced(quoted(command.name), quoted(argument.key), quoted(value), quoted(meaning))
+                                     for command in protocol.commands for argument in command.arguments
+                                     for value, meaning in argument.choices.items())),
+        array("Encoding", "kEncodings", (braced(quoted(row.name), quoted(row.summary)) for row in protocol.encodings)),
+        array("Error", "kErrors", (braced(quoted(row.code), quoted(row.meaning)) for row in protocol.errors)),
+        "}  // namespace racebeam::description\n"))
+
+
+def command_rows(protocol):
+    """For command_table.cpp: the handlers, and the rows that bind them."""
+    handlers = "".join(f"void run_{command.name}(Session&, Words);\n" for command in protocol.commands)
+    rows = "".join(
+        braced(quoted(command.name), quoted(command.usage), quoted(command.summary), quoted(command.hint), quoted(command.example),
+               str(command.least), "kAnyNumber" if command.most == math.inf else str(command.most),
+               f"Needs::{enumerator(command.needs)}", f"run_{command.name}")
+        for command in protocol.commands)
+    aliases = "".join(braced(quoted(name), quoted(command)) for name, command in protocol.aliases.items())
+    return (f"{HEAD}\n{handlers}\n"
+            f"constexpr std::array<Command, {len(protocol.commands)}> kCommands = {{{{\n{rows}}}}};\n\n"
+            f"constexpr std::array<Alias, {len(protocol.aliases)}> kAliases = {{{{\n{aliases}}}}};\n")
+
+
+def files(protocol):
+    return {
+        "protocol/description/error_code.hpp": error_codes(protocol),
+        "protocol/description/tables.hpp": tables(protocol),
+        "protocol/description/command_rows.inc": command_rows(protocol),
+    }

@@ -1,0 +1,155 @@
+// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.
+// clang-format off
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace racebeam::description {
+
+struct Setting {
+  std::string_view name, accepted, summary;
+};
+
+struct Preset {
+  std::string_view name, words, source;
+};
+
+struct Field {
+  std::string_view name, summary;
+  bool of_request;
+  std::string_view encoding;  // of bytes; empty: a number
+};
+
+struct Choice {  // a value that a key of a command may have
+  std::string_view command, key, value, meaning;
+};
+
+struct Encoding {
+  std::string_view name, summary;
+};
+
+struct Error {
+  std::string_view name, meaning;
+};
+
+// The row of this name. Where there is none, the program does not compile.
+template <typename Rows>
+consteval const auto& row_named(const Rows& rows, std::string_view name) {
+  for (const auto& row : rows)
+    if (row.name == name) return row;
+  throw "there is no row of this name";
+}
+
+// Whether two tables have the same names, in the same order.
+template <typename One, typename Other>
+consteval bool same_names(const One& one, const Other& other) {
+  return std::ranges::equal(one, other, [](const auto& a, const auto& b) { return a.name == b.name; });
+}
+
+inline constexpr std::array<Setting, 17> kSettings = {{
+    {"preset", "none or a preset's name", "a set of settings from the literature; other keys override it"},
+    {"seed", "0 to 4294967295", "seed of everything that is random in play; 0: the server chooses one"},
+    {"system_seed", "0 to 4294967295", "seed of the memory's contents at power-on"},
+    {"frame_skip", "1 to 1000, or a range such as 2-4", "frames of an act; with a range, each act draws its number from it"},
+    {"sticky", "0 to 1", "probability that a frame repeats the previous action"},
+    {"mode", "see `modes`", "variation of the game"},
+    {"difficulty", "see `difficulties`", "difficulty switches"},
+    {"max_episode_frames", "0 to 2147483647", "frames after which an episode is truncated; 0: never"},
+    {"life_loss_ends", "0 or 1", "a lost life truncates the episode"},
+    {"noop_max", "0 to 1000", "an episode begins with 0 to noop_max - 1 frames of NOOP, drawn by seed"},
+    {"autoreset", "0 or 1", "an act after the end of an episode does what `reset` does"},
+    {"action_set", "full, legal or minimal", "the actions that `act` accepts"},
+    {"reward_min", "none or a whole number", "an act's reward is clamped to at least this"},
+    {"reward_max", "none or a whole number", "an act's reward is clamped to at most this"},
+    {"rules", "ale-0.12 or fixed", "rules of score and end: those of the reference, or corrected ones"},
+    {"color_averaging", "0 or 1", "blend each screen with the one before it"},
+    {"sound", "0 or 1", "generate the samples of the field audio"},
+}};
+
+inline constexpr std::array<Preset, 4> kPresets = {{
+    {"paper2013", "frame_skip=5 sticky=0 action_set=full max_episode_frames=18000", "Bellemare et al. 2013"},
+    {"dqn2015", "frame_skip=4 sticky=0 action_set=minimal max_episode_frames=18000 life_loss_ends=1 noop_max=30 reward_min=-1 reward_max=1", "Mnih et al. 2015, as in training; evaluate with life_loss_ends=0 and unclamped rewards"},
+    {"machado2018", "frame_skip=5 sticky=0.25 action_set=full max_episode_frames=18000", "Machado et al. 2018"},
+    {"gym-v5", "frame_skip=4 sticky=0.25 action_set=minimal max_episode_frames=108000", "Gymnasium's ALE/...-v5"},
+}};
+
+inline constexpr std::array<Field, 22> kFields = {{
+    {"reward", "sum over the acts of the request; each act's reward is clamped as loaded", true, ""},
+    {"reward_b", "the same for player B", true, ""},
+    {"raw_reward", "the same before clamping", true, ""},
+    {"raw_reward_b", "the same for player B", true, ""},
+    {"terminated", "1: the game is over", true, ""},
+    {"truncated", "1: the episode was cut short, by frames or by a lost life", true, ""},
+    {"game_over", "1: the game itself is over; lost lives and limits do not count", true, ""},
+    {"lives", "remaining lives; 0 in games without lives", false, ""},
+    {"frame", "frames since the game was loaded", false, ""},
+    {"episode_frame", "frames since the episode began", false, ""},
+    {"acts", "acts that were played; fewer than requested if the episode ended", true, ""},
+    {"frames", "frames that the request ran", true, ""},
+    {"ram", "128 bytes", false, "hex"},
+    {"tia", "53 bytes: the registers of the TIA and its collision latches; names has their names", false, "hex"},
+    {"screen", "height x 160 palette indices, row by row", false, "rle"},
+    {"rgb", "height x 160 x 3: red, green, blue", false, "zlib"},
+    {"grey", "height x 160", false, "zlib"},
+    {"grey84", "84 x 84 grey, the brighter of the last two frames; grey84x4: a stack of 4, oldest first", false, "zlib"},
+    {"greyWxHxN", "a stack of N screens, W x H, grey, each the brighter of two frames; grey84x4 is short for grey84x84x4", false, "zlib"},
+    {"rgbWxHxN", "the same in colour: red, green and blue of each pixel", false, "zlib"},
+    {"palette", "256 x 3: red, green, blue of each value of screen", false, "hex"},
+    {"audio", "512 samples of the last act; needs sound=1", false, "hex"},
+}};
+
+inline constexpr std::array<Choice, 17> kChoices = {{
+    {"open", "autoreset", "next-step", "the next step resets the machine and ignores the action: reward 0, both ends 0"},
+    {"open", "autoreset", "same-step", "the step that ends an episode also resets the machine"},
+    {"open", "autoreset", "disabled", "the machine does not change, and `step` answers `over=1`, until `restart` resets it"},
+    {"open", "steps", "acts", "a step is one act, as `act` plays it"},
+    {"open", "steps", "frames", "a step is `frame_skip` frames, as in ALE's vector environment"},
+    {"open", "start", "fire-noops", "an episode begins with a frame of FIRE, if the action set has it, and the no-ops of `noop_max`, less one for FIRE"},
+    {"open", "start", "noops-fire", "as in EnvPool: the no-ops, then FIRE; one no-op more if the set has no FIRE"},
+    {"open", "start", "baselines", "as in Stable-Baselines3: 1 to `noop_max` no-ops, then a step of FIRE and one of the set's next action"},
+    {"open", "start", "noops", "only the no-ops"},
+    {"open", "lives", "ignored", "a lost life has no effect"},
+    {"open", "lives", "told", "the step that loses a life is `terminated`; the episode continues"},
+    {"open", "lives", "end", "a lost life ends the episode; the next one continues with the next life, as in DQN"},
+    {"open", "lives", "restart", "a lost life ends the episode; the next one is a new game"},
+    {"open", "stack", "zeros", "a stack begins with zeros"},
+    {"open", "stack", "repeats", "it begins with copies of the first screen, and is kept when the next life continues the game"},
+    {"open", "pool", "1", "each screen of a stack is the brighter of a step's last two frames"},
+    {"open", "pool", "0", "each screen of a stack is the last frame"},
+}};
+
+inline constexpr std::array<Encoding, 6> kEncodings = {{
+    {"hex", "two digits a byte, upper case"},
+    {"rle", "runs: value and length, two digits each; the length is 01 to FF; runs continue across rows"},
+    {"delta", "records of what changed since the last reply with this field"},
+    {"base64", "RFC 4648, with padding"},
+    {"zlib", "zlib (RFC 1950), then base64"},
+    {"raw", "how many bytes; they follow the line of the reply, as they are"},
+}};
+
+inline constexpr std::array<Error, 20> kErrors = {{
+    {"bad-line", "the line is empty, or has a byte that is not printable ASCII"},
+    {"line-too-long", "the line is longer than `hello` allows"},
+    {"half-line", "the input ended within a line, which was not executed"},
+    {"unknown-command", "there is no such command"},
+    {"bad-arguments", "too few, too many, or no such key or field"},
+    {"bad-value", "a number or a word is not accepted"},
+    {"bad-action", "there is no such action, or it is not in the set that was loaded"},
+    {"unknown-game", "there is no image of that name or MD5"},
+    {"bad-image", "the bytes that were sent are not a cartridge image"},
+    {"no-game", "the command needs a game: `load` first"},
+    {"no-machines", "the command needs machines: `open` first"},
+    {"no-state", "no state of that name was saved"},
+    {"bad-state", "the bytes that were sent are not a state of this game"},
+    {"recording", "recordings are off, one is running, or the files cannot be written"},
+    {"limit", "more than `hello` allows"},
+    {"unauthorized", "this server requires a token: `hello token=TOKEN`"},
+    {"busy", "the server has reached its limit of sessions; it closes this one"},
+    {"idle", "nothing was received or sent for too long; the server closes the session"},
+    {"stopping", "the server is stopping; it closes the session"},
+    {"internal", "an internal error of the server; the request may be partly executed"},
+}};
+
+}  // namespace racebeam::description
