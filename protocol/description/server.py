@@ -114,9 +114,21 @@ def command_rows(protocol):
             f"constexpr std::array<Alias, {len(protocol.aliases)}> kAliases = {{{{\n{aliases}}}}};\n")
 
 
+def keys(types):
+    return quoted(" ".join(f"{key}:{kind}" for key, kind in types.items()))
+
+
+def reply_rows(protocol):
+    """For the tests: what each command answers."""
+    rows = "".join(braced(quoted(command.name), keys(command.reply), keys(command.groups), quoted(command.shows), quoted(command.echoes))
+                   for command in protocol.commands)
+    return f"{HEAD}\ninline constexpr std::array<ReplyRow, {len(protocol.commands)}> kReplies = {{{{\n{rows}}}}};\n"
+
+
 def files(protocol):
     return {
         "protocol/description/error_code.hpp": error_codes(protocol),
         "protocol/description/tables.hpp": tables(protocol),
         "protocol/description/command_rows.inc": command_rows(protocol),
+        "tests/protocol/description/reply_rows.inc": reply_rows(protocol),
     }

@@ -1,7 +1,7 @@
 """Measures the cost of each encoding of the line protocol for a client: bytes of a field, and the time to decode it.
 
 The games are played randomly, with four frames an act. The client in Python
-(clients/python/racebeam/wire/client.py) and one in C++ (tests/protocol/decode_bench.cpp) decode the same texts, and
+(clients/python/racebeam/wire/client.py) and one in C++ (tests/protocol/bench/decode_bench.cpp) decode the same texts, and
 must get the same bytes. Times are processor time, the least of seven rounds. Prints the table of docs/performance.md.
 """
 import argparse
@@ -58,7 +58,7 @@ def in_python(encoding, size, texts):
 
 
 def in_cpp(encoding, size, texts):
-    done = subprocess.run([BUILD / "tests/protocol/decode_bench", encoding, str(size)], input="\n".join(texts) + "\n",
+    done = subprocess.run([BUILD / "tests/protocol/bench/decode_bench", encoding, str(size)], input="\n".join(texts) + "\n",
                           capture_output=True, text=True, check=True)
     microseconds, digest = done.stdout.split()
     return float(microseconds), int(digest)

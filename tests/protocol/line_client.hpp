@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "protocol/line_session.hpp"
+#include "tests/protocol/description/reply_schema.hpp"
 
 namespace racebeam::test {
 
@@ -50,10 +51,12 @@ class LineClient {
     }
   }
 
-  // Sends one request. Returns its reply without LF.
+  // Sends one request. Returns its reply without LF. Throws std::logic_error if protocol.toml describes
+  // another one.
   std::string ask(const std::string& request) {
     std::string answer = say(request + "\n");
     if (!answer.empty()) answer.pop_back();
+    check_reply(request, answer);
     return answer;
   }
 

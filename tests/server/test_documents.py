@@ -3,9 +3,13 @@
 import os
 import re
 import shlex
+import sys
 import unittest
 
 from harness import SOURCE, TRANSPORTS, Session, main, run
+
+sys.path.insert(0, os.path.join(SOURCE, "tests/server/recorded"))
+import replies  # noqa: E402
 
 
 def conversations(path):
@@ -69,7 +73,9 @@ class Documents(unittest.TestCase):
             for line in lines:
                 wire.send(line)
                 if not line.startswith(b"#"):  # a comment, which has no reply
-                    heard += reply(wire)
+                    answer = reply(wire)
+                    replies.check(line.decode(), answer.partition(b"\n")[0].decode())
+                    heard += answer
             wire.stop_sending()
             return heard + wire.rest()
         self.check_lines(in_turn)
