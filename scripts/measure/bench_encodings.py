@@ -58,7 +58,7 @@ def in_python(encoding, size, texts):
 
 
 def in_cpp(encoding, size, texts):
-    done = subprocess.run([BUILD / "tests/protocol/bench/decode_bench", encoding, str(size)], input="\n".join(texts) + "\n",
+    done = subprocess.run([BUILD / "tests/protocol/decode_bench", encoding, str(size)], input="\n".join(texts) + "\n",
                           capture_output=True, text=True, check=True)
     microseconds, digest = done.stdout.split()
     return float(microseconds), int(digest)
