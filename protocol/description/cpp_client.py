@@ -1,6 +1,6 @@
 """The tables and the methods of the client in C++."""
 
-from javascript_client import generated
+from javascript_client import generated, sentence
 from server import HEAD, quoted
 
 FOLDER = "clients/cpp/racebeam/client"
@@ -9,40 +9,99 @@ RESULTS = {"first": ("first", "Group"), "groups": ("rest", "the Group of each"),
            "list": ('list("{key}")', "a list"), "ints": ('numbers("{key}")', "a list of numbers")}
 
 
-def one_key(command):
-    """The key of a command that takes nothing else."""
-    return command.keys[0] if len(command.arguments) == 1 and command.keys else None
+class Shape:
+    """The parameters of a command's method: those that are required, and a pack of all others."""
+
+    def __init__(self, command):
+        self.required = [argument for argument in command.words if not argument.optional and not argument.is_repeated]
+        self.others = [argument for argument in command.arguments if argument not in self.required]
+        # A command that takes one key, and nothing else, has a method with its value instead.
+        self.only_key = self.others[0] if len(self.others) == 1 and self.others[0].key and not self.required else None
+        self.pack = next((argument.name for argument in self.others if argument.is_repeated), "settings" if command.keys else "words")
 
 
-def comment(command, told):
-    lines = [command.summary + (f": {told}" if told else "") + "."]
-    lines += [f"@param {argument.name} {argument.about}" for argument in command.arguments if argument.about and not argument.key]
-    lines += [f'@param words with `Setting("{argument.key}", ...)`: {argument.about}' for argument in command.keys if not one_key(command)]
+def explained(argument):
+    value = f'`Setting("{argument.key}", {argument.text or "VALUE"})`: ' if argument.key else ""
+    return f"{value}{argument.about}"
+
+
+def comment(command, shape, told):
+    lines = [sentence(command.summary) + (f" Returns {told}." if told else "")]
+    lines += [f"@param {argument.name} {argument.about or argument.usage}" for argument in shape.required]
+    if shape.others and not shape.only_key:
+        about = [explained(argument) for argument in shape.others if argument.about]
+        lines.append(f"@param {shape.pack} {'; '.join(about) or ' '.join(argument.usage for argument in shape.others)}")
     return "".join(f"  /// {line}\n" for line in lines)
 
 
 def method(command):
     kind, _, key = command.returns.partition(" ")
     read, told = RESULTS[kind]
-    read = read.replace("{key}", key)
-    required = [argument for argument in command.words if not argument.optional and not argument.is_repeated]
-    parameters = [f"{TYPES[argument.type]} {argument.name}" for argument in required]
-    names = [argument.name for argument in required]
-    head = comment(command, told)
-    if not command.arguments or len(required) == len(command.arguments):
-        return f"{head}  auto {command.method}({', '.join(parameters)}) {{ return ask({', '.join([read, quoted(command.name), *names])}); }}\n"
-    if argument := one_key(command):
-        return (f"{head}  auto {command.method}() {{ return ask({read}, {quoted(command.name)}); }}\n"
-                f"  /// The same. {argument.key}: {argument.about}.\n"
+    shape = Shape(command)
+    head = comment(command, shape, told)
+    called = [read.replace("{key}", key), quoted(command.name), *(argument.name for argument in shape.required)]
+    parameters = [f"{TYPES[argument.type]} {argument.name}" for argument in shape.required]
+    if not shape.others:
+        return f"{head}  auto {command.method}({', '.join(parameters)}) {{ return ask({', '.join(called)}); }}\n"
+    if shape.only_key:
+        argument = shape.only_key
+        return (f"{head}  auto {command.method}() {{ return ask({', '.join(called)}); }}\n"
+                f"  /// The same with {argument.key}: {argument.about}.\n"
                 f"  auto {command.method}({TYPES[argument.type]} {argument.key}) {{\n"
-                f"    return ask({read}, {quoted(command.name)}, Setting({quoted(argument.key)}, {argument.key}));\n  }}\n")
+                f"    return ask({', '.join([*called, f'Setting({quoted(argument.key)}, {argument.key})'])});\n  }}\n")
     return (f"{head}  template <class... Words>\n"
-            f"  auto {command.method}({', '.join([*parameters, 'const Words&... words'])}) {{\n"
-            f"    return ask({', '.join([read, quoted(command.name), *names, 'words...'])});\n  }}\n")
+            f"  auto {command.method}({', '.join([*parameters, f'const Words&... {shape.pack}'])}) {{\n"
+            f"    return ask({', '.join([*called, f'{shape.pack}...'])});\n  }}\n")
+
+
+BEGIN = """#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "racebeam/client/reply.hpp"
+#include "racebeam/client/words.hpp"
+
+namespace racebeam::client {
+
+/// The commands whose methods only send their words. `Derived` sends them.
+template <class Derived>
+class CommandMethods {
+ public:
+"""
+
+END = """
+ protected:
+  CommandMethods() = default;
+
+  template <class Read, class... Words>
+  auto ask(Read read, std::string_view command, const Words&... words) {
+    return static_cast<Derived&>(*this).ask_for(detail::request_line(command, words...), std::move(read));
+  }
+
+  static Group first(const Reply& reply) { return reply.first(); }
+  static std::vector<Group> rest(const Reply& reply) { return reply.rest(); }
+  static auto list(const char* key) {
+    return [key](const Reply& reply) { return reply.first().list(key); };
+  }
+  static auto numbers(const char* key) {
+    return [key](const Reply& reply) {
+      std::vector<int> found;
+      for (const std::string& number : reply.first().list(key)) found.push_back(detail::to_number<int>(number));
+      return found;
+    };
+  }
+};
+
+}  // namespace racebeam::client
+"""
 
 
 def commands(protocol):
-    return "\n".join(method(command) for command in generated(protocol))
+    return HEAD + BEGIN + "\n".join(method(command) for command in generated(protocol)) + END
 
 
 def table(kind, name, pairs):
@@ -69,4 +128,4 @@ def fields(protocol):
 
 
 def files(protocol, read):
-    return {f"{FOLDER}/command_methods.inc": f"{HEAD}\n{commands(protocol)}", f"{FOLDER}/field_table.hpp": fields(protocol)}
+    return {f"{FOLDER}/command_methods.hpp": commands(protocol), f"{FOLDER}/field_table.hpp": fields(protocol)}

@@ -1,4 +1,4 @@
-"""Every client has a method for each command of the protocol."""
+"""Every client has a method for each command of the protocol, and knows each field of bytes."""
 
 import pathlib
 import re
@@ -6,22 +6,27 @@ import sys
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(SOURCE / "tests/server"), str(SOURCE / "clients/conformance")]
+sys.path[:0] = [str(SOURCE / "tests/server"), str(SOURCE / "clients/conformance"), str(SOURCE / "protocol/description")]
 
 import coverage  # noqa: E402
+import description  # noqa: E402
 from harness import BINARY, main  # noqa: E402
 
-# The file of a client, and what its methods look like.
+# The files of a client, and what its methods look like.
 METHODS = {
-    "python": ("python/racebeam/wire/client.py", r"^    def (\w+)\(self"),
-    "java": ("java/src/main/java/racebeam/Session.java", r"^  public [\w<>\[\], ]+ (\w+)\("),
-    "lua": ("lua/racebeam/init.lua", r"^function Session:(\w+)\("),
-    "c++": ("cpp/racebeam/client/commands.hpp", r"^  auto (\w+)\("),
-    "javascript": ("js/src/session.js", r"^  (?:async )?(\w+)\("),
-    "typescript": ("js/src/index.d.ts", r"^  (\w+)\("),
+    "python": (("python/racebeam/wire/client.py",), r"^    def (\w+)\("),
+    "java": (("java/src/main/java/racebeam/Session.java", "java/src/main/java/racebeam/Commands.java"), r"^  public [\w<>\[\], ]+ (\w+)\("),
+    "lua": (("lua/racebeam/init.lua", "lua/racebeam/commands.lua"), r"^function (?:Session|methods):(\w+)\("),
+    "c++": (("cpp/racebeam/client/commands.hpp", "cpp/racebeam/client/command_methods.hpp"), r"^  auto (\w+)\("),
+    "javascript": (("js/src/session.js", "js/src/commands.js"), r"^  (?:async )?(\w+)\("),
+    "typescript": (("js/src/index.d.ts",), r"^  (\w+)\("),
 }
-# Words that languages reserve, and methods that end the session.
-RENAMED = {"export": "export_state", "import": "import_state", "close": "close_machines"}
+TABLES = ("python/racebeam/wire/client.py", "java/src/main/java/racebeam/FieldTable.java", "lua/racebeam/field_table.lua",
+          "cpp/racebeam/client/field_table.hpp", "js/src/field_table.js", "shell/racebeam.bash")
+
+
+def text(path):
+    return (SOURCE / "clients" / path).read_text()
 
 
 def plain(name):
@@ -31,12 +36,16 @@ def plain(name):
 
 class Methods(unittest.TestCase):
     def test_every_command_has_a_method_in_every_client(self):
-        commands = coverage.expected(BINARY)["command"]
-        self.assertGreater(len(commands), 30)
-        for client, (path, pattern) in METHODS.items():
-            methods = {plain(name) for name in re.findall(pattern, (SOURCE / "clients" / path).read_text(), re.MULTILINE)}
-            missing = [name for name in commands if not {plain(name), plain(RENAMED.get(name, name))} & methods]
-            self.assertEqual(missing, [], client)
+        protocol = description.read()
+        self.assertEqual([command.name for command in protocol.commands], coverage.expected(BINARY)["command"])
+        for client, (paths, pattern) in METHODS.items():
+            methods = {plain(name) for path in paths for name in re.findall(pattern, text(path), re.MULTILINE)}
+            self.assertEqual([command.name for command in protocol.commands if plain(command.method) not in methods], [], client)
+
+    def test_every_client_knows_each_field_of_bytes(self):
+        for field in description.read().byte_fields:
+            for path in TABLES:
+                self.assertRegex(text(path), rf"\b{field.name}\b", path)
 
 
 if __name__ == "__main__":

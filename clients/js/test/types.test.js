@@ -13,11 +13,16 @@ test("the exports are declared", () => {
   assert.deepEqual(names(/^export (?:const|function|class) (\w+)/gm, declared), Object.keys(racebeam).sort());
 });
 
+/** The methods of a class and of those that it extends. */
+function methodsOf(prototype) {
+  return prototype === Object.prototype ? [] : [...Object.getOwnPropertyNames(prototype), ...methodsOf(Object.getPrototypeOf(prototype))];
+}
+
 test("the methods are declared", () => {
   for (const name of ["Session", "ScreenStack"]) {
     const body = new RegExp(`^export class ${name} \\{(.*?)^\\}`, "ms").exec(declared)[1];
     const methods = names(/^ {2}(?:readonly )?(\w+)[(:]/gm, body);
-    const own = Object.getOwnPropertyNames(racebeam[name].prototype);
+    const own = methodsOf(racebeam[name].prototype);
     assert.deepEqual(methods.filter((method) => method !== "constructor"), own.filter((method) => method !== "constructor").sort());
   }
 });

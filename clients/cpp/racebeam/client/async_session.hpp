@@ -56,6 +56,7 @@ class AsyncSession : public Commands<AsyncSession> {
 
  private:
   friend class Commands<AsyncSession>;
+  friend class CommandMethods<AsyncSession>;
   friend class Session;
 
   void await_end() noexcept {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "racebeam/client/command_methods.hpp"
 #include "racebeam/client/reply.hpp"
 #include "racebeam/client/screens.hpp"
 #include "racebeam/client/words.hpp"
@@ -22,13 +23,12 @@ namespace racebeam::client {
 /// TimedOut if the server fails; the session has then ended. It throws std::invalid_argument if the request
 /// is a comment or has several lines.
 template <class Derived>
-class Commands {
+class Commands : public CommandMethods<Derived> {
+  using Base = CommandMethods<Derived>;
+  using Base::ask;
+  using Base::first;
+
  public:
-  // Commands whose methods only send their words
-#include "racebeam/client/command_methods.inc"
-
-  // Commands that need more
-
   /// Explains a command, setting, field, preset, encoding or error code to people: std::string.
   template <class... Words>
   auto help(const Words&... topic) {
@@ -120,13 +120,6 @@ class Commands {
   Commands() = default;
 
  private:
-  template <class Read, class... Words>
-  auto ask(Read read, std::string_view command, const Words&... words) {
-    return static_cast<Derived&>(*this).ask_for(detail::request_line(command, words...), std::move(read));
-  }
-
-  static Group first(const Reply& reply) { return reply.first(); }
-  static std::vector<Group> rest(const Reply& reply) { return reply.rest(); }
   static std::vector<Branch> branches(const Reply& reply) {
     std::vector<Branch> found;
     for (Group& group : reply.rest()) {
@@ -134,17 +127,6 @@ class Commands {
       found.push_back({unfold_rewards(group.text("rewards")), unfold_rewards(second), group});
     }
     return found;
-  }
-  static auto list(const char* key) {
-    return [key](const Reply& reply) { return reply.first().list(key); };
-  }
-  static auto numbers(const char* key) {
-    return [key](const Reply& reply) {
-      std::vector<int> found;
-      for (const std::string& number : reply.first().list(key))
-        found.push_back(detail::to_number<int>(number));
-      return found;
-    };
   }
 };
 

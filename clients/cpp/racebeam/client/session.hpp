@@ -43,6 +43,7 @@ class Session : public Commands<Session> {
 
  private:
   friend class Commands<Session>;
+  friend class CommandMethods<Session>;
   friend Session connect(std::string_view address, const Options& options);
   friend Session launch(std::string_view program, const std::vector<std::string>& arguments,
                         const Options& options);
