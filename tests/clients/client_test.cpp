@@ -107,7 +107,16 @@ TEST_CASE("Each command has a method") {
     game.record("png", "pictures", client::Setting("machine", 2));
     CHECK(game.step(std::vector<int>{2, 1, 0}).at(1).number("frame") == 5);
     CHECK(game.restart("010", client::Setting("seed", 4)).size() == 3);
+    game.save("c", client::Setting("machine", 1));
+    CHECK(game.restore("c", client::Setting("machine", 0)).has("frame"));
+    CHECK(game.export_state("c", "whole=1").size() > game.export_state("c").size());
     game.close_machines();
+    CHECK(game.share("room", client::Setting("watchers", 2)).text("share") == "room");
+    CHECK(game.shared().at(0).text("name") == "room");
+    const auto frame = game.watch("room", "screen:delta").number("frame");
+    CHECK(game.watch("room", "screen:delta", "ram").bytes("screen").size() == 33600);
+    CHECK_FALSE(game.watch("room", client::Setting("since", frame), "screen").has("screen"));
+    game.unshare();
     CHECK(game.reset().reward() == 0);
     CHECK_FALSE(game.reset(9).over());
     CHECK(game.stats().number("requests") > 20);

@@ -51,6 +51,9 @@ test("each command has a method", { skip }, async (context) => {
   assert.equal((await game.open(3, { autoreset: "same-step" })).length, 3);
   await game.record("png", "pictures", { machine: 2 });
   assert.deepEqual((await game.step("UP", "FIRE", "NOOP")).map(({ frame }) => frame), [5, 5, 5]);
+  await game.save("c", { machine: 1 });
+  assert.equal((await game.restore("c", 2)).frame, (await game.restore("c", { machine: 0 })).frame);
+  assert.ok((await game.exportState("c", { whole: true })).length > (await game.exportState("c")).length);
   assert.equal((await game.restart("010", { seed: 4 })).length, 3);
   await game.closeMachines();
   assert.equal((await game.reset()).reward, 0);

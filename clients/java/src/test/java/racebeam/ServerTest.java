@@ -68,8 +68,17 @@ class ServerTest {
     session.record("png", "pictures", 2);
     assertEquals(5, session.step("UP", "FIRE", "NOOP").get(2).number("frame"));
     assertEquals(10, session.step(1).get(2).number("frame"));
-    assertEquals(3, session.restart("010", "seed=4").size());
+    session.save("c", Map.of("machine", 1, "random", 1));
+    assertEquals(10, session.restore("c", 2).number("frame"));
+    assertTrue(session.exportWhole("c").length > session.exportState("c").length);
+    assertEquals(3, session.restart("010", 4).size());
     session.closeMachines();
+    assertEquals("room", session.share("room", 2).text("share"));
+    assertEquals("room", session.shared().get(0).text("name"));
+    long frame = session.watch("room", "screen:delta").number("frame");
+    assertEquals(33600, session.watch("room", "screen:delta", "ram").bytes("screen").length);
+    assertFalse(session.watch("room", frame, "screen").has("screen"));
+    session.unshare();
     assertEquals(0, session.reset().reward());
     assertEquals(0, session.reset(9).reward());
     assertTrue(session.stats().number("requests") > 20);
