@@ -4,7 +4,7 @@ from javascript_client import generated, sentence
 from server import HEAD, quoted
 
 FOLDER = "clients/cpp/racebeam/client"
-TYPES = {"int": "std::int64_t", "flag": "bool", "text": "std::string_view"}
+TYPES = {"int": "std::int64_t", "seed": "std::int64_t", "flag": "bool", "text": "std::string_view"}
 RESULTS = {"first": ("first", "Group"), "groups": ("rest", "the Group of each"), "nothing": ("first", ""),
            "list": ('list("{key}")', "a list"), "ints": ('numbers("{key}")', "a list of numbers")}
 

@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "protocol/protocol.toml"
 
 NEEDS = ("nothing", "admission", "game", "machines")
-TYPES = ("int", "real", "text", "flag", "ints", "texts", "hex", "base64", "rewards", "names")
+TYPES = ("int", "seed", "real", "text", "flag", "ints", "texts", "hex", "base64", "rewards", "names")
 SEVERAL = ("fields", "actions", "lists", "settings", "texts")  # types of arguments of several words
 RETURNS = re.compile(r"first|groups|nothing|own|(list|ints) \w+")
 NAME = re.compile(r"[a-z][a-z0-9_]*")

@@ -4,7 +4,7 @@ from javascript_client import camel, generated, sentence
 
 FOLDER = "clients/java/src/main/java/racebeam"
 HEAD = "// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.\npackage racebeam;\n\n"
-TYPES = {"int": "long", "flag": "boolean", "text": "String"}
+TYPES = {"int": "long", "seed": "long", "flag": "boolean", "text": "String"}
 # Type, what is returned, and how the Javadoc calls it.
 RESULTS = {"first": ("Group", "return request(line{}).first();", "the first group of the reply"),
            "groups": ("List<Group>", "return request(line{}).rest();", "the groups after the first"),

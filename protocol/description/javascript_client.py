@@ -4,7 +4,7 @@ from regions import with_region
 
 HEAD = "// Made from protocol/protocol.toml by protocol/description/generate. Do not change it by hand.\n\n"
 FOLDER = "clients/js/src"
-TYPES = {"int": "number", "flag": "0 | 1 | boolean", "text": "string", "fields": "string", "texts": "string", "actions": "Action"}
+TYPES = {"int": "number", "seed": 'number | "random"', "flag": "0 | 1 | boolean", "text": "string", "fields": "string", "texts": "string", "actions": "Action"}
 RESULTS = {"first": "Group", "groups": "Group[]", "nothing": "void", "list": "string[]", "ints": "number[]"}
 
 

@@ -7,7 +7,7 @@ from regions import with_region
 
 PATH = "clients/python/racebeam/wire/client.py"
 WIDTH = 120
-TYPES = {"int": "int", "flag": "bool | int", "text": "str", "fields": "str", "texts": "str", "actions": "object"}
+TYPES = {"int": "int", "seed": "int | str", "flag": "bool | int", "text": "str", "fields": "str", "texts": "str", "actions": "object"}
 RETURNS = {"first": ("Values", "_first"), "groups": ("list[Values]", "_rest"), "nothing": ("None", "ask"),
            "list": ("list[str]", "list_of"), "ints": ("list[int]", "_ints_of")}
 

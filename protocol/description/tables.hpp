@@ -50,7 +50,7 @@ consteval bool same_names(const One& one, const Other& other) {
 
 inline constexpr std::array<Setting, 17> kSettings = {{
     {"preset", "none or a preset's name", "a set of settings from the literature; other keys override it"},
-    {"seed", "0 to 4294967295", "seed of everything that is random in play; 0: the server chooses one"},
+    {"seed", "random, or 0 to 4294967295", "seed of everything that is random in play; random: the server chooses one, as with 0"},
     {"system_seed", "0 to 4294967295", "seed of the memory's contents at power-on"},
     {"frame_skip", "1 to 1000, or a range such as 2-4", "frames of an act; with a range, each act draws its number from it"},
     {"sticky", "0 to 1", "probability that a frame repeats the previous action"},

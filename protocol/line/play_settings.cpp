@@ -1,11 +1,15 @@
 #include "protocol/line/play_settings.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <bitset>
+#include <cerrno>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <system_error>
 
 #include "protocol/description/tables.hpp"
 
@@ -19,6 +23,15 @@ constexpr int kMostFrameSkip = 1000;  // an act is never interrupted
 constexpr int kMostNoops = 1000;
 constexpr std::array<std::string_view, 3> kActionSets = {"full", "legal", "minimal"};
 constexpr std::array<std::string_view, 2> kRules = {"ale-0.12", "fixed"};  // as Rules counts
+
+// Never 0. Not of std::random_device, which needs a C library of 2022 when it is linked statically, as in a
+// wheel.
+std::uint32_t fresh_seed() {
+  std::uint32_t seed = 0;
+  if (getentropy(&seed, sizeof seed) != 0)
+    throw std::system_error(errno, std::generic_category(), "no random seed can be had");
+  return seed | 1U;
+}
 
 int whole(std::string_view value, std::string_view what, std::int64_t least, std::int64_t most) {
   return static_cast<int>(number_within(value, what, least, most));
@@ -201,6 +214,7 @@ void append_settings(std::string& out, const PlaySettings& settings, const Envir
 }
 
 std::uint32_t parse_seed(std::string_view text) {
+  if (text == "random") return fresh_seed();
   return static_cast<std::uint32_t>(number_within(text, "seed", 0, kMostSeed));
 }
 

@@ -117,7 +117,7 @@ export class Session {
    * Begin an episode; with a seed, power on anew with it.
    * seed: powers on anew with it
    */
-  reset(seed?: number | { seed?: number }): Promise<Group>;
+  reset(seed?: number | "random" | { seed?: number | "random" }): Promise<Group>;
   /**
    * Save the state; random=1: with the random generator.
    * random: 1: with the random generator
@@ -156,7 +156,7 @@ export class Session {
    * Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
    * seed: powers on anew: machine 0 with N, machine 1 with N + 1, and so on
    */
-  restart(mask?: string | Settings, seed?: number | { seed?: number }): Promise<Group[]>;
+  restart(mask?: string | Settings, seed?: number | "random" | { seed?: number | "random" }): Promise<Group[]>;
   /** Close the machines. */
   closeMachines(): Promise<void>;
   /**

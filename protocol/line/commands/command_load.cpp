@@ -1,9 +1,5 @@
 // games, load, settings, set, modes, difficulties, actions, names
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <system_error>
 #include <utility>
 
 #include "emulator/tia/registers/register_values.hpp"
@@ -18,15 +14,6 @@ namespace racebeam {
 namespace {
 
 constexpr std::string_view kInline = "inline";
-
-// Never 0. Not of std::random_device, which needs a C library of 2022 when it is linked statically, as in a
-// wheel.
-std::uint32_t fresh_seed() {
-  std::uint32_t seed = 0;
-  if (getentropy(&seed, sizeof seed) != 0)
-    throw std::system_error(errno, std::generic_category(), "no random seed can be had");
-  return seed | 1U;
-}
 
 template <typename Names>
 void append_names(std::string& out, const Names& names) {
@@ -178,7 +165,7 @@ void run_load(Session& session, Words arguments) {
   if (shows_audio(session.fields) && !settings.machine.sound)
     throw RequestError(ErrorCode::kBadArguments,
                        "observe selects audio, which needs sound=1; load with it, or observe other fields");
-  if (settings.machine.random_seed == 0) settings.machine.random_seed = fresh_seed();
+  if (settings.machine.random_seed == 0) settings.machine.random_seed = parse_seed("random");
   // The cache of resets belongs to the process, and would keep the image when the session is gone.
   settings.machine.copy_resets = arguments[0] != kInline;
   Cartridge cartridge = find_cartridge(session, arguments[0], words);

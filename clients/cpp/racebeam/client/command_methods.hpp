@@ -117,7 +117,7 @@ class CommandMethods {
   }
 
   /// Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up. Returns the Group of each.
-  /// @param settings `Setting("seed", N)`: powers on anew: machine 0 with N, machine 1 with N + 1, and so on
+  /// @param settings `Setting("seed", N|random)`: powers on anew: machine 0 with N, machine 1 with N + 1, and so on
   template <class... Words>
   auto restart(const Words&... settings) {
     return ask(rest, "restart", settings...);

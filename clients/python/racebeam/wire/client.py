@@ -936,7 +936,7 @@ class Session:
         """Play actions until the episode ends."""
         return self._first("act", *actions)
 
-    def reset(self, seed: int | None = None) -> Values:
+    def reset(self, seed: int | str | None = None) -> Values:
         """Begin an episode; with a seed, power on anew with it.
 
         Args:
@@ -999,7 +999,7 @@ class Session:
         """Play one act on each machine: an action each, or one for all."""
         return self._rest("step", *actions)
 
-    def restart(self, mask: str | None = None, seed: int | None = None) -> list[Values]:
+    def restart(self, mask: str | None = None, seed: int | str | None = None) -> list[Values]:
         """Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
 
         Args:
