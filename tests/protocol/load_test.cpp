@@ -46,6 +46,28 @@ TEST_CASE("A load that is refused leaves the game before it running") {
   CHECK(client.ask("restore here") == "ok frame=1");
 }
 
+TEST_CASE("A refusal of a setting names the value that was given") {
+  LineClient client;
+  CHECK_THAT(client.ask("load beamfall frame_skip=-1"),
+             StartsWith("error bad-value frame_skip is '-1'; it takes a whole number from 1 to 1000"));
+  CHECK_THAT(client.ask("load beamfall as=space_invaders mode=5"),
+             StartsWith("error bad-value mode 0 of space_invaders could not be set up") &&
+                 Contains("; a machine begins in mode 0, the default, before it takes mode 5"));
+  CHECK_THAT(client.ask("load beamfall as=space_invaders"), !Contains("before it takes"));
+}
+
+TEST_CASE("A random seed is a fresh one, wherever a seed is given") {
+  LineClient client;
+  const std::string first = value(client.ask("load beamfall seed=random"), "seed");
+  CHECK(first != "0");
+  client.ask("reset seed=random");
+  const std::string second = value(client.ask("settings"), "seed");
+  CHECK(second != "0");
+  CHECK(second != first);
+  client.ask("open 2");
+  CHECK(client.ask("restart seed=random").starts_with("ok machines=2 | "));
+}
+
 // The score of tetris is in two bytes that beamfall does not change; the corrected rule knows its wrap.
 TEST_CASE("Corrected rules are a setting, and no state goes from one to the other") {
   LineClient client;

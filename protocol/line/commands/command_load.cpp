@@ -134,6 +134,16 @@ Cartridge find_cartridge(const Session& session, std::string_view name, const Lo
   return cartridge;
 }
 
+// Says why another mode than the wished one was set up: a machine begins in the default mode.
+std::string with_wished_mode(std::string sentence, const PlaySettings& settings, const Cartridge& cartridge) {
+  if (!settings.mode || !cartridge.game) return sentence;
+  const std::string first = std::to_string(cartridge.game->default_mode);
+  if (!sentence.starts_with("mode " + first + " of ") || *settings.mode == cartridge.game->default_mode)
+    return sentence;
+  return sentence + "; a machine begins in mode " + first + ", the default, before it takes mode " +
+         std::to_string(*settings.mode);
+}
+
 void append_loaded(Session& session) {
   const Environment& machine = session.loaded->machine();
   std::string& out = session.out;
@@ -178,7 +188,8 @@ void run_load(Session& session, Words arguments) {
     loaded = std::make_unique<LoadedMachine>(cartridge, settings, session.fields, session.pacer);
   } catch (const InvalidInput& error) {
     const bool sent = arguments[0] == kInline && !settings.mode && !settings.difficulty;
-    throw RequestError(sent ? ErrorCode::kBadImage : ErrorCode::kBadValue, error.what());
+    throw RequestError(sent ? ErrorCode::kBadImage : ErrorCode::kBadValue,
+                       with_wished_mode(error.what(), settings, cartridge));
   }
   session.recording.reset();
   session.machines.close();
