@@ -16,6 +16,16 @@ RETURNS = re.compile(r"first|groups|nothing|own|(list|ints) \w+")
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 
 
+class Row:
+    """What the rows of all tables have: `deprecated` is what to use instead."""
+
+    @property
+    def told(self):
+        """The summary, as `help` and PROTOCOL.md have it."""
+        text = next(getattr(self, name) for name in ("summary", "meaning", "source") if hasattr(self, name))
+        return f"{text}; deprecated: use {self.deprecated}" if self.deprecated else text
+
+
 @dataclasses.dataclass(frozen=True)
 class Argument:
     """A word of a request, or a pair KEY=VALUE."""
@@ -44,7 +54,7 @@ class Argument:
 
 
 @dataclasses.dataclass(frozen=True)
-class Command:
+class Command(Row):
     name: str
     needs: str
     summary: str
@@ -61,6 +71,7 @@ class Command:
     arguments: tuple[Argument, ...] = ()
     reply: dict[str, str] = dataclasses.field(default_factory=dict)
     groups: dict[str, str] = dataclasses.field(default_factory=dict)
+    deprecated: str = ""
 
     @property
     def words(self):
@@ -72,25 +83,27 @@ class Command:
 
 
 @dataclasses.dataclass(frozen=True)
-class Setting:
+class Setting(Row):
     name: str
     type: str
     accepted: str
     default: str
     summary: str
     since: str
+    deprecated: str = ""
 
 
 @dataclasses.dataclass(frozen=True)
-class Preset:
+class Preset(Row):
     name: str
     source: str
     sets: str
     since: str
+    deprecated: str = ""
 
 
 @dataclasses.dataclass(frozen=True)
-class Field:
+class Field(Row):
     name: str
     summary: str
     since: str
@@ -98,6 +111,7 @@ class Field:
     of_request: bool = False
     shape: tuple[int | str, ...] = ()
     encoding: str = ""
+    deprecated: str = ""
 
     @property
     def is_stack(self):
@@ -116,17 +130,19 @@ class Field:
 
 
 @dataclasses.dataclass(frozen=True)
-class Encoding:
+class Encoding(Row):
     name: str
     summary: str
     since: str
+    deprecated: str = ""
 
 
 @dataclasses.dataclass(frozen=True)
-class Error:
+class Error(Row):
     code: str
     meaning: str
     since: str
+    deprecated: str = ""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -156,7 +172,7 @@ def rows(table, kind, document):
     known = {field.name for field in dataclasses.fields(kind)}
     for row in document.get(table, []):
         unknown = set(row) - known
-        expect(not unknown, f"a {table} has no {', '.join(sorted(unknown))}; it has {', '.join(sorted(known))}")
+        expect(not unknown, f"rows of {table} have no {', '.join(sorted(unknown))}; they have {', '.join(sorted(known))}")
         try:
             yield kind(**{"since": document["since"], **{key: tuple(value) if isinstance(value, list) else value
                                                           for key, value in row.items()}})

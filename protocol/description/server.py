@@ -88,15 +88,15 @@ consteval bool same_names(const One& one, const Other& other) {
 def tables(protocol):
     return "\n".join((
         HEAD + STRUCTS.rstrip("\n") + "\n",
-        array("Setting", "kSettings", (braced(quoted(row.name), quoted(row.accepted), quoted(row.summary)) for row in protocol.settings)),
-        array("Preset", "kPresets", (braced(quoted(row.name), quoted(row.sets), quoted(row.source)) for row in protocol.presets)),
-        array("Field", "kFields", (braced(quoted(row.name), quoted(row.summary), boolean(row.of_request), quoted(row.encoding))
+        array("Setting", "kSettings", (braced(quoted(row.name), quoted(row.accepted), quoted(row.told)) for row in protocol.settings)),
+        array("Preset", "kPresets", (braced(quoted(row.name), quoted(row.sets), quoted(row.told)) for row in protocol.presets)),
+        array("Field", "kFields", (braced(quoted(row.name), quoted(row.told), boolean(row.of_request), quoted(row.encoding))
                                    for row in protocol.fields)),
         array("Choice", "kChoices", (braced(quoted(command.name), quoted(argument.key), quoted(value), quoted(meaning))
                                      for command in protocol.commands for argument in command.arguments
                                      for value, meaning in argument.choices.items())),
-        array("Encoding", "kEncodings", (braced(quoted(row.name), quoted(row.summary)) for row in protocol.encodings)),
-        array("Error", "kErrors", (braced(quoted(row.code), quoted(row.meaning)) for row in protocol.errors)),
+        array("Encoding", "kEncodings", (braced(quoted(row.name), quoted(row.told)) for row in protocol.encodings)),
+        array("Error", "kErrors", (braced(quoted(row.code), quoted(row.told)) for row in protocol.errors)),
         "}  // namespace racebeam::description\n"))
 
 
@@ -104,7 +104,7 @@ def command_rows(protocol):
     """For command_table.cpp: the handlers, and the rows that bind them."""
     handlers = "".join(f"void run_{command.name}(Session&, Words);\n" for command in protocol.commands)
     rows = "".join(
-        braced(quoted(command.name), quoted(command.usage), quoted(command.summary), quoted(command.hint), quoted(command.example),
+        braced(quoted(command.name), quoted(command.usage), quoted(command.told), quoted(command.hint), quoted(command.example),
                str(command.least), "kAnyNumber" if command.most == math.inf else str(command.most),
                f"Needs::{enumerator(command.needs)}", f"run_{command.name}")
         for command in protocol.commands)

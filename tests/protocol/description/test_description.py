@@ -1,0 +1,92 @@
+"""From a row of the description come the rows of the program, of the document, and of every client."""
+
+import dataclasses
+import importlib.machinery
+import importlib.util
+import pathlib
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(SOURCE / "protocol/description"))
+import description  # noqa: E402
+import regions  # noqa: E402
+
+loader = importlib.machinery.SourceFileLoader("generate", str(SOURCE / "protocol/description/generate"))
+generate = importlib.util.module_from_spec(importlib.util.spec_from_loader("generate", loader))
+loader.exec_module(generate)
+
+CLIENTS = ("python", "java", "js", "lua", "cpp", "shell")
+
+
+def changed(text):
+    """The files that change when `text` is added to the description, with their new contents."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "protocol.toml"
+        path.write_text(f"{description.SOURCE.read_text()}\n{text}")
+        files = generate.made(description.read(path))
+    return {name: files[name] for name in generate.stale(files)}
+
+
+def folders(files):
+    return {path.split("/")[1] for path in files if path.startswith("clients/")}
+
+
+class Rows(unittest.TestCase):
+    def test_the_description_is_what_the_tree_has(self):
+        self.assertEqual(changed(""), {})
+
+    def test_a_field_of_bytes_reaches_every_client(self):
+        files = changed('[[field]]\nname = "shadow"\nshape = ["height", 160]\nencoding = "delta"\nsummary = "what was"\n')
+        self.assertEqual(folders(files), set(CLIENTS))
+        for path, text in files.items():
+            self.assertIn("shadow", text, path)
+        self.assertIn("| `shadow` | what was | delta |\n", files["protocol/PROTOCOL.md"])
+
+    def test_a_command_has_a_method_in_every_client_with_methods(self):
+        files = changed('[[command]]\nname = "rewind"\nneeds = "game"\nsummary = "go back"\nreturns = "first"\n'
+                        'arguments = [{ word = "count", text = "N", type = "int" }]\n')
+        self.assertEqual(folders(files), set(CLIENTS) - {"shell"})
+        self.assertIn('def rewind(self, count: int) -> Values:', files["clients/python/racebeam/wire/client.py"])
+        self.assertIn('public Group rewind(long count) throws', files["clients/java/src/main/java/racebeam/Commands.java"])
+        self.assertIn("run_rewind},", files["protocol/description/command_rows.inc"])
+
+    def test_a_setting_and_an_error_code_reach_the_program_and_the_document(self):
+        for text in ('[[setting]]\nname = "tint"\ntype = "flag"\naccepted = "0 or 1"\ndefault = "0"\nsummary = "colours"\n',
+                     '[[error]]\ncode = "too-dark"\nmeaning = "nothing is seen"\n'):
+            files = changed(text)
+            self.assertIn("protocol/PROTOCOL.md", files)
+            self.assertIn("protocol/description/tables.hpp", files)
+            self.assertEqual(folders(files), set())
+
+    def test_what_is_deprecated_is_marked(self):
+        files = changed('[[encoding]]\nname = "old"\nsummary = "as before"\ndeprecated = "hex"\n')
+        self.assertIn("| `old` | as before; deprecated: use hex |\n", files["protocol/PROTOCOL.md"])
+        self.assertIn('{"old", "as before; deprecated: use hex"}', files["protocol/description/tables.hpp"])
+
+
+class Mistakes(unittest.TestCase):
+    def test_a_mistake_in_the_description_is_named(self):
+        for text, sentence in (('[[error]]\ncode = "a"\nmeening = "b"\n', "rows of error have no meening; they have code, deprecated, meaning, since"),
+                               ('[[encoding]]\nname = "hex"\nsummary = ""\n', r"a name is there twice: \['hex', 'hex'\]"),
+                               ('[[field]]\nname = "x"\nsummary = ""\nshape = [1]\n', "field x: a field of bytes has a shape and an encoding"),
+                               ('[[command]]\nname = "x"\nneeds = "luck"\nsummary = ""\nreturns = "own"\n', "needs is 'luck'")):
+            with self.assertRaisesRegex(ValueError, sentence):
+                changed(text)
+
+    def test_a_file_without_its_region_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "the file has no region fields"):
+            regions.with_region("nothing\n", "", "#", "fields", "")
+
+
+class Versions(unittest.TestCase):
+    def test_every_row_says_since_when_it_is_there(self):
+        protocol = description.read()
+        for table in (protocol.commands, protocol.settings, protocol.presets, protocol.fields, protocol.encodings, protocol.errors):
+            for row in table:
+                self.assertRegex(dataclasses.asdict(row)["since"], r"^\d+\.\d+\.\d+$")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
