@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A planner in a page: tries each action for a while from where the game is, plays what paid best."""
+
 import argparse
 import pathlib
 import sys
@@ -7,8 +8,8 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "racebeam/wire"))
 from client import Refused, Session  # noqa: E402
 
-DEPTH = 20    # acts that a branch looks ahead
-STEPS = 60    # acts that are played
+DEPTH = 20  # acts that a branch looks ahead
+STEPS = 60  # acts that are played
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("racebeam", help="the program, such as build/release/racebeam")
@@ -17,6 +18,7 @@ if len(sys.argv) == 1:
     parser.print_help(sys.stderr)
     sys.exit(2)
 options = parser.parse_args()
+
 
 def play(session):
     session.load(options.game, seed=1, sticky=0, frame_skip=4)
@@ -31,8 +33,10 @@ def play(session):
         score += shown["reward"]
         if shown["terminated"] or shown["truncated"]:
             break
-    print(f"score {score} after {session.look('episode_frame')['episode_frame']} frames, "
-          f"{session.stats()['frames']} frames run")
+    print(
+        f"score {score} after {session.look('episode_frame')['episode_frame']} frames, "
+        f"{session.stats()['frames']} frames run"
+    )
 
 
 try:

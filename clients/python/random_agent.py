@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Plays one game at random over the classic protocol."""
+
 import argparse
 import random
 import subprocess
@@ -16,10 +17,16 @@ options = parser.parse_args()
 
 generator = random.Random(options.seed)
 try:
-    server = subprocess.Popen([options.racebeam, "serve", "--classic", "--stdio", "--rom", options.rom, "--seed", "1"],
-                              stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    server = subprocess.Popen(
+        [options.racebeam, "serve", "--classic", "--stdio", "--rom", options.rom, "--seed", "1"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
 except OSError as error:
-    sys.exit(f"random_agent.py: cannot start {options.racebeam}: {error.strerror}; it takes the path of the program racebeam")
+    sys.exit(
+        f"random_agent.py: cannot start {options.racebeam}: {error.strerror}; it takes the path of the program racebeam"
+    )
 
 
 def ask(line):
@@ -29,8 +36,8 @@ def ask(line):
 
 size = server.stdout.readline().strip()  # the server speaks first: 160-210
 if not size:
-    sys.exit(server.wait() or 1)         # it has said why
-answer = ask("0,1,0,1")                  # we want: no screen, RAM, (nothing), end and reward
+    sys.exit(server.wait() or 1)  # it has said why
+answer = ask("0,1,0,1")  # we want: no screen, RAM, (nothing), end and reward
 score = frames = 0
 while answer != "DIE\n":
     ram, episode, _ = answer.split(":")  # RAM is bytes.fromhex(ram); an agent would look at it

@@ -2,6 +2,7 @@
 """SARSA(lambda) with Basic features (Bellemare et al. 2013): an agent that learns a game over the line protocol.
 
 It needs NumPy, and Matplotlib for --curve. With the same seeds, it chooses what the agent `basic` of `racebeam experiment` chooses."""
+
 import argparse
 import pathlib
 import sys
@@ -14,11 +15,11 @@ from client import Refused, Session, connect  # noqa: E402
 
 ACTIONS = 18
 WIDTH, HEIGHT, COLOURS = 160, 210, 128
-TILE_WIDTH, TILE_HEIGHT = 10, 15     # pixels; 16 x 14 tiles
-STEP_SIZE = 0.5                      # alpha, divided by the largest number of active features so far
-DISCOUNT, DECAY = 0.999, 0.9         # gamma, lambda
-EXPLORATION = 0.05                   # epsilon, in evaluation too
-LEAST_TRACE = np.float32(0.01)       # smaller traces are dropped
+TILE_WIDTH, TILE_HEIGHT = 10, 15  # pixels; 16 x 14 tiles
+STEP_SIZE = 0.5  # alpha, divided by the largest number of active features so far
+DISCOUNT, DECAY = 0.999, 0.9  # gamma, lambda
+EXPLORATION = 0.05  # epsilon, in evaluation too
+LEAST_TRACE = np.float32(0.01)  # smaller traces are dropped
 
 
 class Random:
@@ -51,13 +52,15 @@ class Basic:
     def __init__(self, background):
         self.background = background
         rows, columns = np.arange(HEIGHT) // TILE_HEIGHT, np.arange(WIDTH) // TILE_WIDTH
-        self.first = ((rows[:, None] * (WIDTH // TILE_WIDTH) + columns) * COLOURS).ravel()  # feature of each pixel's tile
+        self.first = (
+            (rows[:, None] * (WIDTH // TILE_WIDTH) + columns) * COLOURS
+        ).ravel()  # feature of each pixel's tile
 
     def active(self, screen):
         """The features of a screen of palette indices, in ascending order. Rows that are missing are black."""
         colours = np.zeros(WIDTH * HEIGHT, np.uint8)
-        shown = np.frombuffer(screen, np.uint8)[:WIDTH * HEIGHT]
-        colours[:len(shown)] = shown >> 1
+        shown = np.frombuffer(screen, np.uint8)[: WIDTH * HEIGHT]
+        colours[: len(shown)] = shown >> 1
         changed = np.flatnonzero(colours != self.background)
         return np.unique(self.first[changed] + colours[changed])
 
@@ -67,7 +70,10 @@ class Sarsa:
 
     def __init__(self, features, seed):
         self.weights = np.zeros((features, ACTIONS), np.float32)
-        self.traces, self.live = np.zeros(features * ACTIONS, np.float32), np.empty(0, np.intp)  # live: where they are not 0
+        self.traces, self.live = (
+            np.zeros(features * ACTIONS, np.float32),
+            np.empty(0, np.intp),
+        )  # live: where they are not 0
         self.most_active, self.first_reward = 1, 0.0
         self.random, self.learning = Random(seed), True
 
@@ -142,12 +148,13 @@ def play(session, agent, basic, load):
 def draw(path, scores, title):
     """The scores as a picture, and their mean over the last 5 episodes."""
     import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
     episodes = range(1, len(scores) + 1)
     pyplot.figure(figsize=(6, 4))
-    pyplot.plot(episodes, scores, ".", episodes, [np.mean(scores[max(0, end - 5):end]) for end in episodes], "-")
+    pyplot.plot(episodes, scores, ".", episodes, [np.mean(scores[max(0, end - 5) : end]) for end in episodes], "-")
     pyplot.xlabel("episode")
     pyplot.ylabel("score")
     pyplot.title(title)
@@ -159,11 +166,17 @@ def main():
     parser.add_argument("server", help="the program racebeam, or the address of a server, such as tcp://HOST:PORT")
     parser.add_argument("game", nargs="?", default="beamfall", help="(default: %(default)s)")
     parser.add_argument("--training", type=int, default=20, help="episodes (default: %(default)s)")
-    parser.add_argument("--evaluation", type=int, default=0, help="episodes after it, without learning (default: %(default)s)")
+    parser.add_argument(
+        "--evaluation", type=int, default=0, help="episodes after it, without learning (default: %(default)s)"
+    )
     parser.add_argument("--agent-seed", type=int, default=1, help="(default: %(default)s)")
-    parser.add_argument("--seed", type=int, default=1, help="of the first episode; they count up (default: %(default)s)")
+    parser.add_argument(
+        "--seed", type=int, default=1, help="of the first episode; they count up (default: %(default)s)"
+    )
     parser.add_argument("--frames", type=int, default=18000, help="of an episode at most (default: %(default)s)")
-    parser.add_argument("--background", help="a CSV file of 210 lines of 160 colours (racebeam background); without it: black")
+    parser.add_argument(
+        "--background", help="a CSV file of 210 lines of 160 colours (racebeam background); without it: black"
+    )
     parser.add_argument("--actions", action="store_true", help="print the actions of each episode")
     parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores")
     options = parser.parse_args()
@@ -182,12 +195,25 @@ def main():
     with opened as session:
         for episode in range(options.training + options.evaluation):
             agent.learning = episode < options.training
-            score, actions = play(session, agent, basic, {"game": options.game, "preset": "paper2013",
-                                                          "seed": options.seed + episode, "max_episode_frames": options.frames})
+            score, actions = play(
+                session,
+                agent,
+                basic,
+                {
+                    "game": options.game,
+                    "preset": "paper2013",
+                    "seed": options.seed + episode,
+                    "max_episode_frames": options.frames,
+                },
+            )
             decisions += len(actions)
             scores.append(score)
             kind = "training" if agent.learning else "evaluation"
-            print(kind, f"episode {episode + 1}: score {score} in {len(actions)} decisions", *actions if options.actions else [])
+            print(
+                kind,
+                f"episode {episode + 1}: score {score} in {len(actions)} decisions",
+                *actions if options.actions else [],
+            )
     print(f"{decisions / (time.monotonic() - start):.0f} decisions a second", file=sys.stderr)
     if options.curve:
         draw(options.curve, scores, f"SARSA on {options.game}")

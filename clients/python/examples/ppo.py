@@ -6,6 +6,7 @@
 
 A lost life ends an episode for the agent, and the game goes on; rewards are clipped to -1..1, and scores are those of the game.
 With the same seed and processor, it learns the same."""
+
 import argparse
 import functools
 import sys
@@ -16,10 +17,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import optax
-
 import racebeam
 
-DISCOUNT, GAE_DECAY = 0.99, 0.95     # gamma, lambda
+DISCOUNT, GAE_DECAY = 0.99, 0.95  # gamma, lambda
 CLIP, ENTROPY, VALUE = 0.1, 0.01, 0.5
 LONGEST_GRADIENT = 0.5
 CONVOLUTIONS = ((32, 8, 4), (64, 4, 2), (64, 3, 1))  # channels, size and stride, as in DQN
@@ -51,7 +51,11 @@ def network(key, shape, actions):
             height, width, depth = (height - side) // stride + 1, (width - side) // stride + 1, channels
         body.append(layer(next(keys), (height * width * depth, 512), 2**0.5))
         size = 512
-    return {"body": body, "policy": layer(next(keys), (size, actions), 0.01), "value": layer(next(keys), (size, 1), 1.0)}
+    return {
+        "body": body,
+        "policy": layer(next(keys), (size, actions), 0.01),
+        "value": layer(next(keys), (size, 1), 1.0),
+    }
 
 
 def forward(parameters, observations):
@@ -63,7 +67,9 @@ def forward(parameters, observations):
     else:
         seen = observations.transpose(0, 2, 3, 1).astype(jnp.float32) / 255
         for (_, _, stride), one in zip(CONVOLUTIONS, convolutions):
-            seen = jax.lax.conv_general_dilated(seen, one["weights"], (stride, stride), "VALID", dimension_numbers=("NHWC", "HWIO", "NHWC"))
+            seen = jax.lax.conv_general_dilated(
+                seen, one["weights"], (stride, stride), "VALID", dimension_numbers=("NHWC", "HWIO", "NHWC")
+            )
             seen = jax.nn.relu(seen + one["bias"])
         seen = seen.reshape(len(seen), -1)
     seen = jax.nn.relu(dense(last, seen))
@@ -127,8 +133,15 @@ class Player:
 
     def __init__(self, options):
         shown = {"obs_type": "ram"} if options.observe == "ram" else {}
-        self.envs = racebeam.AtariVectorEnv(options.game, options.envs, seed=options.seed, lives="end", autoreset_mode="SameStep",
-                                            server=options.server, **shown)
+        self.envs = racebeam.AtariVectorEnv(
+            options.game,
+            options.envs,
+            seed=options.seed,
+            lives="end",
+            autoreset_mode="SameStep",
+            server=options.server,
+            **shown,
+        )
         self.observations, _ = self.envs.reset()
         self.sums, self.scores, self.seconds = np.zeros(options.envs, np.int64), [], 0.0
 
@@ -159,6 +172,7 @@ class Player:
 def draw(path, points, title):
     """The curve as a picture."""
     import matplotlib
+
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
@@ -175,17 +189,23 @@ def main():
     parser.add_argument("game", nargs="?", default="updraft", help="(default: %(default)s)")
     parser.add_argument("--observe", choices=("ram", "pixels"), default="ram", help="(default: %(default)s)")
     parser.add_argument("--envs", type=int, default=32, help="(default: %(default)s)")
-    parser.add_argument("--steps", type=int, default=128, help="of each environment before each update (default: %(default)s)")
+    parser.add_argument(
+        "--steps", type=int, default=128, help="of each environment before each update (default: %(default)s)"
+    )
     parser.add_argument("--updates", type=int, default=100, help="(default: %(default)s)")
     parser.add_argument("--epochs", type=int, default=4, help="of an update (default: %(default)s)")
     parser.add_argument("--parts", type=int, default=4, help="of an epoch (default: %(default)s)")
-    parser.add_argument("--rate", type=float, default=1e-3, help="of learning, at first; it falls to 0 (default: %(default)s)")
+    parser.add_argument(
+        "--rate", type=float, default=1e-3, help="of learning, at first; it falls to 0 (default: %(default)s)"
+    )
     parser.add_argument("--seed", type=int, default=1, help="(default: %(default)s)")
     parser.add_argument("--server", help="the environments run there, such as unix:PATH")
     parser.add_argument("--curve", metavar="FILE", help="a PNG of the scores")
     options = parser.parse_args()
     if options.envs * options.steps % options.parts:
-        parser.error(f"--parts is {options.parts}, which does not divide the {options.envs * options.steps} steps of an update")
+        parser.error(
+            f"--parts is {options.parts}, which does not divide the {options.envs * options.steps} steps of an update"
+        )
 
     try:
         player = Player(options)
@@ -203,10 +223,15 @@ def main():
         if player.scores:
             points.append((number * options.envs * options.steps, float(np.mean(player.scores[-20:]))))
         if points and (number % 10 == 0 or number == options.updates):
-            print(f"update {number}: {len(player.scores)} games, mean score of the last 20: {points[-1][1]:.1f}", flush=True)
+            print(
+                f"update {number}: {len(player.scores)} games, mean score of the last 20: {points[-1][1]:.1f}",
+                flush=True,
+            )
     seconds = time.perf_counter() - began
-    print(f"{options.updates * options.envs * options.steps / seconds:.0f} steps a second; the environments took "
-          f"{100 * player.seconds / seconds:.0f} % of the time")
+    print(
+        f"{options.updates * options.envs * options.steps / seconds:.0f} steps a second; the environments took "
+        f"{100 * player.seconds / seconds:.0f} % of the time"
+    )
     if options.curve and points:
         draw(options.curve, points, f"PPO on {options.observe} of {options.game}")
 

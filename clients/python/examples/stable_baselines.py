@@ -5,12 +5,12 @@
     python stable_baselines.py breakout
 
 The line that racebeam changes is the one that makes the environments."""
+
 import argparse
 import sys
 
-from stable_baselines3 import PPO
-
 import racebeam.sb3
+from stable_baselines3 import PPO
 
 
 def main():
@@ -28,8 +28,18 @@ def main():
         envs = racebeam.sb3.VecEnv(options.game, options.envs, seed=options.seed)
     except racebeam.InvalidInput as error:
         sys.exit(f"stable_baselines.py: {error}")
-    model = PPO("CnnPolicy", envs, n_steps=options.steps_of_update, batch_size=256, n_epochs=4, learning_rate=2.5e-4, clip_range=0.1,
-                ent_coef=0.01, seed=options.seed, verbose=1)
+    model = PPO(
+        "CnnPolicy",
+        envs,
+        n_steps=options.steps_of_update,
+        batch_size=256,
+        n_epochs=4,
+        learning_rate=2.5e-4,
+        clip_range=0.1,
+        ent_coef=0.01,
+        seed=options.seed,
+        verbose=1,
+    )
     model.learn(options.steps)
     if options.model:
         model.save(options.model)

@@ -16,12 +16,12 @@ import importlib.util
 from typing import TYPE_CHECKING, Any
 
 from ._core import Action, ALEState, LoggerMode
-from .wire.client import Refused, Session, connect, launch
 from .errors import InvalidInput, MissingImage, UnknownGame
 from .images import find as find_image
 from .images import find_all as find_images
 from .images import games
 from .interface import ALEInterface
+from .wire.client import Refused, Session, connect, launch
 
 if TYPE_CHECKING:
     from .env import AtariEnv
@@ -29,8 +29,25 @@ if TYPE_CHECKING:
 
 __version__ = importlib.metadata.version("racebeam")
 
-__all__ = ["ALEInterface", "ALEState", "Action", "AtariEnv", "AtariVectorEnv", "InvalidInput", "LoggerMode", "MissingImage",
-           "Refused", "Session", "UnknownGame", "connect", "find_image", "find_images", "games", "launch", "register_ale_ids"]
+__all__ = [
+    "ALEInterface",
+    "ALEState",
+    "Action",
+    "AtariEnv",
+    "AtariVectorEnv",
+    "InvalidInput",
+    "LoggerMode",
+    "MissingImage",
+    "Refused",
+    "Session",
+    "UnknownGame",
+    "connect",
+    "find_image",
+    "find_images",
+    "games",
+    "launch",
+    "register_ale_ids",
+]
 
 _NEED_GYMNASIUM = {"AtariEnv": ".env", "AtariVectorEnv": ".vector_env"}
 _HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None

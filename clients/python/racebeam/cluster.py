@@ -1,7 +1,7 @@
 """Servers as jobs of a scheduler, by submitit (pip install "racebeam[slurm]").
 
-    with SlurmServers(n=32, image="/shared/atari", slurm_partition="cpu") as addresses:
-        envs = racebeam.AtariVectorEnv("breakout", 1024, server=addresses)
+with SlurmServers(n=32, image="/shared/atari", slurm_partition="cpu") as addresses:
+    envs = racebeam.AtariVectorEnv("breakout", 1024, server=addresses)
 """
 
 from __future__ import annotations
@@ -38,9 +38,18 @@ class SlurmServers:
     Raises ImportError without submitit; InvalidInput for what cannot be.
     """
 
-    def __init__(self, n: int, image: str | os.PathLike[str] | None = None, *, options: Sequence[str] = (),
-                 folder: str | os.PathLike[str] = ".", listen: str = "tcp://0.0.0.0:0", wait: float = 300, executor: Any = None,
-                 **parameters: Any) -> None:
+    def __init__(
+        self,
+        n: int,
+        image: str | os.PathLike[str] | None = None,
+        *,
+        options: Sequence[str] = (),
+        folder: str | os.PathLike[str] = ".",
+        listen: str = "tcp://0.0.0.0:0",
+        wait: float = 300,
+        executor: Any = None,
+        **parameters: Any,
+    ) -> None:
         if not isinstance(n, int) or n < 1:
             raise InvalidInput(f"n is {n!r}; it takes 1 or more servers")
         self._count, self._wait, self._folder = n, wait, pathlib.Path(folder).resolve()
@@ -62,7 +71,9 @@ class SlurmServers:
             raise
         return [f"file:{file}?wait={self._wait:g}" for file in announced]
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self._end()
 
     def _end(self) -> None:

@@ -14,8 +14,20 @@ from gymnasium.utils import seeding
 
 from . import images
 from ._core import Action, ALEState, View
-from .arguments import (MOST, WrongType, WrongValue, check_choice, either, flag, image, listed, real, seconds, share,
-                        whole)
+from .arguments import (
+    MOST,
+    WrongType,
+    WrongValue,
+    check_choice,
+    either,
+    flag,
+    image,
+    listed,
+    real,
+    seconds,
+    share,
+    whole,
+)
 from .errors import InvalidInput
 from .interface import ALEInterface
 from .presets import preset as preset_of
@@ -139,7 +151,9 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self._is_closed = False
         _check_reward_range(self._reward_range)
         sticky = share("repeat_action_probability", either(repeat_action_probability, usual.repeat_action_probability))
-        limit = _optional("max_num_frames_per_episode", either(max_num_frames_per_episode, usual.max_num_frames_per_episode))
+        limit = _optional(
+            "max_num_frames_per_episode", either(max_num_frames_per_episode, usual.max_num_frames_per_episode)
+        )
         life_loss_ends = flag("life_loss_ends", either(life_loss_ends, usual.life_loss_ends))
         is_full = flag("full_action_space", either(full_action_space, usual.full_action_space))
         self._check_game(game)
@@ -191,9 +205,15 @@ class AtariEnv(gymnasium.Env[Any, Any]):
 
     def _mode_for_one(self) -> int | None:
         offered: list[int] = self.ale.getAvailableModes()
-        if self._game_mode is not None and self._game_mode in self.ale.getTwoPlayerModes() and self._game_mode not in offered:
-            raise InvalidInput(f"{self._game} has mode {self._game_mode} for two alone, which two_player=True plays; "
-                               f"for one it offers {listed(offered)}")
+        if (
+            self._game_mode is not None
+            and self._game_mode in self.ale.getTwoPlayerModes()
+            and self._game_mode not in offered
+        ):
+            raise InvalidInput(
+                f"{self._game} has mode {self._game_mode} for two alone, which two_player=True plays; "
+                f"for one it offers {listed(offered)}"
+            )
         return self._game_mode
 
     def _mode_for_two(self) -> int:
@@ -335,8 +355,10 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     def map_action_idx(left_center_right: int, down_center_up: int, fire: bool) -> Action:
         """The action of a stick that is at -1, 0 or 1 from left to right and from down to up."""
         if left_center_right not in SIDES or down_center_up not in HEIGHTS:
-            raise LookupError(f"left_center_right is {left_center_right} and down_center_up is {down_center_up}; "
-                              "each must be -1, 0 or 1")
+            raise LookupError(
+                f"left_center_right is {left_center_right} and down_center_up is {down_center_up}; "
+                "each must be -1, 0 or 1"
+            )
         name = HEIGHTS[down_center_up] + SIDES[left_center_right] + ("FIRE" if flag("fire", fire) else "")
         return Action[name or "NOOP"]
 
@@ -348,7 +370,9 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         """The index of each action by the keys that are held for it: w, a, s, d, space; e for none."""
         if self.continuous or self._two_player:
             setting = "continuous" if self.continuous else "two_player"
-            raise AttributeError(f"`get_keys_to_action` can't be provided for this Atari environment as `{setting}=True`: keys are of one stick")
+            raise AttributeError(
+                f"`get_keys_to_action` can't be provided for this Atari environment as `{setting}=True`: keys are of one stick"
+            )
         return {_keys_of(name): index for index, name in enumerate(self.get_action_meanings())}
 
     # What is seen and told
@@ -373,8 +397,10 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         if self.render_mode == "human":
             return None
         if self.render_mode != "rgb_array":
-            raise error.Error(f"render_mode is {self.render_mode!r}, so render() shows nothing; make the environment "
-                              "with render_mode human or rgb_array")
+            raise error.Error(
+                f"render_mode is {self.render_mode!r}, so render() shows nothing; make the environment "
+                "with render_mode human or rgb_array"
+            )
         picture: Pixels = self.ale.getScreenRGB()
         return picture
 

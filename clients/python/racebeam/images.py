@@ -139,8 +139,10 @@ def find(game: str) -> str:
             if found is not None:
                 return found
             looked.append(f"{named}, {folder} (no file with an MD5 of it)")
-    raise MissingImage(f"no cartridge image of {game} was found; looked in {'; '.join(looked)}. Set RACEBEAM_ROMS to a folder "
-                       "of images, install ale-py, or give rom= a path or bytes")
+    raise MissingImage(
+        f"no cartridge image of {game} was found; looked in {'; '.join(looked)}. Set RACEBEAM_ROMS to a folder "
+        "of images, install ale-py, or give rom= a path or bytes"
+    )
 
 
 def find_all() -> dict[str, str]:

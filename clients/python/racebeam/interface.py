@@ -22,8 +22,12 @@ def png(rgb: np.ndarray[Any, np.dtype[np.uint8]]) -> bytes:
     rows = np.zeros((height, 1 + 3 * width), np.uint8)  # each row begins with its filter: none
     rows[:, 1:] = rgb.reshape(height, -1)
     head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", head) + _chunk(b"IDAT", zlib.compress(rows.tobytes()))
-            + _chunk(b"IEND", b""))
+    return (
+        b"\x89PNG\r\n\x1a\n"
+        + _chunk(b"IHDR", head)
+        + _chunk(b"IDAT", zlib.compress(rows.tobytes()))
+        + _chunk(b"IEND", b"")
+    )
 
 
 class ALEInterface(_core.ALEInterface):
@@ -31,7 +35,8 @@ class ALEInterface(_core.ALEInterface):
 
     def loadROM(self, rom: Any, game: str | None = None) -> None:
         """Powers the machine on. rom: a path, builtin:NAME, or the bytes of an image. game: whose rule it has; None: the
-        image decides."""
+        image decides.
+        """
         super().loadROM(images.given(rom), game)
 
     @staticmethod

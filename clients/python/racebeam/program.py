@@ -16,8 +16,10 @@ def path() -> str:
     installed = _installed()
     found = str(installed) if installed is not None else shutil.which("racebeam")
     if found is None:
-        raise FileNotFoundError("the program racebeam is neither beside this package nor on the PATH; install the package with "
-                                "pip, or set RACEBEAM_PROGRAM to the program")
+        raise FileNotFoundError(
+            "the program racebeam is neither beside this package nor on the PATH; install the package with "
+            "pip, or set RACEBEAM_PROGRAM to the program"
+        )
     return found
 
 

@@ -27,15 +27,26 @@ def rom_id_to_name(rom: str) -> str:
 
 def _register(env_id: str, package: str, has_vectors: bool, **arguments: Any) -> None:
     """Takes the place of another's environment of this id, without a warning: it was asked for. package: where its modules `env` and
-    `vector_env` are. has_vectors: for gymnasium.make_vec(), too."""
+    `vector_env` are. has_vectors: for gymnasium.make_vec(), too.
+    """
     gymnasium.registry.pop(env_id, None)
     vectors = f"{package}.vector_env:AtariVectorEnv" if has_vectors else None
     gymnasium.register(env_id, f"{package}.env:AtariEnv", vector_entry_point=vectors, kwargs=arguments)
 
 
-def _register_as_ale(env_id: str, package: str, has_vectors: bool, game: str, sticky: float, frameskip: int | tuple[int, int]) -> None:
-    _register(env_id, package, has_vectors, game=game, repeat_action_probability=sticky, full_action_space=False, frameskip=frameskip,
-              max_num_frames_per_episode=FRAMES_OF_AN_EPISODE)
+def _register_as_ale(
+    env_id: str, package: str, has_vectors: bool, game: str, sticky: float, frameskip: int | tuple[int, int]
+) -> None:
+    _register(
+        env_id,
+        package,
+        has_vectors,
+        game=game,
+        repeat_action_probability=sticky,
+        full_action_space=False,
+        frameskip=frameskip,
+        max_num_frames_per_episode=FRAMES_OF_AN_EPISODE,
+    )
 
 
 def register_own_ids() -> None:

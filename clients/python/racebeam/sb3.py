@@ -32,8 +32,10 @@ def _check(settings: dict[str, Any]) -> None:
     if autoreset_of(mode) is not AutoresetMode.SAME_STEP:
         raise WrongValue(f"autoreset_mode is {mode!r}; VecEnv takes SameStep")
     if settings.get("lives") == "told":
-        raise WrongValue("lives is 'told', with which an episode goes on after a step that is done; VecEnv takes ignored, "
-                         "end, restart")
+        raise WrongValue(
+            "lives is 'told', with which an episode goes on after a step that is done; VecEnv takes ignored, "
+            "end, restart"
+        )
     if settings.get("batch_size"):
         raise WrongValue(f"batch_size is {settings['batch_size']!r}; VecEnv takes 0, for all environments")
 
@@ -52,7 +54,9 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
     each colour, so that some differ.
     """
 
-    def __init__(self, game: str | Sequence[str], num_envs: int | None = None, *, seed: int | None = None, **settings: Any) -> None:
+    def __init__(
+        self, game: str | Sequence[str], num_envs: int | None = None, *, seed: int | None = None, **settings: Any
+    ) -> None:
         _check(settings)
         self._envs = AtariVectorEnv(game, num_envs, seed=seed, **{**USUAL, **settings})
         self._restarts = settings.get("lives") == "restart"  # each episode is a game
@@ -87,11 +91,20 @@ class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
 
     def _end_of(self, env: int, info: dict[str, Any], is_truncated: bool) -> dict[str, Any]:
         final = info["final_info"]
-        told = {"lives": int(final["lives"][env]), "terminal_observation": info["final_obs"][env], "TimeLimit.truncated": is_truncated}
+        told = {
+            "lives": int(final["lives"][env]),
+            "terminal_observation": info["final_obs"][env],
+            "TimeLimit.truncated": is_truncated,
+        }
         frames = int(final["episode_frame_number"][env])
         # The game may end in the frames before the next life is played, too, and with a lost life at the limit of frames.
-        is_next_game = (self._restarts or is_truncated or info["game_over"][env] or info["lives"][env] > told["lives"]
-                        or info["episode_frame_number"][env] < frames)
+        is_next_game = (
+            self._restarts
+            or is_truncated
+            or info["game_over"][env]
+            or info["lives"][env] > told["lives"]
+            or info["episode_frame_number"][env] < frames
+        )
         if is_next_game:
             told["episode"] = {"r": float(self._returns[env]), "l": frames, "t": round(time.time() - self._began, 6)}
             self._returns[env] = 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 import os
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, Optional, Protocol, SupportsIndex, Union
+from typing import Any, Literal, Protocol, SupportsIndex, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -25,7 +25,7 @@ __all__ = ["AtariVectorEnv"]
 
 Rom = Union[str, os.PathLike[str], bytes]
 Info = dict[str, Any]
-Seeds = Union[SupportsIndex, Sequence[Optional[SupportsIndex]], npt.NDArray[np.integer[Any]]]
+Seeds = Union[SupportsIndex, Sequence[SupportsIndex | None], npt.NDArray[np.integer[Any]]]
 Step = tuple[Pixels, npt.NDArray[np.int32], Bools, Bools, Info]  # observations, rewards, terminated, truncated
 RAM_SIZE, SCREEN_WIDTH = 128, 160
 MOST_ENVS = 10**7  # the memory sets a lower limit
@@ -38,7 +38,9 @@ class Machines(Protocol):
     def step_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, results: Results) -> None: ...
     def send(self, actions: npt.NDArray[np.int64], machines: Numbers) -> None: ...
     def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None: ...
-    def send_strengths(self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers) -> None: ...
+    def send_strengths(
+        self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers
+    ) -> None: ...
     def send_resets(self, seeds: npt.NDArray[np.int64] | None) -> None: ...
     def receive(self, results: Results) -> None: ...
     def reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None: ...
@@ -149,7 +151,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self.continuous = flag("continuous", continuous)
         self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
         self._shows_ram = obs_type == "ram"
-        self._machines: Any = _machines(names, game_of_env, image(rom), settings, server, token, seconds("timeout", timeout))
+        self._machines: Any = _machines(
+            names, game_of_env, image(rom), settings, server, token, seconds("timeout", timeout)
+        )
         self._make_spaces(settings)
         self._received = np.arange(self.num_envs, dtype=np.int32)
         self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
@@ -178,7 +182,11 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     def _make_spaces(self, settings: dict[str, Any]) -> None:
         shape: tuple[int, ...] = (RAM_SIZE,)
         if not self._shows_ram:
-            shape = (settings["stack"], settings["height"] or self._machines.height(), settings["width"] or SCREEN_WIDTH)
+            shape = (
+                settings["stack"],
+                settings["height"] or self._machines.height(),
+                settings["width"] or SCREEN_WIDTH,
+            )
             shape += () if self.grayscale else (3,)
         self.single_observation_space = spaces.Box(0, 255, shape, np.uint8)
         counts = sorted(set(self._machines.numbers_of_actions()))
@@ -188,16 +196,18 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         elif len(counts) == 1:
             self.single_action_space = spaces.Discrete(counts[0])
         else:
-            raise InvalidInput(f"the games have {' and '.join(map(str, counts))} actions; full_action_space=True gives them "
-                               "the same")
+            raise InvalidInput(
+                f"the games have {' and '.join(map(str, counts))} actions; full_action_space=True gives them the same"
+            )
         self.observation_space = batch_space(self.single_observation_space, self.batch_size)
         self.action_space = batch_space(self.single_action_space, self.batch_size)
         self._shape = shape
 
     # Playing
 
-    def reset(self, *, seed: Seeds | None = None, options: dict[str, Any] | None = None,
-              out: Pixels | None = None) -> tuple[Pixels, Info]:
+    def reset(
+        self, *, seed: Seeds | None = None, options: dict[str, Any] | None = None, out: Pixels | None = None
+    ) -> tuple[Pixels, Info]:
         """New episodes. A seed powers the first environment on anew, and the next with one more; of a list or array, each has
         its own, and None or -1 is no seed.
 
@@ -297,7 +307,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             raise InvalidInput(f"the seeds have the shape {seed.shape}; they must have {(count,)}")
         seeds = [-1 if one is None else _seed(one, -1) for one in seed]
         if len(seeds) != count:
-            raise InvalidInput(f"there are {len(seeds)} seeds for {count} environments; give one entry per sub-environment, or one seed")
+            raise InvalidInput(
+                f"there are {len(seeds)} seeds for {count} environments; give one entry per sub-environment, or one seed"
+            )
         return np.array(seeds, np.int64)
 
     def _mask(self, mask: Any) -> Bools | None:
@@ -316,7 +328,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             raise TypeError(f"actions have the type {array.dtype}; they must be integers")
         self._check_shape(array, (), count)
         if array.dtype.kind == "u" and (large := array[array > np.iinfo(np.int64).max]).size:
-            raise IndexError(f"action {large[0]} is out of range; there are 0 to {self._machines.numbers_of_actions()[0] - 1}")
+            raise IndexError(
+                f"action {large[0]} is out of range; there are 0 to {self._machines.numbers_of_actions()[0] - 1}"
+            )
         return np.ascontiguousarray(array, np.int64)
 
     def _joysticks(self, actions: Any) -> npt.NDArray[np.float32]:
@@ -327,7 +341,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         with np.errstate(over="ignore"):
             joysticks = np.ascontiguousarray(array, np.float32)
         if not np.isfinite(joysticks).all():
-            raise InvalidInput(f"a part of the actions is {joysticks[~np.isfinite(joysticks)][0]}, which is not a finite number")
+            raise InvalidInput(
+                f"a part of the actions is {joysticks[~np.isfinite(joysticks)][0]}, which is not a finite number"
+            )
         return joysticks
 
     def _check_shape(self, actions: npt.NDArray[Any], rest: tuple[int, ...], count: int | None = None) -> None:
@@ -390,8 +406,9 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         """The picture of each environment, height x 160 x 3."""
         self._check_open()
         if self.render_mode is None:
-            raise error.Error("render_mode is None, so render() shows nothing; make the environments with "
-                              "render_mode='rgb_array'")
+            raise error.Error(
+                "render_mode is None, so render() shows nothing; make the environments with render_mode='rgb_array'"
+            )
         return tuple(self._machines.screen(env) for env in range(self.num_envs))
 
     def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
@@ -429,8 +446,10 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self._machines.restore(operator.index(env), state)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        raise TypeError(f"{type(self).__name__} has threads, and can be neither pickled nor copied; make another one with the same "
-                        "arguments, and take it to the states that save(env) gives, which can be pickled, by restore(env, state)")
+        raise TypeError(
+            f"{type(self).__name__} has threads, and can be neither pickled nor copied; make another one with the same "
+            "arguments, and take it to the states that save(env) gives, which can be pickled, by restore(env, state)"
+        )
 
     def close_extras(self, **kwargs: Any) -> None:
         """Ends the threads, or the session, and gives the memory back."""
@@ -455,8 +474,15 @@ def _closed() -> error.ClosedEnvironmentError:
     return error.ClosedEnvironmentError("these environments were closed; make new ones")
 
 
-def _machines(names: list[str], game_of_env: Numbers, rom: Rom | None, settings: dict[str, Any], server: str | Sequence[str] | None,
-              token: str | None, timeout: float | None) -> Machines:
+def _machines(
+    names: list[str],
+    game_of_env: Numbers,
+    rom: Rom | None,
+    settings: dict[str, Any],
+    server: str | Sequence[str] | None,
+    token: str | None,
+    timeout: float | None,
+) -> Machines:
     if len(names) > 1 and (rom is not None or server is not None):
         raise WrongValue(f"there are {len(names)} games; rom and server take one")
     if server is not None:

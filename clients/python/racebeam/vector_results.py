@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Optional
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -17,13 +17,13 @@ Bools = npt.NDArray[np.bool_]
 class Results(NamedTuple):
     """Memory that a call fills. Rows of numbers and flags have a value for each environment; the properties name them."""
 
-    observations: Optional[Pixels]  # None: not wanted
-    ram: Optional[Pixels]
+    observations: Pixels | None  # None: not wanted
+    ram: Pixels | None
     numbers: Numbers
     flags: Bools
-    final_observations: Optional[Pixels]  # with SAME_STEP, of the episodes that have ended
-    final_numbers: Optional[Numbers]  # lives, frames, episode_frames
-    played: Optional[Numbers] = None  # elapsed: frames of play in this game; acts: none in a reset; lives_lost: by them
+    final_observations: Pixels | None  # with SAME_STEP, of the episodes that have ended
+    final_numbers: Numbers | None  # lives, frames, episode_frames
+    played: Numbers | None = None  # elapsed: frames of play in this game; acts: none in a reset; lives_lost: by them
 
     @property
     def rewards(self) -> Any:
@@ -70,15 +70,31 @@ class Results(NamedTuple):
 
     def of(self, envs: slice) -> Results:
         """The memory of some environments."""
+
         def some(array: Any, axis: int = 0) -> Any:
             return None if array is None else array[(slice(None),) * axis + (envs,)]
 
-        return Results(some(self.observations), some(self.ram), some(self.numbers, 1), some(self.flags, 1),
-                       some(self.final_observations), some(self.final_numbers, 1), some(self.played, 1))
+        return Results(
+            some(self.observations),
+            some(self.ram),
+            some(self.numbers, 1),
+            some(self.flags, 1),
+            some(self.final_observations),
+            some(self.final_numbers, 1),
+            some(self.played, 1),
+        )
 
     @classmethod
-    def around(cls, observations: Pixels | None, ram: Pixels | None, envs: int, final_observations: Pixels | None) -> Results:
+    def around(
+        cls, observations: Pixels | None, ram: Pixels | None, envs: int, final_observations: Pixels | None
+    ) -> Results:
         """With new numbers and flags."""
         final_numbers = None if final_observations is None else np.empty((3, envs), np.int32)
-        return cls(observations, ram, np.empty((6, envs), np.int32), np.empty((4, envs), np.bool_), final_observations,
-                   final_numbers)
+        return cls(
+            observations,
+            ram,
+            np.empty((6, envs), np.int32),
+            np.empty((4, envs), np.bool_),
+            final_observations,
+            final_numbers,
+        )

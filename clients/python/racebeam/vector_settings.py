@@ -26,12 +26,17 @@ def autoreset_of(mode: object) -> AutoresetMode:
     for one in AutoresetMode:
         if mode is one or (isinstance(mode, str) and mode in (one.name, one.value)):
             return one
-    raise (WrongValue if isinstance(mode, str) else WrongType)(f"autoreset_mode is {mode!r}; it takes {', '.join(one.value for one in AutoresetMode)}")
+    raise (WrongValue if isinstance(mode, str) else WrongType)(
+        f"autoreset_mode is {mode!r}; it takes {', '.join(one.value for one in AutoresetMode)}"
+    )
 
 
 def settings_of(given: Mapping[str, Any], num_envs: int) -> dict[str, Any]:
     """`given`: the arguments of AtariVectorEnv by name."""
-    usual = {**given, **{name: either(given[name], value) for name, value in vector_preset(given["preset"])._asdict().items()}}
+    usual = {
+        **given,
+        **{name: either(given[name], value) for name, value in vector_preset(given["preset"])._asdict().items()},
+    }
     check_choice("obs_type", given["obs_type"], OBS_TYPES)
     check_choice("render_mode", given["render_mode"], (None, "rgb_array"))
     check_choice("rules", given["rules"], tuple(RULES))

@@ -26,7 +26,9 @@ class Window:
         try:
             import pygame
         except ModuleNotFoundError as missing:
-            raise ImportError('render_mode "human" needs pygame; install it with: pip install "racebeam[human]"') from missing
+            raise ImportError(
+                'render_mode "human" needs pygame; install it with: pip install "racebeam[human]"'
+            ) from missing
         self._pygame: Any = pygame
         self._title, self._size = title, (2 * SCALE * width, SCALE * height)
         self._surface()
@@ -44,7 +46,9 @@ class Window:
             surface = display.get_surface()
             return surface if surface and surface.get_size() == self._size else display.set_mode(self._size)
         except self._pygame.error as error:
-            raise InvalidInput(f"render_mode is 'human', which needs a display: {error}; it takes None or 'rgb_array' here") from error
+            raise InvalidInput(
+                f"render_mode is 'human', which needs a display: {error}; it takes None or 'rgb_array' here"
+            ) from error
 
     def _open_sound(self) -> Any:
         """None where the computer has no sound."""

@@ -25,13 +25,23 @@ SEEDS = 2**31 - 1  # the greatest that a custom call takes
 Arrays = Sequence[tuple[tuple[int, ...], Any]]  # a shape and a type each
 
 # After the observations, in the order of bind_xla.cpp.
-RESULTS = {"reward": np.int32, "terminated": np.bool_, "truncated": np.bool_, "env_id": np.int32, "lives": np.int32, "frame_number": np.int32,
-           "episode_frame_number": np.int32, "raw_reward": np.int32, "game_over": np.bool_}
+RESULTS = {
+    "reward": np.int32,
+    "terminated": np.bool_,
+    "truncated": np.bool_,
+    "env_id": np.int32,
+    "lives": np.int32,
+    "frame_number": np.int32,
+    "episode_frame_number": np.int32,
+    "raw_reward": np.int32,
+    "game_over": np.bool_,
+}
 
 
 def functions(envs: AtariVectorEnv, infos: tuple[str, ...]) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
     """A handle, reset and step. `infos`: the keys of the infos. Raises ImportError without JAX, and InvalidInput for
-    environments that cannot be stepped so."""
+    environments that cannot be stepped so.
+    """
     jax = imported()
     if envs.metadata["autoreset_mode"].name == "SAME_STEP":
         raise InvalidInput("autoreset_mode is SAME_STEP; xla() takes NEXT_STEP or DISABLED")
@@ -51,7 +61,8 @@ def functions(envs: AtariVectorEnv, infos: tuple[str, ...]) -> tuple[Any, Callab
     def reset(handle: Any, seed: Any = None, reset_mask: Any = None) -> tuple[Any, tuple[Any, dict[str, Any]]]:
         """New episodes. seed: of the first environment, and the next has one more; or one for each; -1 is none.
         Seeds end at 2**31 - 1; an array of JAX gives their lower 31 bits. reset_mask: which environments; the others
-        are shown. Returns the handle and what is shown."""
+        are shown. Returns the handle and what is shown.
+        """
         seeds = _seeds(-1 if seed is None else seed, count)
         mask = jax.numpy.asarray(np.ones(count, np.bool_) if reset_mask is None else reset_mask)
         if mask.dtype != np.bool_:
@@ -66,7 +77,9 @@ def functions(envs: AtariVectorEnv, infos: tuple[str, ...]) -> tuple[Any, Callab
         if envs.continuous:
             meant = jax.numpy.asarray(actions, np.float32)
             check_shape("actions", meant, (count, 3))
-            handle, observations, results = play("step_joysticks", handle, meant, np.float32(envs.continuous_action_threshold).reshape(1))
+            handle, observations, results = play(
+                "step_joysticks", handle, meant, np.float32(envs.continuous_action_threshold).reshape(1)
+            )
         else:
             meant = whole("actions", actions)
             check_shape("actions", meant, (count,))
@@ -112,7 +125,8 @@ def _register() -> None:
 
 def whole(name: str, values: Any) -> Any:
     """As an array of int32. What is beyond its range becomes the nearest end, which names no action and no environment.
-    Raises TypeError."""
+    Raises TypeError.
+    """
     array = _integers(name, values)
     limits, of_array = np.iinfo(np.int32), np.iinfo(array.dtype)
     return imported().numpy.asarray(array.clip(max(limits.min, of_array.min), min(limits.max, of_array.max)), np.int32)
@@ -130,7 +144,8 @@ def _integers(name: str, values: Any) -> Any:
 
 def _seeds(values: Any, count: int) -> Any:
     """Of each environment, in int32; -1 is none. One seed counts up. Raises InvalidInput for one that is too large, as far
-    as it is known before the program runs."""
+    as it is known before the program runs.
+    """
     array = _integers("seed", values)
     offsets = np.arange(count if array.ndim == 0 else 1, dtype=np.uint32)
     if isinstance(array, np.ndarray):

@@ -28,7 +28,17 @@ def check_game(game: str) -> None:
         raise NoSuchGame(*error.args) from None
 
 
-REFUSING = ("setDifficulty", "setRAM", "setInt", "setBool", "setFloat", "setString", "getScreen", "getScreenRGB", "getScreenGrayscale")
+REFUSING = (
+    "setDifficulty",
+    "setRAM",
+    "setInt",
+    "setBool",
+    "setFloat",
+    "setString",
+    "getScreen",
+    "getScreenRGB",
+    "getScreenGrayscale",
+)
 
 
 def plain_errors(method: Method, kind: type[Exception] = RuntimeError) -> Method:

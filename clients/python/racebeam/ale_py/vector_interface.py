@@ -26,22 +26,59 @@ class ALEVectorInterface:
     Raises ValueError; IndexError for an environment or an action that is not there.
     """
 
-    def __init__(self, rom_path: str | os.PathLike[str], num_envs: int, frame_skip: int = 4, stack_num: int = 4, img_height: int = 84,
-                 img_width: int = 84, grayscale: bool = True, maxpool: bool = True, noop_max: int = 30, use_fire_reset: bool = True,
-                 episodic_life: bool = False, life_loss_info: bool = False, reward_clipping: bool = True,
-                 max_episode_steps: int = 108000, repeat_action_probability: float = 0.0, full_action_space: bool = False,
-                 batch_size: int = 0, num_threads: int = 0, thread_affinity_offset: int = -1, autoreset_mode: str = "NextStep") -> None:
+    def __init__(
+        self,
+        rom_path: str | os.PathLike[str],
+        num_envs: int,
+        frame_skip: int = 4,
+        stack_num: int = 4,
+        img_height: int = 84,
+        img_width: int = 84,
+        grayscale: bool = True,
+        maxpool: bool = True,
+        noop_max: int = 30,
+        use_fire_reset: bool = True,
+        episodic_life: bool = False,
+        life_loss_info: bool = False,
+        reward_clipping: bool = True,
+        max_episode_steps: int = 108000,
+        repeat_action_probability: float = 0.0,
+        full_action_space: bool = False,
+        batch_size: int = 0,
+        num_threads: int = 0,
+        thread_affinity_offset: int = -1,
+        autoreset_mode: str = "NextStep",
+    ) -> None:
         from .vectors import AtariVectorEnv
 
         md5, game = _core.identify(rom_path)
         if game is None:
             raise InvalidInput(f"image {os.fspath(rom_path)} has the MD5 {md5}, which is of no known game")
-        self._use(AtariVectorEnv(
-            game, num_envs, rom=rom_path, frameskip=frame_skip, stack_num=stack_num, img_height=img_height, img_width=img_width,
-            grayscale=grayscale, maxpool=maxpool, noop_max=noop_max, use_fire_reset=use_fire_reset, episodic_life=episodic_life,
-            life_loss_info=life_loss_info, reward_clipping=reward_clipping, max_num_frames_per_episode=max_episode_steps,
-            repeat_action_probability=repeat_action_probability, full_action_space=full_action_space, batch_size=batch_size,
-            num_threads=num_threads, thread_affinity_offset=thread_affinity_offset, autoreset_mode=autoreset_mode))
+        self._use(
+            AtariVectorEnv(
+                game,
+                num_envs,
+                rom=rom_path,
+                frameskip=frame_skip,
+                stack_num=stack_num,
+                img_height=img_height,
+                img_width=img_width,
+                grayscale=grayscale,
+                maxpool=maxpool,
+                noop_max=noop_max,
+                use_fire_reset=use_fire_reset,
+                episodic_life=episodic_life,
+                life_loss_info=life_loss_info,
+                reward_clipping=reward_clipping,
+                max_num_frames_per_episode=max_episode_steps,
+                repeat_action_probability=repeat_action_probability,
+                full_action_space=full_action_space,
+                batch_size=batch_size,
+                num_threads=num_threads,
+                thread_affinity_offset=thread_affinity_offset,
+                autoreset_mode=autoreset_mode,
+            )
+        )
 
     def _use(self, envs: AtariVectorEnv) -> None:
         self._envs = envs

@@ -37,13 +37,17 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
         """The same environments as lists and arrays."""
         return ALEVectorInterface.of(self)
 
-    def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None, out: Any = None) -> tuple[Any, vector_env.Info]:
+    def reset(
+        self, *, seed: Any = None, options: dict[str, Any] | None = None, out: Any = None
+    ) -> tuple[Any, vector_env.Info]:
         return plain_errors(self._reset_as_ale, ValueError)(seed, options, out)
 
     def _reset_as_ale(self, seed: Any, options: dict[str, Any] | None, out: Any) -> tuple[Any, vector_env.Info]:
         mask = self._mask(options.get("reset_mask")) if isinstance(options, dict) else None
         if not (self._was_reset or mask is None or mask.all()):
-            raise RuntimeError(f"reset_mask chooses {mask.sum()} of {self.num_envs}; the first reset() must reset every environment")
+            raise RuntimeError(
+                f"reset_mask chooses {mask.sum()} of {self.num_envs}; the first reset() must reset every environment"
+            )
         shown = super().reset(seed=seed, options=options, out=out)
         self._was_reset = True
         return shown
@@ -85,23 +89,35 @@ class AtariVectorEnv(vector_env.AtariVectorEnv):
         if turned.dtype.kind not in "fiu":
             raise TypeError(f"paddle strengths have the type {turned.dtype}; they must be numbers")
         self._check_shape(turned, ())
-        self.machines().send_strengths(vector_env.AtariVectorEnv._indices(self, actions), turned.astype(np.float32), self._ready())
+        self.machines().send_strengths(
+            vector_env.AtariVectorEnv._indices(self, actions), turned.astype(np.float32), self._ready()
+        )
 
     def _indices(self, actions: Any, count: int | None = None) -> npt.NDArray[np.int64]:
-        assert isinstance(actions, np.ndarray) and actions.dtype in (np.int32, np.int64), \
+        assert isinstance(actions, np.ndarray) and actions.dtype in (np.int32, np.int64), (
             f"actions are {actions!r}; they must be an array of int32 or int64"
-        assert actions.shape == (self.batch_size,), f"actions have the shape {actions.shape}; they must have {(self.batch_size,)}"
+        )
+        assert actions.shape == (self.batch_size,), (
+            f"actions have the shape {actions.shape}; they must have {(self.batch_size,)}"
+        )
         return super()._indices(actions, count)
 
     def _joysticks(self, actions: Any) -> npt.NDArray[np.float32]:
-        assert isinstance(actions, np.ndarray) and actions.dtype == np.float32, \
+        assert isinstance(actions, np.ndarray) and actions.dtype == np.float32, (
             f"actions are {actions!r}; they must be an array of float32"
-        assert actions.shape == (self.batch_size, 3), f"actions have the shape {actions.shape}; they must have {(self.batch_size, 3)}"
+        )
+        assert actions.shape == (self.batch_size, 3), (
+            f"actions have the shape {actions.shape}; they must have {(self.batch_size, 3)}"
+        )
         return super()._joysticks(actions)
 
     def _info(self, results: Results) -> vector_env.Info:
-        return {"env_id": results.env_id, "lives": results.lives, "frame_number": results.frames,
-                "episode_frame_number": results.episode_frames}
+        return {
+            "env_id": results.env_id,
+            "lives": results.lives,
+            "frame_number": results.frames,
+            "episode_frame_number": results.episode_frames,
+        }
 
     def _add_finals(self, info: vector_env.Info, observations: Any, results: Results) -> None:
         """One array of all environments. Where no episode ended, it has the present observation."""

@@ -30,5 +30,18 @@ from racebeam.envpool.spec import EnvSpec, InvalidSetting
 
 __version__ = "1.2.5"
 
-__all__ = ["make", "make_dm", "make_gym", "make_gymnasium", "make_spec", "list_all_envs", "EnvSpec", "EnvPool", "DMEnvPool", "GymnasiumEnvPool",
-           "GymEnvPool", "InvalidSetting", "TimeStep"]
+__all__ = [
+    "make",
+    "make_dm",
+    "make_gym",
+    "make_gymnasium",
+    "make_spec",
+    "list_all_envs",
+    "EnvSpec",
+    "EnvPool",
+    "DMEnvPool",
+    "GymnasiumEnvPool",
+    "GymEnvPool",
+    "InvalidSetting",
+    "TimeStep",
+]

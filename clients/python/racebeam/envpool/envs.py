@@ -41,15 +41,29 @@ class Envs(AtariVectorEnv):
     def __init__(self, spec: EnvSpec) -> None:
         config = spec.config
         super().__init__(
-            config.task, config.num_envs, batch_size=config.batch_size, num_threads=config.num_threads,
-            thread_affinity_offset=config.thread_affinity_offset, stack_num=config.stack_num,
-            max_num_frames_per_episode=min(config.max_episode_steps * config.frame_skip, MOST), frameskip=config.frame_skip,
-            noop_max=config.noop_max, use_fire_reset=config.use_fire_reset, reward_clipping=config.reward_clip,
-            img_height=config.img_height, img_width=config.img_width, grayscale=config.gray_scale,
-            mode=_optional(config.mode), difficulty=_optional(config.difficulty),
-            full_action_space=config.full_action_space, repeat_action_probability=config.repeat_action_probability,
-            lives="end" if config.episodic_life else "ignored", start="noops-fire", stack_start="repeats",
-            render_mode="rgb_array")
+            config.task,
+            config.num_envs,
+            batch_size=config.batch_size,
+            num_threads=config.num_threads,
+            thread_affinity_offset=config.thread_affinity_offset,
+            stack_num=config.stack_num,
+            max_num_frames_per_episode=min(config.max_episode_steps * config.frame_skip, MOST),
+            frameskip=config.frame_skip,
+            noop_max=config.noop_max,
+            use_fire_reset=config.use_fire_reset,
+            reward_clipping=config.reward_clip,
+            img_height=config.img_height,
+            img_width=config.img_width,
+            grayscale=config.gray_scale,
+            mode=_optional(config.mode),
+            difficulty=_optional(config.difficulty),
+            full_action_space=config.full_action_space,
+            repeat_action_probability=config.repeat_action_probability,
+            lives="end" if config.episodic_life else "ignored",
+            start="noops-fire",
+            stack_start="repeats",
+            render_mode="rgb_array",
+        )
         self.every: Numbers = np.arange(config.num_envs, dtype=np.int32)
         self._machines.end_episodes(self.every, spec.seeds)
 
@@ -91,13 +105,27 @@ class Envs(AtariVectorEnv):
 
     def _room(self, out: Pixels | None, envs: int | None = None) -> Results:
         count = self.batch_size if envs is None else envs
-        return super()._room(out, count)._replace(ram=np.empty((count, 128), np.uint8), played=np.empty((3, count), np.int32))
+        return (
+            super()
+            ._room(out, count)
+            ._replace(ram=np.empty((count, 128), np.uint8), played=np.empty((3, count), np.int32))
+        )
 
     def _told(self, results: Results) -> Shown:
         self._received = results.env_id.copy()
         assert results.played is not None
-        return Shown(results.observations, results.ram, results.rewards, results.raw_rewards, results.terminated, results.truncated,
-                     results.game_over, results.env_id, results.lives, *results.played)
+        return Shown(
+            results.observations,
+            results.ram,
+            results.rewards,
+            results.raw_rewards,
+            results.terminated,
+            results.truncated,
+            results.game_over,
+            results.env_id,
+            results.lives,
+            *results.played,
+        )
 
     def chosen(self, mask: Any) -> Numbers:
         """The environments of a mask, of one or more; None: all."""
@@ -127,7 +155,9 @@ class Envs(AtariVectorEnv):
         except ValueError:  # of rows of several lengths
             ids = np.empty((0, 0))
         if ids.ndim != 1 or (ids.dtype.kind not in "iu" and ids.size) or not np.isin(ids, self.every).all():
-            raise InvalidInput(f"env_id is {env_id!r}; it takes whole numbers from 0 to {self.num_envs - 1}, in one row")
+            raise InvalidInput(
+                f"env_id is {env_id!r}; it takes whole numbers from 0 to {self.num_envs - 1}, in one row"
+            )
         if len(np.unique(ids)) < len(ids):
             raise InvalidInput(f"env_id is {env_id!r}; each environment is named once")
         return np.ascontiguousarray(ids, np.int32)

@@ -52,7 +52,9 @@ def _given(task_id: str, config: dict[str, Any], returns_info: bool) -> tuple[En
 def _check_info_wanted(env_type: str, config: dict[str, Any]) -> None:
     wanted = config.get("gym_reset_return_info")
     if wanted is not None and not checked(flag, "gym_reset_return_info", wanted):
-        raise InvalidSetting(f'gym_reset_return_info is {wanted!r}; {env_type} environments take True, and make(env_type="gym") takes both')
+        raise InvalidSetting(
+            f'gym_reset_return_info is {wanted!r}; {env_type} environments take True, and make(env_type="gym") takes both'
+        )
 
 
 MAKERS: dict[str, Any] = {"gymnasium": make_gymnasium, "gym": _make_old_gym, "dm": make_dm}

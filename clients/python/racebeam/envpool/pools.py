@@ -43,8 +43,13 @@ class EnvPool:
 
     def _check_size(self) -> None:
         """Without another size, all ways to resize are the same."""
-        if not self.config["use_inter_area_resize"] and (self.config["img_height"], self.config["img_width"]) != (ROWS, 160):
-            raise InvalidSetting(f"use_inter_area_resize is False; racebeam takes that where img_height and img_width are {ROWS} and 160")
+        if not self.config["use_inter_area_resize"] and (self.config["img_height"], self.config["img_width"]) != (
+            ROWS,
+            160,
+        ):
+            raise InvalidSetting(
+                f"use_inter_area_resize is False; racebeam takes that where img_height and img_width are {ROWS} and 160"
+            )
 
     def __len__(self) -> int:
         return self.num_envs
@@ -61,7 +66,9 @@ class EnvPool:
     __str__ = __repr__
 
     def __reduce__(self) -> tuple[Any, ...]:
-        raise TypeError(f"{type(self).__name__} has threads, and can be neither pickled nor copied; make another one with the same settings")
+        raise TypeError(
+            f"{type(self).__name__} has threads, and can be neither pickled nor copied; make another one with the same settings"
+        )
 
     @property
     def is_async(self) -> bool:
@@ -148,15 +155,25 @@ class EnvPool:
         """Under the names of spec.state_array_spec."""
         observations, done = shown.observations, shown.terminated | shown.truncated
         if observations.ndim == 5:  # colours become channels
-            observations = observations.transpose(0, 1, 4, 2, 3).reshape(len(observations), *self.spec.observation_space.shape)
+            observations = observations.transpose(0, 1, 4, 2, 3).reshape(
+                len(observations), *self.spec.observation_space.shape
+            )
         skip = self.config["frame_skip"]
         ends = done | (shown.lives_lost > 0) if self.config["zero_discount_on_life_loss"] else done
         return {
-            "info:env_id": shown.env_id, "info:players.env_id": shown.env_id.copy(), "elapsed_step": (shown.elapsed + skip - 1) // skip, "done": done,
-            "reward": shown.rewards.astype(np.float32), "discount": (~ends).astype(np.float32),
-            "step_type": ((shown.acts > 0) * (1 + done)).astype(np.int32), "trunc": shown.truncated, "obs": observations,
-            "info:lives": shown.lives, "info:reward": shown.raw_rewards.astype(np.float32),
-            "info:terminated": shown.game_over.astype(np.int32), "info:ram": shown.ram,
+            "info:env_id": shown.env_id,
+            "info:players.env_id": shown.env_id.copy(),
+            "elapsed_step": (shown.elapsed + skip - 1) // skip,
+            "done": done,
+            "reward": shown.rewards.astype(np.float32),
+            "discount": (~ends).astype(np.float32),
+            "step_type": ((shown.acts > 0) * (1 + done)).astype(np.int32),
+            "trunc": shown.truncated,
+            "obs": observations,
+            "info:lives": shown.lives,
+            "info:reward": shown.raw_rewards.astype(np.float32),
+            "info:terminated": shown.game_over.astype(np.int32),
+            "info:ram": shown.ram,
         }
 
     def _shown_with_info(self, shown: Shown) -> tuple[Any, Any, Any, Any, Info]:
@@ -210,7 +227,8 @@ class GymnasiumEnvPool(EnvPool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any
 class GymEnvPool(EnvPool):
     """make(env_type="gym"): reset() returns observations, and a step has one end, `done`.
 
-    To a program that has imported gym, the spaces are those of that package. Wrappers of gym find what they ask for."""
+    To a program that has imported gym, the spaces are those of that package. Wrappers of gym find what they ask for.
+    """
 
     metadata: dict[str, Any] = {"render.modes": ["rgb_array"], "render_modes": ["rgb_array"]}
     reward_range = (-math.inf, math.inf)

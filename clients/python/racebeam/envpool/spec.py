@@ -50,8 +50,19 @@ CONFIG: dict[str, Any] = {
 OF_TASKS = {"max_episode_steps": 27000}  # where they differ, for make()
 FIXED = {"max_num_players": 1}  # no other value is played
 # Whole numbers: the least and the greatest. batch_size and seeds depend on num_envs.
-LIMITS = {"num_envs": (1, 10**7), "num_threads": (0, MOST), "thread_affinity_offset": (-1, MOST), "max_episode_steps": (1, MOST), "stack_num": (1, 16),
-          "frame_skip": (1, 1000), "noop_max": (0, 1000), "img_height": (1, 1000), "img_width": (1, 1000), "mode": (-1, MOST), "difficulty": (-1, MOST)}
+LIMITS = {
+    "num_envs": (1, 10**7),
+    "num_threads": (0, MOST),
+    "thread_affinity_offset": (-1, MOST),
+    "max_episode_steps": (1, MOST),
+    "stack_num": (1, 16),
+    "frame_skip": (1, 1000),
+    "noop_max": (0, 1000),
+    "img_height": (1, 1000),
+    "img_width": (1, 1000),
+    "mode": (-1, MOST),
+    "difficulty": (-1, MOST),
+}
 # What make() takes beside the settings, and the values that are played; render_env_id takes an environment.
 RENDERING: dict[str, tuple[Any, ...]] = {
     "render_mode": (None, "rgb_array"),
@@ -123,8 +134,12 @@ def _checked_config(given: Iterable[Any]) -> Any:
     for name, value in CONFIG.items():
         if isinstance(value, bool):
             values[name] = checked(flag, name, values[name])
-    values["repeat_action_probability"] = checked(share, "repeat_action_probability", values["repeat_action_probability"])
-    values["batch_size"] = checked(whole, "batch_size", values["batch_size"], 0, values["num_envs"]) or values["num_envs"]
+    values["repeat_action_probability"] = checked(
+        share, "repeat_action_probability", values["repeat_action_probability"]
+    )
+    values["batch_size"] = (
+        checked(whole, "batch_size", values["batch_size"], 0, values["num_envs"]) or values["num_envs"]
+    )
     return Config(**values)
 
 
@@ -200,22 +215,37 @@ class EnvSpec:
         """The image of the game is needed for it."""
         game = ALEInterface()
         game.loadROM(images.find(self.config.task))
-        return spaces.Discrete(len(game.getLegalActionSet() if self.config.full_action_space else game.getMinimalActionSet()))
+        return spaces.Discrete(
+            len(game.getLegalActionSet() if self.config.full_action_space else game.getMinimalActionSet())
+        )
 
     @property
     def action_array_spec(self) -> dict[str, ArraySpec]:
         """What send() takes, by name."""
-        return {"env_id": _numbers(), "players.env_id": _numbers(-1), "action": ArraySpec(np.int32, [-1], 0, int(self.action_space.n) - 1)}
+        return {
+            "env_id": _numbers(),
+            "players.env_id": _numbers(-1),
+            "action": ArraySpec(np.int32, [-1], 0, int(self.action_space.n) - 1),
+        }
 
     @property
     def state_array_spec(self) -> dict[str, ArraySpec]:
         """What is shown, by name."""
         flag = ArraySpec(np.bool_, [], False, True)
         return {
-            "info:env_id": _numbers(), "info:players.env_id": _numbers(-1), "elapsed_step": _numbers(), "done": flag, "reward": _rewards(),
-            "discount": ArraySpec(np.float32, [-1], 0.0, 1.0), "step_type": _numbers(), "trunc": flag,
-            "obs": ArraySpec(np.uint8, list(self.observation_space.shape), 0, 255), "info:lives": _numbers(-1), "info:reward": _rewards(),
-            "info:terminated": ArraySpec(np.int32, [-1], 0, 1), "info:ram": ArraySpec(np.uint8, [128], 0, 255),
+            "info:env_id": _numbers(),
+            "info:players.env_id": _numbers(-1),
+            "elapsed_step": _numbers(),
+            "done": flag,
+            "reward": _rewards(),
+            "discount": ArraySpec(np.float32, [-1], 0.0, 1.0),
+            "step_type": _numbers(),
+            "trunc": flag,
+            "obs": ArraySpec(np.uint8, list(self.observation_space.shape), 0, 255),
+            "info:lives": _numbers(-1),
+            "info:reward": _rewards(),
+            "info:terminated": ArraySpec(np.int32, [-1], 0, 1),
+            "info:ram": ArraySpec(np.uint8, [128], 0, 255),
         }
 
     def observation_spec(self) -> Any:
@@ -225,7 +255,9 @@ class EnvSpec:
         arrays = {name.removeprefix("info:"): array for name, array in self.state_array_spec.items()}
         env_id = _dm_spec("env_id", arrays["env_id"])
         fields = {name: _dm_spec(name, arrays[name]) for name in State._fields if name not in ("env_id", "players")}
-        return State(env_id=env_id, players=Players(env_id), **{**fields, "reward": _dm_spec("reward", arrays["reward"])})
+        return State(
+            env_id=env_id, players=Players(env_id), **{**fields, "reward": _dm_spec("reward", arrays["reward"])}
+        )
 
     def action_spec(self) -> Any:
         """As dm_env has it."""
@@ -237,7 +269,9 @@ class EnvSpec:
 
 def _observations(config: Any) -> spaces.Box:
     """Of one environment. Colours are channels."""
-    return spaces.Box(0, 255, (config.stack_num * (1 if config.gray_scale else 3), config.img_height, config.img_width), np.uint8)
+    return spaces.Box(
+        0, 255, (config.stack_num * (1 if config.gray_scale else 3), config.img_height, config.img_width), np.uint8
+    )
 
 
 def dm_specs() -> Any:

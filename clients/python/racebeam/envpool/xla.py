@@ -18,10 +18,15 @@ RESULTS = {**xla.RESULTS, "ram": np.uint8, "elapsed": np.int32, "acts": np.int32
 FIELDS = {"rewards": "reward", "raw_rewards": "raw_reward"}  # of Shown, where their names differ
 
 
-def functions(envs: Envs, shown_as: Callable[[Shown], Any]) -> tuple[Any, Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
+def functions(
+    envs: Envs, shown_as: Callable[[Shown], Any]
+) -> tuple[Any, Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
     """A handle, recv, send and step. shown_as: what recv and step return of what is shown."""
     jax, count = xla.imported(), envs.batch_size
-    shapes = [(count, *(envs.single_observation_space.shape or ())), *((count, 128) if name == "ram" else (count,) for name in RESULTS)]
+    shapes = [
+        (count, *(envs.single_observation_space.shape or ())),
+        *((count, 128) if name == "ram" else (count,) for name in RESULTS),
+    ]
     kinds = [np.uint8, *RESULTS.values()]
 
     def recv(handle: Any) -> tuple[Any, Any]:
@@ -35,7 +40,9 @@ def functions(envs: Envs, shown_as: Callable[[Shown], Any]) -> tuple[Any, Callab
             parts = parts_of(action)
             action, env_id = parts["action"], parts.get("env_id", parts.get("players.env_id", env_id))
         if env_id is None and count < envs.num_envs:
-            raise InvalidInput("env_id is None; with batch_size below num_envs, it takes the environments of the actions")
+            raise InvalidInput(
+                "env_id is None; with batch_size below num_envs, it takes the environments of the actions"
+            )
         numbers = xla.whole("env_id", envs.every if env_id is None else env_id)
         actions = xla.whole("actions", action)
         xla.check_shape("env_id", numbers, (numbers.size,))

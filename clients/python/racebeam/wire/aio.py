@@ -25,8 +25,15 @@ Read = Callable[[str], Coroutine[Any, Any, Any]]  # makes a value of the line of
 __all__ = ["AsyncSession", "connect", "launch"]
 
 
-async def connect(address: str | None = None, *, token: str | None = None, tls: ssl.SSLContext | None = None,
-                  timeout: float | None = None, longest_reply: int = LONGEST_REPLY, arrays: bool = False) -> AsyncSession:
+async def connect(
+    address: str | None = None,
+    *,
+    token: str | None = None,
+    tls: ssl.SSLContext | None = None,
+    timeout: float | None = None,
+    longest_reply: int = LONGEST_REPLY,
+    arrays: bool = False,
+) -> AsyncSession:
     """As racebeam.connect(), of sockets: tcp://, tls:// and unix: addresses, and file: with one of these."""
     opened = await asyncio.to_thread(client.reached, address, lambda found: client.connected(found, timeout))
     (connection, host), found, announced = opened
@@ -39,7 +46,9 @@ async def connect(address: str | None = None, *, token: str | None = None, tls: 
         raise TimeoutError(f"no server answers at {found}: timed out") from None
     session = AsyncSession(reader, writer, found, longest_reply, arrays, timeout=timeout)
     token = token or announced
-    session.again = lambda: connect(found, token=token, tls=tls, timeout=timeout, longest_reply=longest_reply, arrays=arrays)
+    session.again = lambda: connect(
+        found, token=token, tls=tls, timeout=timeout, longest_reply=longest_reply, arrays=arrays
+    )
     return await _greeted(session, token)
 
 
@@ -66,10 +75,19 @@ async def _greeted(session: AsyncSession, token: str | None) -> AsyncSession:
 
 class AsyncSession:
     """One session. connect() and launch() make them. A request that is cancelled is carried out all the same. Without the last
-    reference to it, a session ends."""
+    reference to it, a session ends.
+    """
 
-    def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, address: str, longest_reply: int, arrays: bool,
-                 process: asyncio.subprocess.Process | None = None, timeout: float | None = None) -> None:
+    def __init__(
+        self,
+        reader: asyncio.StreamReader,
+        writer: asyncio.StreamWriter,
+        address: str,
+        longest_reply: int,
+        arrays: bool,
+        process: asyncio.subprocess.Process | None = None,
+        timeout: float | None = None,
+    ) -> None:
         self._writer, self._process = writer, process
         self._session = client.Session(cast(IO[bytes], None), cast(IO[bytes], writer), writer.close, arrays)
         self._session.address, self._session.longest_reply = address, longest_reply
@@ -95,7 +113,8 @@ class AsyncSession:
 
     async def request(self, *words: object, **settings: object) -> list[Values]:
         """The groups of the reply, with numbers, and bytes or arrays. Raises Refused; ConnectionError when the server has gone; and
-        TimeoutError when nothing came from it for as long as `timeout` of connect() says."""
+        TimeoutError when nothing came from it for as long as `timeout` of connect() says.
+        """
         answer: list[Values] = await self._exchange(self._replies.values, *words, **settings)
         return answer
 
@@ -148,11 +167,14 @@ class AsyncSession:
 
 class _Replies:
     """Reads the replies of a session, and gives each to its request. An AsyncSession has one. It does not refer to the AsyncSession,
-    which can end while this waits."""
+    which can end while this waits.
+    """
 
     def __init__(self, reader: asyncio.StreamReader, session: client.Session) -> None:
         self._reader, self._session = reader, session
-        self.awaited: collections.deque[tuple[asyncio.Future[Any], Read]] = collections.deque()  # of the requests, in order
+        self.awaited: collections.deque[tuple[asyncio.Future[Any], Read]] = (
+            collections.deque()
+        )  # of the requests, in order
         self.heard = 0.0  # when the last reply came
 
     async def read(self) -> None:
@@ -195,7 +217,9 @@ class _Replies:
     def _answer(self, how: Callable[[asyncio.Future[Any]], None]) -> None:
         """The oldest request, if it still waits."""
         self.heard = asyncio.get_running_loop().time()
-        if self.awaited and len(self.awaited) != len(self._session.unanswered) + 1:  # Ctrl-C came between send() and append()
+        if (
+            self.awaited and len(self.awaited) != len(self._session.unanswered) + 1
+        ):  # Ctrl-C came between send() and append()
             raise self._session.lost(ConnectionError("it was interrupted between a request and the end of its reply"))
         if self.awaited and not (oldest := self.awaited.popleft()[0]).done():
             how(oldest)

@@ -27,13 +27,24 @@ Method = TypeVar("Method", bound=Callable[..., Any])
 
 STATE = "racebeam-env"  # the name under which states pass through the session
 STATE_HEAD = struct.Struct("<8s4i")  # what ALEState.serialize() has before the server's bytes
-NO_LIMITS = {-2**31: "none", 2**31 - 1: "none"}
+NO_LIMITS = {-(2**31): "none", 2**31 - 1: "none"}
 MOST_AHEAD = 64  # requests, whose replies fit into what a connection buffers
 ALWAYS = ("reward", "reward_b", "ends", "lives", "episode_frame", "frame", "acts")
-FIELDS = {View.RGB: ("screen:delta",), View.GRAYSCALE: ("screen:delta",), View.PALETTE: ("screen:delta",), View.RAM: ("ram:hex",),
-          View.NONE: ()}
-OWN_ERRORS = {"unknown-game": UnknownGame, "bad-value": InvalidInput, "bad-image": InvalidInput, "bad-state": InvalidInput,
-              "bad-action": InvalidInput, "no-game": InvalidInput}
+FIELDS = {
+    View.RGB: ("screen:delta",),
+    View.GRAYSCALE: ("screen:delta",),
+    View.PALETTE: ("screen:delta",),
+    View.RAM: ("ram:hex",),
+    View.NONE: (),
+}
+OWN_ERRORS = {
+    "unknown-game": UnknownGame,
+    "bad-value": InvalidInput,
+    "bad-image": InvalidInput,
+    "bad-state": InvalidInput,
+    "bad-action": InvalidInput,
+    "no-game": InvalidInput,
+}
 
 
 def _takes_turns(kind: type[Kind]) -> type[Kind]:
@@ -55,11 +66,13 @@ def _turn(method: Callable[..., Any]) -> Callable[..., Any]:
                 if self.session.unanswered:
                     self.session.cut()
                 raise
+
     return taken
 
 
 def _typed(method: Method) -> Method:
     """Raises the TypeError of ALEInterface's method. Without a game, that checks types first, and raises InvalidInput then."""
+
     @functools.wraps(method)
     def checked(self: RemoteInterface, *words: Any, **settings: Any) -> Any:
         try:
@@ -67,6 +80,7 @@ def _typed(method: Method) -> Method:
         except InvalidInput:
             pass
         return method(self, *words, **settings)
+
     return cast(Method, checked)
 
 
@@ -93,7 +107,9 @@ class RemoteInterface:
         self._loaded: tuple[Any, str | None, dict[str, object]] | None = None
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith(("getInt", "getBool", "getFloat", "getString", "setInt", "setBool", "setFloat", "setString")):
+        if name.startswith(
+            ("getInt", "getBool", "getFloat", "getString", "setInt", "setBool", "setFloat", "setString")
+        ):
             return getattr(self._keys, name)
         raise AttributeError(f"RemoteInterface has no attribute {name!r}")
 
@@ -205,20 +221,36 @@ class RemoteInterface:
             self._view = view
 
     @_typed
-    def step(self, action: int, paddle_strength: float, times: int, view: View, action_b: int = 18,
-             paddle_strength_b: float = 0.0) -> tuple[Any, float, float, bool, bool, int, int, int]:
+    def step(
+        self,
+        action: int,
+        paddle_strength: float,
+        times: int,
+        view: View,
+        action_b: int = 18,
+        paddle_strength_b: float = 0.0,
+    ) -> tuple[Any, float, float, bool, bool, int, int, int]:
         """As ALEInterface's."""
         view = View(view)
         self._observe(view)
         word = f"{int(action)}@{float(paddle_strength):.9g}/{int(action_b) - 18}@{float(paddle_strength_b):.9g}"
         shown = self.ask(self.session.act, f"{word}*{int(times)}")
         self._act_after_the_end(word, times - max(shown["acts"], 1))
-        return (self._seen(shown, view), float(shown["reward"]), float(shown["reward_b"]), bool(shown["terminated"]),
-                bool(shown["truncated"]), shown["lives"], shown["episode_frame"], shown["frame"])
+        return (
+            self._seen(shown, view),
+            float(shown["reward"]),
+            float(shown["reward_b"]),
+            bool(shown["terminated"]),
+            bool(shown["truncated"]),
+            shown["lives"],
+            shown["episode_frame"],
+            shown["frame"],
+        )
 
     def _act_after_the_end(self, word: str, acts: int) -> None:
         """Such acts run no frame; but the generator of sticky actions goes on, as it does in this process. The server plays one in
-        a request, and stops reading while its replies are not read."""
+        a request, and stops reading while its replies are not read.
+        """
         while acts > 0:
             burst = min(acts, MOST_AHEAD)
             for _ in range(burst):
@@ -334,7 +366,7 @@ class RemoteInterface:
     def restoreState(self, state: ALEState) -> None:
         if not isinstance(state, ALEState):
             raise TypeError(f"state is {state!r}; it takes an ALEState")
-        self.ask(self.session.import_state, STATE, state.serialize()[STATE_HEAD.size:])
+        self.ask(self.session.import_state, STATE, state.serialize()[STATE_HEAD.size :])
         self.ask(self.session.restore, STATE)
         self.ask(self.session.drop, STATE)
 
@@ -345,8 +377,14 @@ class RemoteInterface:
 
     def __getstate__(self) -> dict[str, Any]:
         """A copy has a session of its own."""
-        return {"server": self._server, "token": self._token, "timeout": self._timeout, "keys": self._keys, "loaded": self._loaded,
-                "state": self.cloneState(True) if self._loaded else None}
+        return {
+            "server": self._server,
+            "token": self._token,
+            "timeout": self._timeout,
+            "keys": self._keys,
+            "loaded": self._loaded,
+            "state": self.cloneState(True) if self._loaded else None,
+        }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         RemoteInterface.__init__(self, state["server"], state["token"], state["timeout"])

@@ -17,7 +17,7 @@ from ..vector_results import Bools, Numbers, Pixels, Results
 from .client import Reply, Values
 from .remote import STATE, RemoteInterface
 
-NO_LIMITS = (-2**31, 2**31 - 1)
+NO_LIMITS = (-(2**31), 2**31 - 1)
 RULES = {Rules.ALE_0_12: "ale-0.12", Rules.FIXED: "fixed"}
 NUMBERS = ("reward", "raw_reward", "lives", "frame", "episode_frame")  # rows of Results
 FLAGS = ("terminated", "truncated", "game_over")
@@ -72,10 +72,20 @@ class RemoteMachines(Halves):
     settings: those of _core.VectorSettings, by name. timeout: of connect(). All machines step together.
     """
 
-    def __init__(self, server: str, token: str | None, timeout: float | None, game: str, rom: Any, count: int,
-                 settings: dict[str, Any]) -> None:
+    def __init__(
+        self,
+        server: str,
+        token: str | None,
+        timeout: float | None,
+        game: str,
+        rom: Any,
+        count: int,
+        settings: dict[str, Any],
+    ) -> None:
         if settings["batch_size"] not in (0, count):
-            raise InvalidInput(f"batch_size is {settings['batch_size']}; a server plays all {count} environments together")
+            raise InvalidInput(
+                f"batch_size is {settings['batch_size']}; a server plays all {count} environments together"
+            )
         self._count = count
         self._turn = threading.Lock()
         self._machine = RemoteInterface(server, token, timeout)
@@ -83,25 +93,36 @@ class RemoteMachines(Halves):
         self._load(game, rom, settings)
         self._actions = self._actions_of(settings)
         self._field = _field(settings, self.height())
-        self._plain = "machines=" + f" | {' '.join(f'{name}=' for name in (*NUMBERS, *FLAGS, self._field))}" * count + " raw="
+        self._plain = (
+            "machines=" + f" | {' '.join(f'{name}=' for name in (*NUMBERS, *FLAGS, self._field))}" * count + " raw="
+        )
         self._reply: Reply | None = None  # what the machines showed last, until it is decoded
         self._decoded: list[Values] = []
-        self._machine.ask(self._session.observe, *NUMBERS, *FLAGS, self._field + (":raw" if "raw" in self._session.offered else ":base64"),
-                          *(["rgb:zlib"] if settings["screens"] else []))
+        self._machine.ask(
+            self._session.observe,
+            *NUMBERS,
+            *FLAGS,
+            self._field + (":raw" if "raw" in self._session.offered else ":base64"),
+            *(["rgb:zlib"] if settings["screens"] else []),
+        )
         self._open(settings)
 
     def _load(self, game: str, rom: Any, settings: dict[str, Any]) -> None:
         limits = {side: settings[side] for side in ("reward_min", "reward_max")}
-        self._machine.load(rom, game, {
-            "seed": settings["seed"] or 1,  # the server would draw one for 0
-            "frame_skip": settings["frame_skip"],
-            "sticky": settings["sticky"],
-            "max_episode_frames": settings["max_episode_frames"],
-            "action_set": _word(settings["action_set"]),
-            "noop_max": settings["noop_max"],
-            "rules": RULES[settings["rules"]],
-            **{side: "none" if limit in NO_LIMITS else limit for side, limit in limits.items()},
-        })
+        self._machine.load(
+            rom,
+            game,
+            {
+                "seed": settings["seed"] or 1,  # the server would draw one for 0
+                "frame_skip": settings["frame_skip"],
+                "sticky": settings["sticky"],
+                "max_episode_frames": settings["max_episode_frames"],
+                "action_set": _word(settings["action_set"]),
+                "noop_max": settings["noop_max"],
+                "rules": RULES[settings["rules"]],
+                **{side: "none" if limit in NO_LIMITS else limit for side, limit in limits.items()},
+            },
+        )
         chosen = {name: settings[name] for name in ("mode", "difficulty") if settings[name] is not None}
         if chosen:
             self._machine.ask(self._session.set, **chosen)
@@ -110,9 +131,15 @@ class RemoteMachines(Halves):
         if not settings["fire"] and settings["start"] is not ResetOrder.FIRE_NOOPS:
             raise InvalidInput(f"start is {_word(settings['start'])!r} without FIRE, which a server does not play")
         self._decoded = self._machine.ask(
-            self._session.open, self._count, _word(settings["autoreset"]), steps="frames",
-            start=_word(settings["start"]) if settings["fire"] else "noops", lives=_word(settings["lives"]),
-            stack=_word(settings["stack_start"]), pool=int(settings["pool"]))
+            self._session.open,
+            self._count,
+            _word(settings["autoreset"]),
+            steps="frames",
+            start=_word(settings["start"]) if settings["fire"] else "noops",
+            lives=_word(settings["lives"]),
+            stack=_word(settings["stack_start"]),
+            pool=int(settings["pool"]),
+        )
         if settings["seed"] == 0:
             self._decoded = self._machine.ask(self._session.restart, seed=0)
 
@@ -149,7 +176,9 @@ class RemoteMachines(Halves):
     def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None:
         self._send(self.words_of(joysticks, threshold), machines)
 
-    def send_strengths(self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers) -> None:
+    def send_strengths(
+        self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers
+    ) -> None:
         self._send(with_strengths(self.words(actions), strengths), machines)
 
     def _send(self, words: Sequence[object], machines: Numbers) -> None:
@@ -204,7 +233,8 @@ class RemoteMachines(Halves):
 
     def begin(self, *words: object, **settings: object) -> None:
         """Sends a request about the machines. finish() comes next, and no other thread between them. If an exception comes between
-        them, the session has to end."""
+        them, the session has to end.
+        """
         self._session.begin(*words, **settings)
 
     def waits(self) -> bool:
@@ -287,8 +317,8 @@ class RemoteMachines(Halves):
         values = np.array([int(text) for text in VALUE.findall(reply.text)[1:-1]]).reshape(self._count, -1)
         if len(reply.data) != seen.nbytes or (values[:, -1] != seen[0].nbytes).any():
             return False
-        results.numbers[:-1] = values[:, :len(NUMBERS)].T
-        results.flags[(0, 1, 3), :] = values[:, len(NUMBERS):-1].T
+        results.numbers[:-1] = values[:, : len(NUMBERS)].T
+        results.flags[(0, 1, 3), :] = values[:, len(NUMBERS) : -1].T
         results.finished[:] = False
         seen[:] = np.frombuffer(reply.data, np.uint8).reshape(seen.shape)
         return True

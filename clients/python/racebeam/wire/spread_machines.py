@@ -25,7 +25,9 @@ LEAVING = ("stopping", "busy", "idle", "internal")  # the errors after which a s
 def _is_loss(error: Exception) -> bool:
     """Whether the server is lost, in place of a bad request."""
     refused = error if isinstance(error, Refused) else error.__cause__
-    return isinstance(error, (ConnectionError, TimeoutError)) or (isinstance(refused, Refused) and refused.code in LEAVING)
+    return isinstance(error, (ConnectionError, TimeoutError)) or (
+        isinstance(refused, Refused) and refused.code in LEAVING
+    )
 
 
 class _Part:
@@ -52,10 +54,20 @@ class SpreadMachines(Halves):
     A warning names it, and `lost` of the first call says where.
     """
 
-    def __init__(self, servers: Sequence[str], token: str | None, timeout: float | None, game: str, rom: Any, count: int,
-                 settings: dict[str, Any]) -> None:
+    def __init__(
+        self,
+        servers: Sequence[str],
+        token: str | None,
+        timeout: float | None,
+        game: str,
+        rom: Any,
+        count: int,
+        settings: dict[str, Any],
+    ) -> None:
         if settings["batch_size"] not in (0, count):
-            raise InvalidInput(f"batch_size is {settings['batch_size']}; servers play all {count} environments together")
+            raise InvalidInput(
+                f"batch_size is {settings['batch_size']}; servers play all {count} environments together"
+            )
         if not servers or not all(isinstance(server, str) for server in servers):
             raise TypeError(f"server is {servers!r}; it takes an address, or a list of addresses")
         self._how, self._count, self._settings = (token, timeout, game, rom), count, settings
@@ -64,7 +76,9 @@ class SpreadMachines(Halves):
         self.lost: Bools = np.zeros(count, np.bool_)  # of the last call
         self._lost_before: Bools = np.zeros(count, np.bool_)  # what no call has told yet
         shares = np.array_split(np.arange(count), min(len(self._servers), count))
-        self._parts = [_Part(slice(int(share[0]), int(share[-1]) + 1), address) for address, share in zip(self._servers, shares)]
+        self._parts = [
+            _Part(slice(int(share[0]), int(share[-1]) + 1), address) for address, share in zip(self._servers, shares)
+        ]
         try:
             absent = self._open_all()
             for part, _ in absent:
@@ -72,15 +86,19 @@ class SpreadMachines(Halves):
                 self._servers.remove(part.address)
             for part, failure in absent:
                 self._place(part, [failure for _, failure in absent], self._seed_of(part))
-                warnings.warn(f"environments {part.rows.start} to {part.rows.stop - 1} begin on {part.address}: {failure}",
-                              RuntimeWarning, stacklevel=4)
+                warnings.warn(
+                    f"environments {part.rows.start} to {part.rows.stop - 1} begin on {part.address}: {failure}",
+                    RuntimeWarning,
+                    stacklevel=4,
+                )
         except BaseException:
             self.close()
             raise
 
     def _open_all(self) -> list[tuple[_Part, Exception]]:
         """Opens the environments of all parts at the same time, since an address may wait for its server. Returns the parts
-        whose server is absent, and why. Raises what else goes wrong, as soon as it does."""
+        whose server is absent, and why. Raises what else goes wrong, as soon as it does.
+        """
         opened: queue.SimpleQueue[tuple[_Part, Exception | None]] = queue.SimpleQueue()
 
         def open_one(part: _Part) -> None:
@@ -89,6 +107,7 @@ class SpreadMachines(Halves):
                 opened.put((part, None))
             except Exception as error:
                 opened.put((part, error))
+
         for part in self._parts:
             threading.Thread(target=open_one, args=(part,), daemon=True).start()
         absent = []
@@ -138,7 +157,9 @@ class SpreadMachines(Halves):
     def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None:
         self._send(self._words_of(joysticks, threshold), machines)
 
-    def send_strengths(self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers) -> None:
+    def send_strengths(
+        self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers
+    ) -> None:
         words = self._words(actions)
         self._send([with_strengths(acts, strengths[part.rows]) for part, acts in zip(self._parts, words)], machines)
 
@@ -166,7 +187,9 @@ class SpreadMachines(Halves):
 
     def _begun(self, words: list[list[Any]]) -> Callable[[Results], None]:
         """All servers play at the same time. What it returns awaits them."""
-        requests = [("restart", "0" * len(acts)) if part.is_fresh else ("step", *acts) for part, acts in zip(self._parts, words)]
+        requests = [
+            ("restart", "0" * len(acts)) if part.is_fresh else ("step", *acts) for part, acts in zip(self._parts, words)
+        ]
         failures = [self._failure(part.machines.begin, *request) for part, request in zip(self._parts, requests)]
 
         def finish(results: Results) -> None:
@@ -189,11 +212,14 @@ class SpreadMachines(Halves):
     @contextlib.contextmanager
     def _exclusively(self, *, is_second: bool = False) -> Iterator[None]:
         """A turn of one thread. Where it is cut off, such as by Ctrl-C, all sessions end: replies that are read later would be taken
-        for others', and a session that ended alone for a server that is lost."""
+        for others', and a session that ended alone for a server that is lost.
+        """
         self._parts[0].machines.check_process()
         with self._turn:
             if self._is_cut:
-                raise ConnectionError("the sessions have ended: they were interrupted between a request and the end of its reply")
+                raise ConnectionError(
+                    "the sessions have ended: they were interrupted between a request and the end of its reply"
+                )
             self._check_half(is_second)
             try:
                 yield
@@ -220,7 +246,9 @@ class SpreadMachines(Halves):
     def _reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None:
         def ask(part: _Part) -> None:
             rows = part.rows
-            part.machines.reset(None if chosen is None else chosen[rows], None if seeds is None else seeds[rows], results.of(rows))
+            part.machines.reset(
+                None if chosen is None else chosen[rows], None if seeds is None else seeds[rows], results.of(rows)
+            )
             part.is_fresh = False
 
         self._each(ask)
@@ -271,7 +299,9 @@ class SpreadMachines(Halves):
             part.address = address
             return
         why = "; ".join(map(str, failures))
-        raise ConnectionError(f"no server is left for environments {part.rows.start} to {part.rows.stop - 1}: {why}") from failures[-1]
+        raise ConnectionError(
+            f"no server is left for environments {part.rows.start} to {part.rows.stop - 1}: {why}"
+        ) from failures[-1]
 
     def _load_of(self, address: str) -> int:
         return sum(part.rows.stop - part.rows.start for part in self._parts if part.address == address)
