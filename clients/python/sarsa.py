@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """SARSA(lambda) with Basic features (Bellemare et al. 2013): an agent that learns a game over the line protocol.
 
-It needs NumPy, and Matplotlib for --curve. With the same seeds, it chooses what the agent `basic` of `racebeam experiment` chooses."""
+It needs NumPy, and Matplotlib for --curve. With the same seeds, it chooses what the agent `basic` of
+`racebeam experiment` chooses.
+"""
 
 import argparse
 import pathlib

@@ -153,7 +153,7 @@ class Playing(unittest.TestCase):
     def test_a_mode_for_two_needs_two_players(self):
         if "pong" not in package.roms():
             self.skipTest("there is no image of pong")
-        with self.assertRaisesRegex(racebeam.InvalidInput, "pong has mode 5 for two alone.*for one it offers 0, 1$"):
+        with self.assertRaisesRegex(racebeam.InvalidInput, "pong has mode 5 only for two.*for one it offers 0, 1$"):
             racebeam.AtariEnv("pong", mode=5)
         self.assertEqual(racebeam.AtariEnv("pong", mode=5, two_player=True).ale.getMode(), 5)
 
@@ -299,8 +299,8 @@ class BadInput(unittest.TestCase):
         blind = "import importlib.machinery as m; m.PathFinder.find_spec = classmethod(lambda *a, _f=m.PathFinder.find_spec: "
         blind += "None if a[1:2] == ('ale_py',) else _f(*a[1:]));"
         done = subprocess.run([sys.executable, "-c", blind + script], env=with_path, capture_output=True, text=True, check=True)
-        self.assertIn("MissingImage no cartridge image of pong was found; looked in RACEBEAM_ROMS, /nowhere (no folder); "
-                      f"ALE_ROMS_DIR, {HOMEBREW} (no file with an MD5 of it); an installed ale_py", done.stdout)
+        self.assertIn("MissingImage no cartridge image of pong was found; racebeam searched RACEBEAM_ROMS, /nowhere (not a folder); "
+                      f"ALE_ROMS_DIR, {HOMEBREW} (no file has an MD5 of the game); an installed ale_py", done.stdout)
 
     def test_an_image_is_found_by_its_md5(self):
         if "pong" not in package.roms():
@@ -321,7 +321,7 @@ class BadInput(unittest.TestCase):
                     image.write_bytes((HOMEBREW / f"{name}.bin").read_bytes())
                     self.assertEqual(images.find_all().get(game), expected)
                     if expected is None:
-                        self.refused(racebeam.MissingImage, "no file with an MD5 of it", racebeam.find_image, game)
+                        self.refused(racebeam.MissingImage, "no file has an MD5 of the game", racebeam.find_image, game)
                     else:
                         self.assertEqual(racebeam.find_image(game), expected)
 

@@ -359,7 +359,7 @@ class Modules(unittest.TestCase):
 
     def test_a_pool_is_not_copied(self):
         for copied in (pickle.dumps, copy.deepcopy):
-            self.assertRaisesRegex(TypeError, "neither pickled nor copied", copied, make())
+            self.assertRaisesRegex(TypeError, "cannot be pickled or copied", copied, make())
 
 
 @unittest.skipUnless(package._is_there("jax"), "there is no jax")

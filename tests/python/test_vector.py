@@ -329,7 +329,7 @@ class States(unittest.TestCase):
     def test_environments_say_how_they_are_carried(self):
         envs = AtariVectorEnv("beamfall", 1)
         for carry in (pickle.dumps, copy.copy, copy.deepcopy):
-            with self.assertRaisesRegex(TypeError, "AtariVectorEnv has threads, and can be neither pickled nor copied"):
+            with self.assertRaisesRegex(TypeError, "AtariVectorEnv cannot be pickled or copied, because it owns threads"):
                 carry(envs)
 
 

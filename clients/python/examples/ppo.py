@@ -4,8 +4,9 @@
     pip install "racebeam[gymnasium]" jax optax matplotlib
     python ppo.py updraft --observe ram --curve ppo.png
 
-A lost life ends an episode for the agent, and the game goes on; rewards are clipped to -1..1, and scores are those of the game.
-With the same seed and processor, it learns the same."""
+A lost life ends an episode for the agent, and the game goes on. Rewards are clipped to -1..1, and scores are those of
+the game. With the same seed and processor, it learns the same.
+"""
 
 import argparse
 import functools

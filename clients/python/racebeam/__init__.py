@@ -1,6 +1,6 @@
 """Atari 2600 games for agents: exact to ALE 0.12, in this process or on a server.
 
-With Gymnasium installed, `import racebeam` registers the ids racebeam/Pong-v5 and so on:
+With Gymnasium installed, `import racebeam` registers ids such as racebeam/Pong-v5 and racebeam/PongNoFrameskip-v4:
 
     import gymnasium, racebeam
     env = gymnasium.make("racebeam/Beamfall-v5")
@@ -54,14 +54,18 @@ _HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
 
 
 def register_ale_ids() -> None:
-    """Makes racebeam play the ids of ale_py: ALE/Pong-v5, Pong-v4 and so on."""
-    _need_gymnasium("register_ale_ids")
+    """Registers the ids of ale_py, such as ALE/Pong-v5 and Pong-v4, so that racebeam plays them.
+
+    Raises:
+        ImportError: If Gymnasium is not installed.
+    """
+    _check_gymnasium("register_ale_ids")
     from .registration import register_ale_ids as register
 
     register()
 
 
-def _need_gymnasium(what: str) -> None:
+def _check_gymnasium(what: str) -> None:
     if not _HAS_GYMNASIUM:
         raise ImportError(f'racebeam.{what} needs Gymnasium; install it with: pip install "racebeam[gymnasium]"')
 
@@ -73,7 +77,7 @@ def __dir__() -> list[str]:
 def __getattr__(name: str) -> Any:
     if name not in _NEED_GYMNASIUM:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    _need_gymnasium(name)
+    _check_gymnasium(name)
     return getattr(importlib.import_module(_NEED_GYMNASIUM[name], __name__), name)
 
 

@@ -1,11 +1,11 @@
-"""The games that ale_py 0.12 has, by its own names."""
+"""The games of ale_py 0.12, by its own names."""
 
 from __future__ import annotations
 
-# Those that are played by two alone: ale_py registers no id for them.
+# Games that only two can play. ale_py registers no id for them.
 FOR_TWO = frozenset({"combat", "joust", "maze_craze", "warlords"})
 
-# All, in the order of ale_py.roms.get_all_rom_ids().
+# All games, in the order of ale_py.roms.get_all_rom_ids().
 EVERY = """
     adventure air_raid alien amidar assault asterix asteroids atlantis2 atlantis backgammon bank_heist basic_math
     battle_zone beam_rider berzerk blackjack bowling boxing breakout carnival casino centipede chopper_command
@@ -20,7 +20,7 @@ EVERY = """
     yars_revenge zaxxon
 """.split()
 
-# Those with ids of Gym's versions 0 and 4.
+# Games that have ids of the versions 0 and 4 of Gym.
 OF_OLD = """
     adventure air_raid alien amidar assault asterix asteroids atlantis bank_heist battle_zone beam_rider berzerk
     bowling boxing breakout carnival centipede chopper_command crazy_climber defender demon_attack double_dunk

@@ -1,5 +1,7 @@
-"""Checks of arguments. They raise gymnasium.error.Error, in a sentence with the name, the value and what is accepted: a WrongType, which
-is also a TypeError, or a WrongValue, which is also a ValueError.
+"""Checks of arguments.
+
+Each check returns the value in the type that the package works with. A failed check raises `WrongType` or `WrongValue`,
+whose message names the argument, its value and what is accepted.
 """
 
 from __future__ import annotations
@@ -7,6 +9,7 @@ from __future__ import annotations
 import enum
 import math
 import operator
+from collections.abc import Iterable
 from typing import Any, TypeVar
 
 from gymnasium import error
@@ -18,36 +21,73 @@ MOST = 2**31 - 1
 
 
 class WrongType(error.Error, TypeError):
-    """An argument is of no type that is accepted."""
+    """Raised for an argument of a wrong type."""
 
 
 class WrongValue(error.Error, ValueError):
-    """An argument is none of the values that are accepted."""
+    """Raised for an argument whose value is out of range or not one of the choices."""
 
 
-def either(given: Any, usual: Any) -> Any:
-    """What was given, or else what is usual."""
-    return usual if given is None else given
+def value_or(value: Any, default: Any) -> Any:
+    """Returns `value`, or `default` if `value` is None."""
+    return default if value is None else value
 
 
-def listed(values: Any) -> str:
+def join(values: Iterable[object]) -> str:
+    """Returns the values as a list for a message: "a, b, c"."""
     return ", ".join(map(str, values))
 
 
 def check_choice(name: str, value: object, choices: tuple[str | None, ...]) -> None:
+    """Checks that a value is one of the choices.
+
+    Args:
+        name: Name of the argument.
+        value: Value of the argument.
+        choices: Accepted words; may include None.
+
+    Raises:
+        WrongValue: If `value` is not one of `choices`.
+    """
     if not any(value is choice or (isinstance(value, str) and value == choice) for choice in choices):
-        raise WrongValue(f"{name} is {value!r}; it takes {listed(choices)}")
+        raise WrongValue(f"{name} is {value!r}; it takes {join(choices)}")
 
 
 def member(name: str, word: object, kind: type[Member]) -> Member:
-    """The member of an enumeration whose name is FIRE_NOOPS, of the word "fire-noops"."""
+    """Looks up the member of an enumeration that a word names.
+
+    Args:
+        name: Name of the argument.
+        word: Name of the member in lower case with hyphens, such as "fire-noops" for FIRE_NOOPS.
+        kind: The enumeration.
+
+    Returns:
+        The member.
+
+    Raises:
+        WrongValue: If no member has this name.
+    """
     by_word = {one.name.lower().replace("_", "-"): one for one in kind}
     check_choice(name, word, tuple(by_word))
     return by_word[str(word)]
 
 
 def whole(name: str, value: Any, low: int, high: int) -> int:
-    """A whole number from low to high."""
+    """Checks a whole number.
+
+    Args:
+        name: Name of the argument.
+        value: Any integer type, such as int or numpy.int64.
+        low: Smallest accepted value.
+        high: Largest accepted value.
+
+    Returns:
+        The number as an int.
+
+    Raises:
+        WrongType: If `value` is not a whole number.
+        WrongValue: If `value` is not from `low` to `high`.
+    """
     try:
         number = operator.index(value)
     except TypeError:
@@ -57,8 +97,36 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
     return number
 
 
+def optional_whole(name: str, value: Any) -> int | None:
+    """Checks a whole number from 0, or None.
+
+    Args:
+        name: Name of the argument.
+        value: Any integer type, or None.
+
+    Returns:
+        The number as an int, or None.
+
+    Raises:
+        WrongType: If `value` is neither a whole number nor None.
+        WrongValue: If `value` is negative or above 2**31 - 1.
+    """
+    return None if value is None else whole(name, value, 0, MOST)
+
+
 def flag(name: str, value: Any) -> bool:
-    """What Python takes for true or false. An array of several values is neither."""
+    """Checks a flag.
+
+    Args:
+        name: Name of the argument.
+        value: Any value with a truth value.
+
+    Returns:
+        The truth value.
+
+    Raises:
+        WrongType: If `value` has no truth value, such as an array of several elements.
+    """
     try:
         return bool(value)
     except (TypeError, ValueError):
@@ -66,7 +134,19 @@ def flag(name: str, value: Any) -> bool:
 
 
 def share(name: str, value: Any) -> float:
-    """A number from 0 to 1."""
+    """Checks a probability.
+
+    Args:
+        name: Name of the argument.
+        value: A number from 0 to 1.
+
+    Returns:
+        The number as a float.
+
+    Raises:
+        WrongType: If `value` is not a number.
+        WrongValue: If `value` is not from 0 to 1.
+    """
     try:
         number = float(value)
     except (TypeError, ValueError):
@@ -77,7 +157,19 @@ def share(name: str, value: Any) -> float:
 
 
 def real(name: str, value: Any) -> float:
-    """A number, which may be infinite."""
+    """Checks a real number.
+
+    Args:
+        name: Name of the argument.
+        value: A number, which may be infinite.
+
+    Returns:
+        The number as a float.
+
+    Raises:
+        WrongType: If `value` is not a number.
+        WrongValue: If `value` is NaN.
+    """
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
@@ -88,15 +180,37 @@ def real(name: str, value: Any) -> float:
 
 
 def image(value: Any) -> images.Rom | None:
-    """A path or bytes, or None."""
+    """Checks a cartridge image.
+
+    Args:
+        value: A path, an object that holds bytes, or None.
+
+    Returns:
+        The path as given, the image as bytes, or None.
+
+    Raises:
+        WrongType: If `value` is something else.
+    """
     try:
-        return None if value is None else images.given(value)
+        return None if value is None else images.path_or_bytes(value)
     except TypeError as wrong:
         raise WrongType(*wrong.args) from None
 
 
 def seconds(name: str, value: Any) -> float | None:
-    """A time limit, or None."""
+    """Checks a time limit.
+
+    Args:
+        name: Name of the argument.
+        value: Seconds above 0, or None for no limit.
+
+    Returns:
+        The number as a float, or None.
+
+    Raises:
+        WrongType: If `value` is neither a number nor None.
+        WrongValue: If `value` is not above 0, or exceeds 2**31 - 1.
+    """
     number = None if value is None else real(name, value)
     if number is not None and not 0 < number <= MOST:
         raise WrongValue(f"{name} is {number}; it takes None, or seconds above 0")

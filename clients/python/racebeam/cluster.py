@@ -1,7 +1,8 @@
-"""Servers as jobs of a scheduler, by submitit (pip install "racebeam[slurm]").
+"""Starts servers as jobs of a scheduler, by submitit (pip install "racebeam[slurm]").
 
-with SlurmServers(n=32, image="/shared/atari", slurm_partition="cpu") as addresses:
-    envs = racebeam.AtariVectorEnv("breakout", 1024, server=addresses)
+Example:
+    with SlurmServers(n=32, image="/shared/atari", slurm_partition="cpu") as addresses:
+        envs = racebeam.AtariVectorEnv("breakout", 1024, server=addresses)
 """
 
 from __future__ import annotations
@@ -25,17 +26,36 @@ PATIENCE = 10  # seconds for servers to end
 
 
 class SlurmServers:
-    """An array job of n servers, for the time of a `with`, which gives their addresses. racebeam.connect() and
-    AtariVectorEnv(server=...) take these. They wait for their server, `wait` seconds at most.
+    """An array job of servers that lasts as long as a `with` block.
 
-    image: a cartridge image, or a folder of them, which the servers load; None: clients send the images of the games that they
-        play. options: of `racebeam serve`. folder: for announce files and logs, where all nodes see it; a folder of its own is
-        made in it and removed at the end. listen: what the servers listen on.
-    executor: one of submitit, whose logs stay; None: submitit.AutoExecutor, which asks Slurm, or runs the jobs here where
-        there is none.
-    parameters: what its update_parameters() takes, such as slurm_partition or timeout_min.
+    The block receives the addresses of the servers, for `racebeam.connect` and `AtariVectorEnv(server=...)`. An address
+    waits for its server, so that the job may start later.
 
-    Raises ImportError without submitit; InvalidInput for what cannot be.
+    Args:
+        n: Number of servers, at least 1.
+        image: A cartridge image, or a folder of images, that the servers load. Default: clients send the images of the
+            games that they play.
+        options: Further options of `racebeam serve`.
+        folder: Folder that all nodes see, for announce files and logs. A subfolder is made in it, and removed at the
+            end.
+        listen: Address on which each server listens.
+        wait: Seconds that an address waits for its server.
+        executor: An executor of submitit, whose logs stay. Default: submitit.AutoExecutor, which uses Slurm, or runs
+            the jobs on this computer if there is no Slurm.
+        **parameters: Parameters of the executor's update_parameters(), such as `slurm_partition` or `timeout_min`.
+
+    Attributes:
+        jobs: The jobs of submitit, in the order of the addresses.
+
+    Raises:
+        InvalidInput: If `n` or `image` is wrong.
+        ImportError: When the block begins, if submitit is not installed.
+
+    Example:
+        >>> from racebeam.cluster import SlurmServers
+        >>> SlurmServers(n=0)
+        Traceback (most recent call last):
+        racebeam._core.InvalidInput: n is 0; it takes 1 or more servers
     """
 
     def __init__(
@@ -53,18 +73,18 @@ class SlurmServers:
         if not isinstance(n, int) or n < 1:
             raise InvalidInput(f"n is {n!r}; it takes 1 or more servers")
         self._count, self._wait, self._folder = n, wait, pathlib.Path(folder).resolve()
-        self._options = [*_options_of(image), *options, "--listen", listen]
+        self._options = [*_image_options(image), *options, "--listen", listen]
         self._executor, self._parameters = executor, parameters
-        self._own: pathlib.Path | None = None
-        self.jobs: list[Any] = []  # of submitit, in the order of the addresses
+        self._subfolder: pathlib.Path | None = None
+        self.jobs: list[Any] = []
 
     def __enter__(self) -> list[str]:
-        submitit = _submitit()
-        self._own = pathlib.Path(tempfile.mkdtemp(prefix="racebeam-servers-", dir=self._folder))
+        submitit = _import_submitit()
+        self._subfolder = pathlib.Path(tempfile.mkdtemp(prefix="racebeam-servers-", dir=self._folder))
         try:
-            executor = self._executor or submitit.AutoExecutor(folder=self._own / "%j")
+            executor = self._executor or submitit.AutoExecutor(folder=self._subfolder / "%j")
             executor.update_parameters(**{"name": "racebeam-servers", **self._parameters})
-            announced = [str(self._own / f"server-{number}") for number in range(self._count)]
+            announced = [str(self._subfolder / f"server-{number}") for number in range(self._count)]
             self.jobs = executor.map_array(_serve, [[*self._options, "--announce", file] for file in announced])
         except BaseException:
             self._end()
@@ -81,28 +101,28 @@ class SlurmServers:
             job.cancel(check=False)
         self.jobs = []
         until = time.monotonic() + PATIENCE
-        while self._own is not None and self._own.exists() and time.monotonic() < until:
-            shutil.rmtree(self._own, ignore_errors=True)  # not while a job makes a file there
+        while self._subfolder is not None and self._subfolder.exists() and time.monotonic() < until:
+            shutil.rmtree(self._subfolder, ignore_errors=True)  # fails while a job makes a file there
             time.sleep(0.05)
 
 
-def _submitit() -> Any:
+def _import_submitit() -> Any:
     try:
         return importlib.import_module("submitit")
     except ImportError:
         raise ImportError('racebeam.cluster needs submitit; install it with: pip install "racebeam[slurm]"') from None
 
 
-def _options_of(image: str | os.PathLike[str] | None) -> list[str]:
+def _image_options(image: str | os.PathLike[str] | None) -> list[str]:
     if image is None:
         return []
     place = pathlib.Path(image).resolve()
     if not place.exists():
-        raise InvalidInput(f"image is {os.fspath(image)!r}, which is not there")
+        raise InvalidInput(f"image is {os.fspath(image)!r}, which does not exist")
     return ["--roms", str(place if place.is_dir() else place.parent)]
 
 
 def _serve(options: Sequence[str]) -> None:
-    """The job: becomes the server, so that the scheduler's signals reach it."""
+    """Runs a job: becomes the server, so that the scheduler's signals reach it."""
     server = program.path()
     os.execv(server, [server, "serve", *options])

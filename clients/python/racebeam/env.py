@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numbers
 import operator
-from typing import Any, Literal, TypedDict, Union
+from typing import Any, Literal, TypeAlias, TypedDict
 
 import gymnasium
 import numpy as np
@@ -19,13 +19,14 @@ from .arguments import (
     WrongType,
     WrongValue,
     check_choice,
-    either,
     flag,
     image,
-    listed,
+    join,
+    optional_whole,
     real,
     seconds,
     share,
+    value_or,
     whole,
 )
 from .errors import InvalidInput
@@ -34,11 +35,14 @@ from .presets import preset as preset_of
 from .window import Window
 from .wire.remote import RemoteInterface
 
-Pixels = npt.NDArray[np.uint8]
-Observation = Union[Pixels, dict[str, Pixels]]
-PlayerAction = Any  # an index, a pair of them, or (radius, angle, fire)
-Rom = Union[images.Rom, bytearray, memoryview]
-Played = tuple[Any, float, float, bool, bool, int, int, int]  # what ALEInterface.step() returns
+__all__ = ["AtariEnv", "AtariEnvStepMetadata"]
+
+Pixels: TypeAlias = npt.NDArray[np.uint8]
+Observation: TypeAlias = Pixels | dict[str, Pixels]
+PlayerAction: TypeAlias = Any  # an index, a pair of indices, or (radius, angle, fire)
+Rom: TypeAlias = images.Rom | bytearray | memoryview
+# What ALEInterface.step() returns: observation, rewards of A and B, ends, lives, and frame numbers.
+StepResults: TypeAlias = tuple[Any, float, float, bool, bool, int, int, int]
 
 VIEWS = {"rgb": View.RGB, "grayscale": View.GRAYSCALE, "ram": View.RAM}
 RULES = ("ale-0.12", "fixed")
@@ -50,51 +54,89 @@ SIDES = {-1: "LEFT", 0: "", 1: "RIGHT"}
 HEIGHTS = {-1: "DOWN", 0: "", 1: "UP"}
 
 
-class _Told(TypedDict):
+class _Counts(TypedDict):
     lives: int
     episode_frame_number: int
     frame_number: int
 
 
-class AtariEnvStepMetadata(_Told, total=False):
-    """The info of a step or a reset."""
+class AtariEnvStepMetadata(_Counts, total=False):
+    """The info of a step or a reset.
 
-    seeds: tuple[int, int]  # of a reset with a seed: of np_random, and of the game
-    reward_a: float  # of a step for two players
+    Attributes:
+        lives: Lives that are left.
+        episode_frame_number: Frames since the episode began.
+        frame_number: Frames since power-on.
+        seeds: After a reset with a seed: the seeds of `np_random` and of the game.
+        reward_a: With `two_player`, the reward of player A.
+        reward_b: With `two_player`, the reward of player B.
+    """
+
+    seeds: tuple[int, int]
+    reward_a: float
     reward_b: float
 
 
 class AtariEnv(gymnasium.Env[Any, Any]):
-    """A game, the same as ale_py's AtariEnv: for the same seed, arguments and actions, the same bytes.
+    """An Atari 2600 game. It returns what ale_py's AtariEnv returns, byte for byte, for the same arguments and actions.
 
-    game: its name, as racebeam.games() has it. mode, difficulty: None leaves the game's own.
-    obs_type: "rgb" (height, 160, 3), "grayscale" (height, 160) or "ram" (128,), of uint8. With sound_obs, an
-        observation is a dict of "image" and "sound", the 512 samples of the last frame.
-    frameskip: frames of a step, or (low, high): each step draws low to high - 1. A step does not stop at a game's end.
-    repeat_action_probability: of a frame, that it repeats the action before it.
-    full_action_space: all 18 actions, and not those alone that have an effect in this game.
-    continuous: an action is float32 (radius, angle, fire). A direction is pressed, and fire, where its part is more
-        than continuous_action_threshold; the radius is the strength of a paddle. All 18 actions are used.
-    max_num_frames_per_episode: the episode is truncated after them; 0: never.
-    render_mode: "human" opens a window, at 60 frames a second; "rgb_array" lets render() return the picture. All games of a
-        process share one window, which shows the one that played last.
-    preset: of racebeam.presets. It says what frameskip, repeat_action_probability, full_action_space,
-        max_num_frames_per_episode, noop_max, life_loss_ends and reward_range are where they are None.
-    rules: "ale-0.12", or "fixed". rom: the image, a path or its bytes, of any type that holds bytes; None: the one that
-        racebeam.find_image() finds.
-    two_player: an action is a pair, for A and B; info has reward_a, which is also the reward, and reward_b.
-    noop_max: an episode begins with 0 to noop_max - 1 frames of NOOP, drawn from np_random.
-    life_loss_ends: a lost life truncates the episode.
-    reward_range: (low, high): the reward of a step, of either player, is clipped; (-inf, inf) undoes a preset's.
-    sound: the window plays the sound. server: the game runs there; token, timeout: as racebeam.connect() has them.
+    A new environment has random seeds. `reset(seed=S)` powers the console on anew with seeds derived from S. Without a
+    seed, `reset` continues the random generators. A copy by `copy.deepcopy` or `pickle` continues where the original
+    is. Calls from two threads take turns.
 
-    A new environment has random seeds. reset(seed=S) powers the console on anew, with seeds that S gives; a reset
-    without seed continues the generators. A copy, by copy.deepcopy or pickle, continues where the original is.
+    Args:
+        game: Name of the game, one of `racebeam.games()`.
+        mode: Mode of the game, or None for its default.
+        difficulty: Difficulty of the game, or None for its default.
+        obs_type: Type of the observations, all uint8: "rgb" of shape (height, 160, 3), "grayscale" of shape (height,
+            160), or "ram" of shape (128,).
+        frameskip: Frames per step, or (low, high) to sample uniformly from [low, high). A step always runs all its
+            frames, even past game over.
+        repeat_action_probability: Probability that a frame repeats the previous action.
+        full_action_space: Whether actions are all 18 legal ones, or only those that have an effect in the game.
+        continuous: Whether an action is a float32 array (radius, angle, fire) instead of an index. The radius is also
+            the strength of a paddle. Selects all 18 actions.
+        continuous_action_threshold: Deflection from which a direction or the button counts as pressed.
+        max_num_frames_per_episode: Frames after which an episode is truncated; 0 for no limit.
+        render_mode: "human" opens a window at 60 frames per second, or "rgb_array" makes `render` return the screen.
+            All games of a process share one window, which shows the game that was stepped last.
+        sound_obs: Whether an observation is a dict of "image" and "sound", the 512 samples of the last frame.
+        preset: Name of a preset of `racebeam.presets`. It supplies `frameskip`, `repeat_action_probability`,
+            `full_action_space`, `max_num_frames_per_episode`, `noop_max`, `life_loss_ends` and `reward_range` where
+            they are None.
+        rules: "ale-0.12" for the rewards and ends of ALE 0.12, or "fixed" for corrected ones.
+        rom: Path or bytes of the cartridge image. Default: the image that `racebeam.find_image` finds.
+        two_player: Whether an action is a pair of indices for players A and B. `info` then has `reward_a`, which is
+            also the reward, and `reward_b`.
+        noop_max: Upper limit of the random number of NOOP frames that begin an episode: 0 to `noop_max` - 1.
+        life_loss_ends: Whether a lost life truncates the episode.
+        reward_range: Pair (low, high) to which the reward of a step is clipped. (-inf, inf) overrides that of a preset.
+        sound: Whether the window plays the sound.
+        server: Address of the server that runs the game.
+        token: Token that the server asks for.
+        timeout: Seconds to wait for each reply of the server. Default: no limit.
 
-    Raises gymnasium.error.Error for a wrong argument or seed; UnknownGame, MissingImage, or InvalidInput for what the
-    game does not accept; TypeError or IndexError for a wrong action, and AssertionError for a continuous one that is no
-    float32 array of 3; ClosedEnvironmentError after close(). With a server: also Refused, ConnectionError and
+    Attributes:
+        ale: The `ALEInterface` of the game.
+
+    Raises:
+        gymnasium.error.Error: If an argument is wrong; also a TypeError or a ValueError.
+        UnknownGame: If no game has this name.
+        MissingImage: If no image of the game is found.
+        InvalidInput: If the game does not accept an argument, such as its mode.
+        ConnectionError: If the server does not answer.
+
+    All methods raise ClosedEnvironmentError after `close`. With a server, they also raise Refused, ConnectionError and
     TimeoutError, and RuntimeError in a child process after a fork.
+
+    Example:
+        >>> import racebeam
+        >>> env = racebeam.AtariEnv("beamfall")
+        >>> observation, info = env.reset(seed=7)
+        >>> observation.shape, info["lives"]
+        ((210, 160, 3), 4)
+        >>> observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
+        >>> env.close()
     """
 
     metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 30}
@@ -134,13 +176,13 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         check_choice("render_mode", render_mode, RENDER_MODES)
         two_player, continuous = flag("two_player", two_player), flag("continuous", continuous)
         if two_player and continuous:
-            raise WrongValue("two_player and continuous are both True; a game for two takes indices of actions alone")
+            raise WrongValue("two_player and continuous are both True; a game for two takes only indices of actions")
         self._game, self._rom = game, image(rom)
-        self._game_mode, self._game_difficulty = _optional("mode", mode), _optional("difficulty", difficulty)
+        self._game_mode, self._game_difficulty = optional_whole("mode", mode), optional_whole("difficulty", difficulty)
         self._obs_type, self._view = obs_type, VIEWS[obs_type]
-        self._frameskip = _frameskip(either(frameskip, usual.frameskip))
-        self._noop_max = whole("noop_max", either(noop_max, usual.noop_max), 0, MOST)
-        self._reward_range: tuple[float, float] | None = either(reward_range, usual.reward_range)
+        self._frameskip = _frameskip(value_or(frameskip, usual.frameskip))
+        self._noop_max = whole("noop_max", value_or(noop_max, usual.noop_max), 0, MOST)
+        self._reward_range: tuple[float, float] | None = value_or(reward_range, usual.reward_range)
         self._two_player = two_player
         self.continuous = continuous
         self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
@@ -150,12 +192,14 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         self._window: Window | None = None
         self._is_closed = False
         _check_reward_range(self._reward_range)
-        sticky = share("repeat_action_probability", either(repeat_action_probability, usual.repeat_action_probability))
-        limit = _optional(
-            "max_num_frames_per_episode", either(max_num_frames_per_episode, usual.max_num_frames_per_episode)
+        sticky = share(
+            "repeat_action_probability", value_or(repeat_action_probability, usual.repeat_action_probability)
         )
-        life_loss_ends = flag("life_loss_ends", either(life_loss_ends, usual.life_loss_ends))
-        is_full = flag("full_action_space", either(full_action_space, usual.full_action_space))
+        limit = optional_whole(
+            "max_num_frames_per_episode", value_or(max_num_frames_per_episode, usual.max_num_frames_per_episode)
+        )
+        life_loss_ends = flag("life_loss_ends", value_or(life_loss_ends, usual.life_loss_ends))
+        is_full = flag("full_action_space", value_or(full_action_space, usual.full_action_space))
         self._check_game(game)
         self.ale: Any = self._interface(server, token, seconds("timeout", timeout))
         self._set_keys(rules, sticky, limit, life_loss_ends)
@@ -171,8 +215,15 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             raise WrongType(f"server is {server!r}; it takes the address of one server")
         return RemoteInterface(server, token, timeout)
 
+    def __str__(self) -> str:
+        name = self._game if self.spec is None else self.spec.id
+        return f"<{type(self).__name__}<{name}>>"
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}(game={self._game!r}, obs_type={self._obs_type!r}, frameskip={self._frameskip})"
+
     def _set_keys(self, rules: str, sticky: float, limit: int | None, life_loss_ends: bool) -> None:
-        """The settings that take effect when the game is loaded."""
+        """Sets what takes effect when the game is loaded."""
         self.ale.setString("rules", rules)
         self.ale.setFloat("repeat_action_probability", sticky)
         if limit is not None:
@@ -183,16 +234,30 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     # Seeds and images
 
     def seed_game(self, seed: int | None = None) -> tuple[int, int]:
-        """Seeds np_random, and the game when it is loaded the next time. None: at random. Returns both seeds."""
-        seeding.np_random(seed)  # raises Error for what is no seed
-        of_steps, of_game = np.random.SeedSequence(seed).generate_state(2)
-        self._np_random, _ = seeding.np_random(int(of_steps))
+        """Seeds `np_random`, and the game from its next `load_game` on.
+
+        Args:
+            seed: Seed from 0, or None for a random one.
+
+        Returns:
+            The seeds of `np_random` and of the game, uint32.
+
+        Raises:
+            gymnasium.error.Error: If `seed` is invalid.
+        """
+        seeding.np_random(seed)  # raises Error if `seed` is invalid
+        step_seed, game_seed = np.random.SeedSequence(seed).generate_state(2)
+        self._np_random, _ = seeding.np_random(int(step_seed))
         self._np_random_seed = -1 if seed is None else seed
-        self.ale.setInt("random_seed", int(of_game.astype(np.int32)))
-        return of_steps, of_game
+        self.ale.setInt("random_seed", int(game_seed.astype(np.int32)))
+        return step_seed, game_seed
 
     def load_game(self) -> None:
-        """Powers the console on, in the mode and the difficulty of the arguments."""
+        """Powers the console on, with the mode and the difficulty of the constructor.
+
+        Raises:
+            InvalidInput: If the game does not have the mode or the difficulty.
+        """
         if isinstance(self.ale, RemoteInterface):
             self.ale.loadROM(self._rom, self._game)
         else:
@@ -211,8 +276,8 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             and self._game_mode not in offered
         ):
             raise InvalidInput(
-                f"{self._game} has mode {self._game_mode} for two alone, which two_player=True plays; "
-                f"for one it offers {listed(offered)}"
+                f"{self._game} has mode {self._game_mode} only for two, which two_player=True plays; "
+                f"for one it offers {join(offered)}"
             )
         return self._game_mode
 
@@ -223,7 +288,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         if self._game_mode is None:
             return offered[0]
         if self._game_mode not in offered:
-            raise InvalidInput(f"{self._game} has no mode {self._game_mode} for two; it offers {listed(offered)}")
+            raise InvalidInput(f"{self._game} has no mode {self._game_mode} for two; it offers {join(offered)}")
         return self._game_mode
 
     # Spaces
@@ -254,7 +319,18 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     def reset(  # type: ignore[override]  # a TypedDict is a dict at run time
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, AtariEnvStepMetadata]:
-        """Begins an episode; with a seed, the game from power-on. There are no options."""
+        """Begins an episode.
+
+        Args:
+            seed: Seed with which the console is powered on anew. Default: continue the random generators.
+            options: Ignored.
+
+        Returns:
+            The observation, and the info. With a seed, the info has the `seeds` of `np_random` and of the game.
+
+        Raises:
+            gymnasium.error.Error: If `seed` is invalid.
+        """
         self._check_open("reset()")
         seeds = None
         if seed is not None:
@@ -269,7 +345,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         return self._get_obs(), info
 
     def _play_noops(self) -> None:
-        """An episode that ends meanwhile begins again, without them."""
+        """Plays the no-ops that begin an episode. If the episode ends meanwhile, begins another one without them."""
         frames = int(self.np_random.integers(self._noop_max)) if self._noop_max else 0
         if frames == 0:
             return
@@ -280,26 +356,40 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     def step(  # type: ignore[override]
         self, action: PlayerAction
     ) -> tuple[Observation, float, bool, bool, AtariEnvStepMetadata]:
-        """Plays an action for the frames of a step, all of them, also where the game ends before."""
+        """Plays an action for the frames of a step, even past game over.
+
+        Args:
+            action: Index of an action; with `two_player`, a pair of indices; with `continuous`, a float32 array of
+                shape (3,): the radius from 0 to 1, the angle in radians, and fire.
+
+        Returns:
+            The observation, the reward, terminated, truncated, and the info.
+
+        Raises:
+            TypeError: If the action has a wrong type.
+            IndexError: If an index is out of range.
+            AssertionError: If a continuous action is not a float32 array of shape (3,).
+            InvalidInput: If a part of a continuous action is not finite.
+        """
         self._check_open("step()")
-        meant = self._meant(action)
+        parsed = self._parse_action(action)
         frames = self._frameskip
         if isinstance(frames, tuple):
             frames = int(self.np_random.integers(*frames))
         play = self._play if self._window is None else self._play_in_window
-        seen, reward, reward_b, terminated, truncated, lives, episode_frame, frame = play(meant, frames)
+        seen, reward, reward_b, terminated, truncated, lives, episode_frame, frame = play(parsed, frames)
         info: AtariEnvStepMetadata = {"lives": lives, "episode_frame_number": episode_frame, "frame_number": frame}
-        reward = self._clipped(reward)
+        reward = self._clip(reward)
         if self._two_player:
-            info["reward_a"], info["reward_b"] = reward, self._clipped(reward_b)
+            info["reward_a"], info["reward_b"] = reward, self._clip(reward_b)
         return self._observation(seen), reward, terminated, truncated, info
 
-    def _play(self, action: tuple[int, float, int, float], frames: int) -> Played:
+    def _play(self, action: tuple[int, float, int, float], frames: int) -> StepResults:
         a, strength_a, b, strength_b = action
-        played: Played = self.ale.step(a, strength_a, frames, self._view, b, strength_b)
-        return played
+        results: StepResults = self.ale.step(a, strength_a, frames, self._view, b, strength_b)
+        return results
 
-    def _play_in_window(self, action: tuple[int, float, int, float], frames: int) -> Played:
+    def _play_in_window(self, action: tuple[int, float, int, float], frames: int) -> StepResults:
         reward = reward_b = 0.0
         for _ in range(frames):
             seen, more, more_b, *after = self._play(action, 1)
@@ -307,7 +397,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             self._show_window()
         return (seen, reward, reward_b, *after)
 
-    def _clipped(self, reward: float) -> float:
+    def _clip(self, reward: float) -> float:
         if self._reward_range is None:
             return reward
         low, high = self._reward_range
@@ -315,19 +405,19 @@ class AtariEnv(gymnasium.Env[Any, Any]):
 
     # Actions
 
-    def _meant(self, action: PlayerAction) -> tuple[int, float, int, float]:
-        """The number of A's action and the strength of its paddle, then B's."""
+    def _parse_action(self, action: PlayerAction) -> tuple[int, float, int, float]:
+        """Returns the number of A's action and the strength of its paddle, then those of B."""
         if self.continuous:
-            return (*self._of_continuous(action), FIRST_OF_B, 0.0)
+            return (*self._parse_continuous(action), FIRST_OF_B, 0.0)
         if not self._two_player:
-            return self._number(action), 1.0, FIRST_OF_B, 0.0
+            return self._look_up(action), 1.0, FIRST_OF_B, 0.0
         try:
             a, b = action
         except (TypeError, ValueError):
             raise TypeError(f"action is {action!r}; it must be a pair of indices, for players A and B") from None
-        return self._number(a), 1.0, FIRST_OF_B + self._number(b), 1.0
+        return self._look_up(a), 1.0, FIRST_OF_B + self._look_up(b), 1.0
 
-    def _number(self, action: Any) -> int:
+    def _look_up(self, action: Any) -> int:
         try:
             index = operator.index(action)
         except TypeError:
@@ -336,7 +426,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
             raise IndexError(f"action {index} is out of range; there are 0 to {len(self._action_set) - 1}")
         return self._action_set[index].value
 
-    def _of_continuous(self, action: Any) -> tuple[int, float]:
+    def _parse_continuous(self, action: Any) -> tuple[int, float]:
         if not (isinstance(action, np.ndarray) and action.dtype == np.float32 and action.shape == (3,)):
             raise AssertionError(f"action is {action!r}; it must be a float32 array of 3: radius, angle and fire")
         if not np.isfinite(action).all():
@@ -344,16 +434,28 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         radius, angle, fire = action
         threshold = np.float32(self.continuous_action_threshold)  # the comparisons are those of float32
         x, y = radius * np.cos(angle), radius * np.sin(angle)
-        meant = self.map_action_idx(
+        chosen = self.map_action_idx(
             left_center_right=int(x > threshold) - int(x < -threshold),
             down_center_up=int(y > threshold) - int(y < -threshold),
             fire=bool(fire > threshold),
         )
-        return meant.value, float(radius)
+        return chosen.value, float(radius)
 
     @staticmethod
     def map_action_idx(left_center_right: int, down_center_up: int, fire: bool) -> Action:
-        """The action of a stick that is at -1, 0 or 1 from left to right and from down to up."""
+        """Converts the position of a joystick to an action.
+
+        Args:
+            left_center_right: -1 for left, 0 for the centre, 1 for right.
+            down_center_up: -1 for down, 0 for the centre, 1 for up.
+            fire: Whether the button is pressed.
+
+        Returns:
+            The action.
+
+        Raises:
+            LookupError: If a position is not -1, 0 or 1.
+        """
         if left_center_right not in SIDES or down_center_up not in HEIGHTS:
             raise LookupError(
                 f"left_center_right is {left_center_right} and down_center_up is {down_center_up}; "
@@ -363,19 +465,27 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         return Action[name or "NOOP"]
 
     def get_action_meanings(self) -> list[str]:
-        """The name of each action."""
+        """Returns the names of the actions in the order of their indices, such as ["NOOP", "FIRE"]."""
         return [action.name for action in self._action_set]
 
     def get_keys_to_action(self) -> dict[tuple[str, ...], int]:
-        """The index of each action by the keys that are held for it: w, a, s, d, space; e for none."""
+        """Maps the keys that a player holds to actions.
+
+        Returns:
+            The index of an action by the keys w, a, s, d and space that are held; e is for NOOP.
+
+        Raises:
+            AttributeError: With `continuous` or `two_player`.
+        """
         if self.continuous or self._two_player:
             setting = "continuous" if self.continuous else "two_player"
             raise AttributeError(
-                f"`get_keys_to_action` can't be provided for this Atari environment as `{setting}=True`: keys are of one stick"
+                f"`get_keys_to_action` can't be provided for this Atari environment as `{setting}=True`: "
+                "keys move one joystick"
             )
         return {_keys_of(name): index for index, name in enumerate(self.get_action_meanings())}
 
-    # What is seen and told
+    # Observations
 
     def _observation(self, image: Pixels) -> Observation:
         return {"image": image, "sound": self.ale.getAudio()} if self.sound_obs else image
@@ -392,7 +502,15 @@ class AtariEnv(gymnasium.Env[Any, Any]):
         }
 
     def render(self) -> Pixels | None:
-        """The picture, for "rgb_array"; None for "human", whose window shows it already."""
+        """Returns the screen.
+
+        Returns:
+            uint8 array of shape (height, 160, 3) if `render_mode` is "rgb_array"; None if it is "human", since the
+            window shows the screen already.
+
+        Raises:
+            gymnasium.error.Error: If `render_mode` is None.
+        """
         self._check_open("render()")
         if self.render_mode == "human":
             return None
@@ -420,16 +538,30 @@ class AtariEnv(gymnasium.Env[Any, Any]):
     # States, copies, the end
 
     def clone_state(self, include_rng: bool = False) -> ALEState:
-        """The state of the game; with include_rng, also of the generator of sticky actions. Not that of np_random."""
+        """Saves the state of the game, without `np_random`.
+
+        Args:
+            include_rng: Whether the state has the generator of sticky actions.
+
+        Returns:
+            A state that can be pickled, and restored in another process.
+        """
         state: ALEState = self.ale.cloneState(include_rng=include_rng)
         return state
 
     def restore_state(self, state: ALEState) -> None:
-        """Raises InvalidInput for a state of another game."""
+        """Restores a state of the game.
+
+        Args:
+            state: A state that `clone_state` returned.
+
+        Raises:
+            InvalidInput: If the state belongs to another game.
+        """
         self.ale.restoreState(state)
 
     def __getstate__(self) -> dict[str, Any]:
-        """The game as it is. A copy with render_mode "human" shows itself in the window, too."""
+        """Returns the state of a copy, which continues where this game is, in the same window."""
         self._check_open("a copy")
         return {**self.__dict__, "_window": None}
 
@@ -439,7 +571,7 @@ class AtariEnv(gymnasium.Env[Any, Any]):
 
     def close(self) -> None:
         """Closes the window, and the session with a server. A second call does nothing."""
-        if self.__dict__.get("_is_closed", True):  # there is none where the constructor failed
+        if self.__dict__.get("_is_closed", True):  # missing if the constructor failed
             return
         self._is_closed = True
         if self._window is not None:
@@ -451,11 +583,11 @@ class AtariEnv(gymnasium.Env[Any, Any]):
 
     def _check_open(self, what: str) -> None:
         if self._is_closed:
-            raise _closed(what, self._game)
+            raise _closed_error(what, self._game)
 
 
 class _Closed:
-    """In the place of the interface of an environment that was closed."""
+    """Placeholder for the interface of a closed environment: any use raises ClosedEnvironmentError."""
 
     def __init__(self, game: str) -> None:
         self._game = game
@@ -463,10 +595,10 @@ class _Closed:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        raise _closed(name, self._game)
+        raise _closed_error(name, self._game)
 
 
-def _closed(what: str, game: str) -> error.ClosedEnvironmentError:
+def _closed_error(what: str, game: str) -> error.ClosedEnvironmentError:
     return error.ClosedEnvironmentError(f"{what} is not possible: this environment of {game} was closed")
 
 
@@ -479,16 +611,12 @@ def _check_rules(rules: object) -> None:
         raise InvalidInput(f"rules is {rules!r}; it takes {' or '.join(RULES)}")
 
 
-def _optional(name: str, value: Any) -> int | None:
-    return None if value is None else whole(name, value, 0, MOST)
-
-
 def _is_whole(value: object) -> bool:
     return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
 
 
 def _frameskip(given: Any) -> int | tuple[int, int]:
-    """Checked, in Python's own ints."""
+    """Checks a frameskip, and converts its numbers to int."""
     accepted = f"it takes an int from 1 to {MOST}, or a tuple (low, high) of such ints with low < high"
     if not isinstance(given, tuple) and not _is_whole(given):
         raise WrongType(f"frameskip has the type {type(given).__name__}; {accepted}")

@@ -1,6 +1,6 @@
-"""What can go wrong, beside Python's own exceptions.
+"""Exceptions of the package.
 
-All bad input is an InvalidInput, which is a RuntimeError, as in ALE, and a ValueError. Its sentence says what was wrong
+Invalid input raises `InvalidInput`. It is a RuntimeError, as in ALE, and a ValueError. Its message says what is wrong,
 and what is accepted.
 """
 
@@ -12,8 +12,8 @@ __all__ = ["InvalidInput", "MissingImage", "UnknownGame"]
 
 
 class UnknownGame(InvalidInput):
-    """There is no game of this name."""
+    """Raised for a name that no game has."""
 
 
 class MissingImage(InvalidInput, FileNotFoundError):
-    """No cartridge image of the game was found. The sentence says where was looked."""
+    """Raised if no cartridge image of a game is found. The message lists the places that were searched."""

@@ -1,9 +1,9 @@
-"""Where the cartridge images of games are.
+"""Finds the cartridge images of games.
 
-The games of our own are part of racebeam. For the others, these folders are searched, in this order: that of the
-environment variable RACEBEAM_ROMS, that of ALE_ROMS_DIR, and the one in an installed ale_py, without their
-subfolders. A file that ends in .bin, .a26 or .rom, also with .gz after it, counts by its MD5, whatever its name is
-besides.
+racebeam contains the images of its own games. For the others, it searches these folders in this order, without their
+subfolders: the one that RACEBEAM_ROMS names, the one that ALE_ROMS_DIR names, and the one in an installed ale_py. A
+    file
+that ends in .bin, .a26 or .rom, optionally followed by .gz, is identified by its MD5; its name is ignored.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import os
 import pathlib
 import types
 from collections.abc import Mapping
-from typing import Any, Union
+from typing import Any, TypeAlias
 
 from . import _core
 from .errors import InvalidInput, MissingImage, UnknownGame
@@ -24,29 +24,44 @@ from .errors import InvalidInput, MissingImage, UnknownGame
 VARIABLES = ("RACEBEAM_ROMS", "ALE_ROMS_DIR")
 BUILT_IN = "builtin:"
 
-Rom = Union[str, os.PathLike[str], bytes]
-Files = tuple[tuple[str, int, int], ...]  # paths, and what changes with the contents
+Rom: TypeAlias = str | os.PathLike[str] | bytes
+Files: TypeAlias = tuple[
+    tuple[str, int, int], ...
+]  # path, size and time of change; the latter two change with contents
 
 
 @functools.lru_cache(maxsize=1)
 def titles() -> Mapping[str, str]:
-    """The title of each game by its name."""
+    """Returns a read-only mapping from the name of each game to its title."""
     return types.MappingProxyType({name: title for name, title, _, _ in _core.games()})
 
 
 def games() -> dict[str, str]:
-    """The title of each game by its name. It is the caller's own."""
+    """Lists the games that racebeam knows, whether or not their images are installed.
+
+    Returns:
+        A new dictionary from the name of each game to its title.
+
+    Example:
+        >>> import racebeam
+        >>> racebeam.games()["beamfall"]
+        'Beamfall'
+    """
     return dict(titles())
 
 
 @functools.lru_cache(maxsize=1)
 def built_in() -> frozenset[str]:
-    """The names of the games whose images are part of racebeam."""
+    """Returns the names of the games whose images are part of racebeam."""
     return frozenset(name for name, _, _, is_built_in in _core.games() if is_built_in)
 
 
 def check_name(game: str) -> None:
-    """Raises UnknownGame, with names that are like this one."""
+    """Checks the name of a game.
+
+    Raises:
+        UnknownGame: If no game has this name. The message suggests similar names.
+    """
     if isinstance(game, str) and game in titles():
         return
     near = difflib.get_close_matches(str(game), titles(), n=3)
@@ -55,7 +70,7 @@ def check_name(game: str) -> None:
 
 
 def ale_folder() -> pathlib.Path | None:
-    """The folder of images in an installed ale_py, which is not imported."""
+    """Returns the folder of images in an installed ale_py, or None. Does not import ale_py."""
     found = importlib.machinery.PathFinder.find_spec("ale_py")
     if found is None or found.origin is None:
         return None
@@ -63,7 +78,11 @@ def ale_folder() -> pathlib.Path | None:
 
 
 def folders() -> list[tuple[str, pathlib.Path | None]]:
-    """The places that are searched: what names them, and the folder, if there is one."""
+    """Lists the places that are searched, in order.
+
+    Returns:
+        For each place its description, and its folder or None if it is not set.
+    """
     named: list[tuple[str, pathlib.Path | None]] = []
     for variable in VARIABLES:
         value = os.environ.get(variable)
@@ -72,8 +91,18 @@ def folders() -> list[tuple[str, pathlib.Path | None]]:
     return named
 
 
-def given(rom: Any) -> Rom:
-    """A path as it is, and whatever else holds bytes as bytes. Raises TypeError."""
+def path_or_bytes(rom: Any) -> Rom:
+    """Converts an argument that means an image.
+
+    Args:
+        rom: A path, or an object that holds bytes.
+
+    Returns:
+        The path as given, or the contents as bytes.
+
+    Raises:
+        TypeError: If `rom` is something else.
+    """
     if isinstance(rom, (str, bytes, os.PathLike)):
         return rom
     try:
@@ -83,16 +112,16 @@ def given(rom: Any) -> Rom:
 
 
 def _files(folder: pathlib.Path) -> Files:
-    """Those that look like images."""
+    """Lists the files of a folder whose names end like those of images."""
     files: list[tuple[str, int, int]] = []
     for file in _core.image_files(str(folder)):
-        with contextlib.suppress(OSError):  # it has just been removed
-            told = os.stat(file)
-            files.append((file, told.st_size, told.st_ctime_ns))
+        with contextlib.suppress(OSError):  # the file was removed meanwhile
+            status = os.stat(file)
+            files.append((file, status.st_size, status.st_ctime_ns))
     return tuple(files)
 
 
-def _game_of(file: str) -> str | None:
+def _identify(file: str) -> str | None:
     try:
         return _core.identify(file)[1]
     except InvalidInput:
@@ -101,55 +130,79 @@ def _game_of(file: str) -> str | None:
 
 @functools.lru_cache(maxsize=16)
 def _images(files: Files) -> dict[str | None, str]:
-    """The files by the game that they are, of several the first."""
-    return {_game_of(file): file for file, _, _ in reversed(files)}
+    """Maps each game to the first of its images."""
+    return {_identify(file): file for file, _, _ in reversed(files)}
 
 
-def _usual(folder: pathlib.Path, game: str) -> str | None:
-    """The file with the name of the game, if it is its image."""
+def _find_by_name(folder: pathlib.Path, game: str) -> str | None:
+    """Returns the file that is named after the game, if it is an image of the game."""
     file = str(folder / f"{game}.bin")
-    return file if _game_of(file) == game else None
+    return file if _identify(file) == game else None
 
 
 def _find_in(folder: pathlib.Path, game: str) -> str | None:
-    """A file is identified at once: within a tick of the clock of file systems, one can change without a sign."""
-    usual = _usual(folder, game)
-    if usual is not None:
-        return usual
+    """Finds an image of the game in a folder.
+
+    Identifies the file again when the cache has it, because a file can change within one tick of the file system's
+    clock without a visible sign.
+    """
+    named = _find_by_name(folder, game)
+    if named is not None:
+        return named
     found = _images(_files(folder)).get(game)
-    if found is None or _game_of(found) == game:
+    if found is None or _identify(found) == game:
         return found
     _images.cache_clear()
     return _images(_files(folder)).get(game)
 
 
 def find(game: str) -> str:
-    """The path of the game's image, or builtin:NAME. Raises UnknownGame, or MissingImage."""
+    """Finds the cartridge image of a game.
+
+    Args:
+        game: Name of the game, one of `racebeam.games()`.
+
+    Returns:
+        The path of the image, or "builtin:NAME" for a game that is part of racebeam.
+
+    Raises:
+        UnknownGame: If no game has this name.
+        MissingImage: If no image of the game is found.
+
+    Example:
+        >>> import racebeam
+        >>> racebeam.find_image("beamfall")
+        'builtin:beamfall'
+    """
     check_name(game)
     if game in built_in():
         return BUILT_IN + game
-    looked: list[str] = []
+    searched: list[str] = []
     for named, folder in folders():
         if folder is None:
-            looked.append(f"{named} (not there)" if named not in VARIABLES else f"{named} (not set)")
+            searched.append(f"{named} (not there)" if named not in VARIABLES else f"{named} (not set)")
         elif not folder.is_dir():
-            looked.append(f"{named}, {folder} (no folder)")
+            searched.append(f"{named}, {folder} (not a folder)")
         else:
             found = _find_in(folder, game)
             if found is not None:
                 return found
-            looked.append(f"{named}, {folder} (no file with an MD5 of it)")
+            searched.append(f"{named}, {folder} (no file has an MD5 of the game)")
     raise MissingImage(
-        f"no cartridge image of {game} was found; looked in {'; '.join(looked)}. Set RACEBEAM_ROMS to a folder "
-        "of images, install ale-py, or give rom= a path or bytes"
+        f"no cartridge image of {game} was found; racebeam searched {'; '.join(searched)}. "
+        "Set RACEBEAM_ROMS to a folder of images, install ale-py, or pass rom= a path or bytes"
     )
 
 
 def find_all() -> dict[str, str]:
-    """Each game that can be played here, with its image."""
+    """Finds the images of all games.
+
+    Returns:
+        A dictionary from the name of each game that can be played here to its image, as `find` returns it.
+    """
     found = {game: BUILT_IN + game for game in built_in()}
     for _, folder in folders():
         if folder is not None and folder.is_dir():
             there = _images(_files(folder))
-            found = {game: _usual(folder, game) or there[game] for game in there if game is not None} | found
+            found = {game: _find_by_name(folder, game) or there[game] for game in there if game is not None} | found
     return {game: found[game] for game in titles() if game in found}

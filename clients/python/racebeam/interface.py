@@ -1,4 +1,4 @@
-"""ALEInterface, with what needs nothing of the machine."""
+"""ALEInterface: the compiled class and the methods that do not need the machine."""
 
 from __future__ import annotations
 
@@ -17,35 +17,73 @@ def _chunk(name: bytes, data: bytes) -> bytes:
 
 
 def png(rgb: np.ndarray[Any, np.dtype[np.uint8]]) -> bytes:
-    """A picture, height x width x 3, as a PNG file."""
+    """Encodes a picture as a PNG file.
+
+    Args:
+        rgb: uint8 array of shape (height, width, 3).
+
+    Returns:
+        The contents of the file.
+    """
     height, width, _ = rgb.shape
-    rows = np.zeros((height, 1 + 3 * width), np.uint8)  # each row begins with its filter: none
+    rows = np.zeros((height, 1 + 3 * width), np.uint8)  # the first byte of a row is 0: no filter
     rows[:, 1:] = rgb.reshape(height, -1)
     head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
-    return (
-        b"\x89PNG\r\n\x1a\n"
-        + _chunk(b"IHDR", head)
-        + _chunk(b"IDAT", zlib.compress(rows.tobytes()))
-        + _chunk(b"IEND", b"")
-    )
+    chunks = [(b"IHDR", head), (b"IDAT", zlib.compress(rows.tobytes())), (b"IEND", b"")]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(name, data) for name, data in chunks)
 
 
 class ALEInterface(_core.ALEInterface):
-    """A game in this process, with the methods of ale_py.ALEInterface and some more."""
+    """One game in this process, with the methods of ale_py.ALEInterface and others.
+
+    Two threads that use one interface take turns. `loadROM`, `reset_game`, `act` and `step` release the GIL. A copy by
+    `copy.deepcopy` or `pickle` continues where the original is.
+
+    Example:
+        >>> import racebeam
+        >>> ale = racebeam.ALEInterface()
+        >>> ale.setInt("random_seed", 123)
+        >>> ale.loadROM(racebeam.find_image("beamfall"))
+        >>> ale.act(racebeam.Action.FIRE)
+        0
+        >>> ale.getScreenRGB().shape
+        (210, 160, 3)
+    """
 
     def loadROM(self, rom: Any, game: str | None = None) -> None:
-        """Powers the machine on. rom: a path, builtin:NAME, or the bytes of an image. game: whose rule it has; None: the
-        image decides.
+        """Inserts a cartridge and powers the machine on, with the settings that were made before.
+
+        Args:
+            rom: A path, "builtin:NAME", or the bytes of an image.
+            game: Name of the game whose rules apply, or None to identify the image.
+
+        Raises:
+            InvalidInput: If the image cannot be read, or is unknown and `game` is None.
+            TypeError: If `rom` is neither a path nor bytes.
         """
-        super().loadROM(images.given(rom), game)
+        super().loadROM(images.path_or_bytes(rom), game)
 
     @staticmethod
     def isSupportedROM(rom: Any) -> str | None:
-        """The name of the image's game, or None."""
-        return _core.ALEInterface.isSupportedROM(images.given(rom))
+        """Identifies an image.
+
+        Args:
+            rom: A path, "builtin:NAME", or the bytes of an image.
+
+        Returns:
+            The name of its game, or None if the image is unknown.
+        """
+        return _core.ALEInterface.isSupportedROM(images.path_or_bytes(rom))
 
     def saveScreenPNG(self, path: str | os.PathLike[str]) -> None:
-        """Writes the screen as a PNG file, in which each pixel is doubled in width. Raises OSError."""
+        """Writes the screen as a PNG file of 320 columns: pixels of the Atari 2600 are twice as wide as high.
+
+        Args:
+            path: Path of the file.
+
+        Raises:
+            OSError: If the file cannot be written.
+        """
         name = os.fspath(path)  # a number would be an open file of the program
         picture = png(np.repeat(self.getScreenRGB(), 2, axis=1))
         with open(name, "wb") as file:

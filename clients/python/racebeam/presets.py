@@ -1,4 +1,4 @@
-"""Settings of the literature, as the line protocol has them (protocol/PROTOCOL.md, "games and load")."""
+"""Settings of the literature, equal to the presets of the line protocol (protocol/PROTOCOL.md, "games and load")."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from .errors import InvalidInput
 
 
 class Preset(NamedTuple):
-    """Arguments of AtariEnv; the defaults are those of ale_py.AtariEnv."""
+    """Defaults for arguments of `AtariEnv`. Without a preset, they are those of ale_py.AtariEnv."""
 
     frameskip: int | tuple[int, int] = 4
     repeat_action_probability: float = 0.25
@@ -29,7 +29,7 @@ PRESETS = {
 
 
 class VectorPreset(NamedTuple):
-    """Arguments of AtariVectorEnv; the defaults are those of ale_py.AtariVectorEnv."""
+    """Defaults for arguments of `AtariVectorEnv`. Without a preset, they are those of ale_py.AtariVectorEnv."""
 
     frameskip: int = 4
     repeat_action_probability: float = 0.0
@@ -41,7 +41,7 @@ class VectorPreset(NamedTuple):
     reward_clipping: bool = True
 
 
-# Many environments begin an episode as ale_py has it, except where the literature says how.
+# Episodes begin as in ale_py, except where the literature says how they begin.
 VECTOR_PRESETS = {
     "ale": VectorPreset(),
     "gym-v5": VectorPreset(repeat_action_probability=0.25),
@@ -52,18 +52,30 @@ VECTOR_PRESETS = {
 
 
 def preset(name: str) -> Preset:
-    """Raises InvalidInput for an unknown name."""
+    """Looks up the preset of this name for `AtariEnv`.
+
+    Raises:
+        InvalidInput: If there is no such preset.
+    """
     check_name(name)
     return PRESETS[name]
 
 
 def vector_preset(name: str) -> VectorPreset:
-    """Raises InvalidInput for an unknown name."""
+    """Looks up the preset of this name for `AtariVectorEnv`.
+
+    Raises:
+        InvalidInput: If there is no such preset.
+    """
     check_name(name)
     return VECTOR_PRESETS[name]
 
 
 def check_name(name: str) -> None:
-    """Raises InvalidInput for the name of no preset."""
+    """Checks the name of a preset.
+
+    Raises:
+        InvalidInput: If there is no such preset.
+    """
     if not isinstance(name, str) or name not in PRESETS:
         raise InvalidInput(f"there is no preset {name!r}; there are {', '.join(PRESETS)}")

@@ -1,4 +1,4 @@
-"""The program `racebeam`, which pip installs beside python."""
+"""Finds the program `racebeam`, which pip installs beside python."""
 
 from __future__ import annotations
 
@@ -9,10 +9,18 @@ import shutil
 
 
 def path() -> str:
-    """Where it is: RACEBEAM_PROGRAM, else what the package installed, else what the PATH has. Raises FileNotFoundError."""
-    told = os.environ.get("RACEBEAM_PROGRAM")
-    if told:
-        return told
+    """Finds the program.
+
+    Returns:
+        The value of RACEBEAM_PROGRAM; else the path of the program that this package installed; else the one on the
+        PATH.
+
+    Raises:
+        FileNotFoundError: If there is none.
+    """
+    named = os.environ.get("RACEBEAM_PROGRAM")
+    if named:
+        return named
     installed = _installed()
     found = str(installed) if installed is not None else shutil.which("racebeam")
     if found is None:

@@ -1,17 +1,24 @@
-"""The ids of Gymnasium: racebeam's own, and on request those of ale_py."""
+"""Registers the environments with Gymnasium: racebeam's own ids, and those of ale_py on request."""
 
 from __future__ import annotations
 
+import importlib.abc
+import importlib.machinery
+import sys
+import types
+from collections.abc import Sequence
 from typing import Any
 
 import gymnasium
 
 from . import ale_games, images
 
+__all__ = ["register_ale_ids", "register_own_ids", "register_v0_v4_envs", "register_v5_envs", "rom_id_to_name"]
+
 ALE_PACKAGE = "racebeam.ale_py"
 FRAMES_OF_AN_EPISODE = 108000
 
-# The ids of Gym's time, by what is around the game's name: repeat_action_probability and frameskip.
+# The ids of Gym before version 0.22, by the pattern of their names: repeat_action_probability and frameskip.
 OLD_IDS: dict[str, tuple[float, int | tuple[int, int]]] = {
     "{}-v0": (0.25, (2, 5)),
     "{}-v4": (0.0, (2, 5)),
@@ -21,13 +28,25 @@ OLD_IDS: dict[str, tuple[float, int | tuple[int, int]]] = {
 
 
 def rom_id_to_name(rom: str) -> str:
-    """SpaceInvaders of space_invaders."""
+    """Converts the name of a game into that of its id.
+
+    Args:
+        rom: Name of the game, such as "space_invaders".
+
+    Returns:
+        The name in camel case, such as "SpaceInvaders".
+    """
     return rom.title().replace("_", "")
 
 
 def _register(env_id: str, package: str, has_vectors: bool, **arguments: Any) -> None:
-    """Takes the place of another's environment of this id, without a warning: it was asked for. package: where its modules `env` and
-    `vector_env` are. has_vectors: for gymnasium.make_vec(), too.
+    """Registers an id, and replaces another package's environment of this id without a warning.
+
+    Args:
+        env_id: The id.
+        package: The package whose modules `env` and `vector_env` have the classes.
+        has_vectors: Whether gymnasium.make_vec() makes an AtariVectorEnv of this id.
+        **arguments: Arguments of the class.
     """
     gymnasium.registry.pop(env_id, None)
     vectors = f"{package}.vector_env:AtariVectorEnv" if has_vectors else None
@@ -50,26 +69,86 @@ def _register_as_ale(
 
 
 def register_own_ids() -> None:
-    """racebeam/Pong-v5 and so on. Their settings are a preset, so that preset= of gymnasium.make() replaces all."""
+    """Registers racebeam/Pong-v5, racebeam/PongNoFrameskip-v4 and so on.
+
+    The former have the settings of ALE/Pong-v5. The latter play each frame, for wrappers that skip frames, and their
+    actions are not sticky. Settings are a preset, which preset= of gymnasium.make() replaces.
+    """
     for game in images.titles():
-        _register(f"racebeam/{rom_id_to_name(game)}-v5", "racebeam", True, game=game, preset="gym-v5")
+        name = f"racebeam/{rom_id_to_name(game)}"
+        _register(f"{name}-v5", "racebeam", True, game=game, preset="gym-v5")
+        every_frame = {"frameskip": 1, "repeat_action_probability": 0.0}
+        _register(f"{name}NoFrameskip-v4", "racebeam", False, game=game, preset="gym-v5", **every_frame)
+
+
+def _v5_ids() -> dict[str, str]:
+    """Returns the game of each id of version 5."""
+    return {f"ALE/{rom_id_to_name(game)}-v5": game for game in ale_games.EVERY if game not in ale_games.FOR_TWO}
 
 
 def register_v5_envs(package: str = ALE_PACKAGE) -> None:
-    """ALE/Pong-v5 and so on."""
-    for game in ale_games.EVERY:
-        if game not in ale_games.FOR_TWO:
-            _register_as_ale(f"ALE/{rom_id_to_name(game)}-v5", package, True, game, 0.25, 4)
+    """Registers ALE/Pong-v5 and so on.
+
+    Args:
+        package: The package that has the classes.
+    """
+    for env_id, game in _v5_ids().items():
+        _register_as_ale(env_id, package, True, game, 0.25, 4)
 
 
 def register_v0_v4_envs(package: str = ALE_PACKAGE) -> None:
-    """Pong-v0, Pong-v4, PongNoFrameskip-v0 and PongNoFrameskip-v4, and so on."""
+    """Registers Pong-v0, Pong-v4, PongNoFrameskip-v0 and PongNoFrameskip-v4, and so on.
+
+    Args:
+        package: The package that has the classes.
+    """
     for pattern, (sticky, frameskip) in OLD_IDS.items():
         for game in ale_games.OF_OLD:
             _register_as_ale(pattern.format(rom_id_to_name(game)), package, False, game, sticky, frameskip)
 
 
 def register_ale_ids(package: str = ALE_PACKAGE) -> None:
-    """All ids of ale_py."""
+    """Registers all ids of ale_py.
+
+    A later `import ale_py` would register its own classes under these ids. Afterwards, they are registered again.
+
+    Args:
+        package: The package that has the classes.
+    """
     register_v0_v4_envs(package)
     register_v5_envs(package)
+    if not any(isinstance(finder, _AleFinder) for finder in sys.meta_path):
+        sys.meta_path.insert(0, _AleFinder())
+
+
+class _AleFinder(importlib.abc.MetaPathFinder):
+    """Finds the installed ale_py, and makes its import register racebeam's environments afterwards."""
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: types.ModuleType | None = None
+    ) -> importlib.machinery.ModuleSpec | None:
+        spec = importlib.machinery.PathFinder.find_spec(fullname, path, target) if fullname == "ale_py" else None
+        if spec is not None and spec.loader is not None:
+            spec.loader = _AleLoader(spec.loader)
+        return spec
+
+
+class _AleLoader(importlib.abc.Loader):
+    """Loads ale_py by its own loader, then registers racebeam's environments again."""
+
+    def __init__(self, loader: importlib.abc.Loader) -> None:
+        self._loader = loader
+
+    def create_module(self, spec: importlib.machinery.ModuleSpec) -> types.ModuleType | None:
+        return self._loader.create_module(spec)
+
+    def exec_module(self, module: types.ModuleType) -> None:
+        module.__loader__ = self._loader
+        if module.__spec__ is not None:
+            module.__spec__.loader = self._loader
+        old_ids = (pattern.format(rom_id_to_name(game)) for pattern in OLD_IDS for game in ale_games.OF_OLD)
+        for env_id in (*_v5_ids(), *old_ids):
+            gymnasium.registry.pop(env_id, None)  # else ale_py warns that it overrides the id
+        self._loader.exec_module(module)
+        register_v0_v4_envs()
+        register_v5_envs()

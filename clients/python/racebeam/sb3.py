@@ -1,4 +1,4 @@
-"""Environments for Stable-Baselines3: VecEnv, in the place of make_atari_env() and VecFrameStack.
+"""Environments for Stable-Baselines3: VecEnv replaces make_atari_env() and VecFrameStack.
 
     from racebeam.sb3 import VecEnv
     model = stable_baselines3.PPO("CnnPolicy", VecEnv("breakout", 8, seed=1))
@@ -23,11 +23,11 @@ from .vector_settings import autoreset_of
 
 __all__ = ["VecEnv"]
 
-USUAL: dict[str, Any] = {"autoreset_mode": "SameStep", "start": "baselines", "lives": "end"}
+DEFAULTS: dict[str, Any] = {"autoreset_mode": "SameStep", "start": "baselines", "lives": "end"}
 
 
 def _check(settings: dict[str, Any]) -> None:
-    """Raises WrongValue or WrongType for what AtariVectorEnv takes and VecEnv does not."""
+    """Checks the arguments that AtariVectorEnv accepts and VecEnv does not."""
     mode = settings.get("autoreset_mode", AutoresetMode.SAME_STEP)
     if autoreset_of(mode) is not AutoresetMode.SAME_STEP:
         raise WrongValue(f"autoreset_mode is {mode!r}; VecEnv takes SameStep")
@@ -43,93 +43,175 @@ def _check(settings: dict[str, Any]) -> None:
 class VecEnv(vec_env.VecEnv):  # type: ignore[misc,unused-ignore]
     """AtariVectorEnv as a VecEnv, with the preprocessing of AtariWrapper and VecFrameStack.
 
-    settings: those of AtariVectorEnv, but for batch_size; autoreset_mode is SAME_STEP, and lives="told" is not taken,
-    since an episode ends where a step is done. Observations are stack x height x width. A lost life ends an episode, and the
-    game goes on. infos have "lives", and where an episode ends "terminal_observation" and "TimeLimit.truncated". Where the
-    game ends they have "episode": the sum of the rewards as the game gives them, its frames, and the seconds. That is also
-    where it ends in the frames before the next life is played.
+    Observations are uint8 of shape (num_envs, stack_num, img_height, img_width), which CnnPolicy takes as they are. A
+    lost life ends an episode, and the next one continues the game.
 
-    For the same seeds, rewards, ends and lives are those of make_atari_env() over AtariEnv, where noop_max is 0 and no
-    action is sticky: the numbers are drawn otherwise here. A pixel is the brighter of two frames in grey, and there in
-    each colour, so that some differ.
+    `infos` have "lives". Where an episode ends, they have "terminal_observation" and "TimeLimit.truncated". Where a
+    game ends, also in the frames before the next life is played, they have "episode": the sum of the unclipped rewards
+    "r", the frames "l" and the seconds "t".
+
+    For the same seeds, rewards, ends and lives are those of make_atari_env() over AtariEnv, if `noop_max` is 0 and
+    `repeat_action_probability` is 0; random numbers are drawn differently. Some pixels differ: here a pixel is the
+    maximum of two frames in grey, there the maximum in each colour.
+
+    Args:
+        game: Name of a game, or one name for each environment.
+        num_envs: Number of environments. Default: 1, or the number of names in `game`.
+        seed: Seed of the first environment, from which seeds count up. Default: random.
+        **settings: Arguments of `AtariVectorEnv`, except `batch_size`. `autoreset_mode` must be SAME_STEP, and `lives`
+            must not be "told", since an episode ends where a step is done.
+
+    Raises:
+        gymnasium.error.Error: If an argument is wrong; also a TypeError or a ValueError.
+
+    The constructor also raises what that of `AtariVectorEnv` raises.
+
+    Example:
+        >>> from racebeam.sb3 import VecEnv
+        >>> envs = VecEnv("beamfall", 2, seed=1)
+        >>> envs.reset().shape
+        (2, 4, 84, 84)
+        >>> observations, rewards, dones, infos = envs.step([0, 1])
+        >>> envs.close()
     """
 
     def __init__(
         self, game: str | Sequence[str], num_envs: int | None = None, *, seed: int | None = None, **settings: Any
     ) -> None:
         _check(settings)
-        self._envs = AtariVectorEnv(game, num_envs, seed=seed, **{**USUAL, **settings})
+        self._envs = AtariVectorEnv(game, num_envs, seed=seed, **{**DEFAULTS, **settings})
         self._restarts = settings.get("lives") == "restart"  # each episode is a game
-        self._began = time.time()
+        self._start_time = time.time()
         self._actions: Any = None
         count = self._envs.num_envs
         self._returns = np.zeros(count, np.int64)
         super().__init__(count, self._envs.single_observation_space, self._envs.single_action_space)
 
+    def __repr__(self) -> str:
+        return repr(self._envs).replace(type(self._envs).__name__, type(self).__name__, 1)
+
     def reset(self) -> npt.NDArray[np.uint8]:
+        """Begins new episodes, with the seeds that `seed` set.
+
+        Returns:
+            Observations, uint8 of shape (num_envs, stack_num, img_height, img_width).
+        """
         seeds = None if all(seed is None for seed in self._seeds) else self._seeds
         observations, info = self._envs.reset(seed=seeds)
         self._reset_seeds()
         self._reset_options()
         self._returns[:] = 0
         self.reset_infos = [{"lives": int(lives)} for lives in info["lives"]]
-        seen: npt.NDArray[np.uint8] = observations
-        return seen
+        return observations
 
     def step_async(self, actions: Any) -> None:
+        """Keeps the actions for `step_wait`.
+
+        Args:
+            actions: Integers of shape (num_envs,).
+        """
         self._actions = actions
 
     def step_wait(self) -> tuple[Any, npt.NDArray[np.float32], npt.NDArray[np.bool_], list[dict[str, Any]]]:
+        """Steps the environments with the actions that `step_async` kept.
+
+        Returns:
+            Observations, rewards (float32), done (bool), and a list of infos.
+
+        Raises:
+            TypeError: If the actions have a wrong type.
+            IndexError: If an action is out of range.
+            InvalidInput: If the actions have a wrong shape.
+        """
         observations, rewards, terminated, truncated, info = self._envs.step(self._actions)
         self._returns += info["raw_reward"]
         infos: list[dict[str, Any]] = [{"lives": lives} for lives in info["lives"].tolist()]
         done = terminated | truncated
         for env in np.flatnonzero(done):
             self.reset_infos[env] = infos[env]
-            infos[env] = self._end_of(int(env), info, bool(truncated[env]))
+            infos[env] = self._make_final_info(int(env), info, bool(truncated[env]))
         return observations, rewards.astype(np.float32), done, infos
 
-    def _end_of(self, env: int, info: dict[str, Any], is_truncated: bool) -> dict[str, Any]:
+    def _make_final_info(self, env: int, info: dict[str, Any], is_truncated: bool) -> dict[str, Any]:
         final = info["final_info"]
-        told = {
+        final_info = {
             "lives": int(final["lives"][env]),
             "terminal_observation": info["final_obs"][env],
             "TimeLimit.truncated": is_truncated,
         }
         frames = int(final["episode_frame_number"][env])
-        # The game may end in the frames before the next life is played, too, and with a lost life at the limit of frames.
+        # A game may also end in the frames before the next life is played, and when a life is lost at the limit of
+        # frames.
         is_next_game = (
             self._restarts
             or is_truncated
             or info["game_over"][env]
-            or info["lives"][env] > told["lives"]
+            or info["lives"][env] > final_info["lives"]
             or info["episode_frame_number"][env] < frames
         )
         if is_next_game:
-            told["episode"] = {"r": float(self._returns[env]), "l": frames, "t": round(time.time() - self._began, 6)}
+            final_info["episode"] = {
+                "r": float(self._returns[env]),
+                "l": frames,
+                "t": round(time.time() - self._start_time, 6),
+            }
             self._returns[env] = 0
-        return told
+        return final_info
 
     def close(self) -> None:
+        """Closes the environments."""
         self._envs.close()
 
     def get_images(self) -> list[npt.NDArray[np.uint8] | None]:
+        """Returns the screens, uint8 of shape (height, 160, 3), if `render_mode` is "rgb_array"."""
         return list(self._envs.render() or [])
 
-    # What wrappers and callbacks ask of each environment
+    # Calls of wrappers and callbacks
 
     def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
-        return [getattr(self._envs, attr_name) for _ in self._get_indices(indices)]
+        """Reads an attribute of some environments, as `AtariVectorEnv.get_attr` does.
+
+        Args:
+            attr_name: Name of the attribute.
+            indices: Indices of the environments, or None for all.
+
+        Returns:
+            The values, in the order of `indices`.
+        """
+        values = self._envs.get_attr(attr_name)
+        return [values[env] for env in self._get_indices(indices)]
 
     def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
-        """Of all environments, whose attributes are the same."""
+        """Sets an attribute of all environments, which share it.
+
+        Args:
+            attr_name: Name of the attribute.
+            value: Its value.
+            indices: Ignored.
+        """
         setattr(self._envs, attr_name, value)
 
     def env_method(self, method_name: str, *method_args: Any, indices: Any = None, **method_kwargs: Any) -> list[Any]:
-        """Methods that take the number of an environment, such as save()."""
+        """Calls a method of some environments.
+
+        Args:
+            method_name: Name of a method of `AtariVectorEnv` whose first parameter is the index of an environment, such
+                as "save" or "get_action_meanings".
+            *method_args: Further arguments of each call.
+            indices: Indices of the environments, or None for all.
+            **method_kwargs: Keyword arguments of each call.
+
+        Returns:
+            What the calls return, in the order of `indices`.
+        """
         method = getattr(self._envs, method_name)
         return [method(env, *method_args, **method_kwargs) for env in self._get_indices(indices)]
 
     def env_is_wrapped(self, wrapper_class: type[Any], indices: Any = None) -> list[bool]:
-        """Whether the infos have what a Monitor adds."""
+        """Returns whether the infos have what a wrapper adds, which is true of Monitor.
+
+        Args:
+            wrapper_class: Class of the wrapper.
+            indices: Indices of the environments, or None for all.
+        """
         return [wrapper_class is monitor.Monitor for _ in self._get_indices(indices)]

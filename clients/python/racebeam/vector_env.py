@@ -1,101 +1,136 @@
-"""AtariVectorEnv: many environments in one, stepped together, in this process or on a server."""
+"""AtariVectorEnv: many environments that are stepped together, in this process or on a server."""
 
 from __future__ import annotations
 
 import operator
 import os
+import secrets
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, Protocol, SupportsIndex, Union
+from typing import Any, Literal, SupportsIndex, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 from gymnasium import error, spaces
-from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from . import _core, images, xla
-from .arguments import WrongType, WrongValue, either, flag, image, real, seconds, whole
+from .arguments import WrongType, WrongValue, image, real, seconds, value_or, whole
+from .autoreset import AutoresetMode, VectorEnv, check_supported
 from .errors import InvalidInput
+from .machines import Actions, Joysticks, Machines
+from .machines import Seeds as SeedArray
+from .presets import vector_preset
+from .vector_inputs import indices_of, joysticks_of, mask_of, seeds_of
+from .vector_options import MOST_ENVS, VectorOptions, autoreset_of, merge_life_flags
 from .vector_results import Bools, Numbers, Pixels, Results
-from .vector_settings import SEEDS, autoreset_of, settings_of
 from .wire.remote_machines import Halves, RemoteMachines
 from .wire.spread_machines import SpreadMachines
 
 __all__ = ["AtariVectorEnv"]
 
-Rom = Union[str, os.PathLike[str], bytes]
-Info = dict[str, Any]
-Seeds = Union[SupportsIndex, Sequence[SupportsIndex | None], npt.NDArray[np.integer[Any]]]
-Step = tuple[Pixels, npt.NDArray[np.int32], Bools, Bools, Info]  # observations, rewards, terminated, truncated
+Rom: TypeAlias = str | os.PathLike[str] | bytes
+Info: TypeAlias = dict[str, Any]
+Seeds: TypeAlias = SupportsIndex | Sequence[SupportsIndex | None] | npt.NDArray[np.integer[Any]]
+# Observations, rewards, terminated, truncated and info.
+Step: TypeAlias = tuple[Pixels, npt.NDArray[np.int32], Bools, Bools, Info]
 RAM_SIZE, SCREEN_WIDTH = 128, 160
-MOST_ENVS = 10**7  # the memory sets a lower limit
-
-
-class Machines(Protocol):
-    """What plays: _core.VectorMachines here, RemoteMachines on a server, SpreadMachines on several. `seeds`: -1 for none."""
-
-    def step(self, actions: npt.NDArray[np.int64], results: Results) -> None: ...
-    def step_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, results: Results) -> None: ...
-    def send(self, actions: npt.NDArray[np.int64], machines: Numbers) -> None: ...
-    def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None: ...
-    def send_strengths(
-        self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers
-    ) -> None: ...
-    def send_resets(self, seeds: npt.NDArray[np.int64] | None) -> None: ...
-    def receive(self, results: Results) -> None: ...
-    def reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None: ...
-    def show(self, results: Results) -> None: ...
-    def save(self, machine: int, include_rng: bool) -> _core.SavedMachine: ...
-    def restore(self, machine: int, state: _core.SavedMachine) -> None: ...
-    def screen(self, machine: int) -> Pixels: ...
-    def numbers_of_actions(self) -> list[int]: ...
-    def actions_of(self, machine: int) -> list[int]: ...
-    def height(self) -> int: ...
 
 
 class AtariVectorEnv(VectorEnv[Any, Any, Any]):
-    """Environments of one game, or of several, on threads. By default, they show what ale_py's AtariVectorEnv shows.
+    """A vector of environments of one or several games, stepped on threads or on servers.
 
-    game: its name, as racebeam.games() has it, or a list of one for each environment. Several games need the same number
-        of actions, which full_action_space gives them.
-    num_envs: how many; with a list of games, its length. batch_size: recv() waits for so many; 0: for all.
-    num_threads: 0: one for each processor that the process may use. thread_affinity_offset: threads are bound to the
-        processor of this number, among those that the process may use, and to those after it; -1: to none.
-    max_num_frames_per_episode, repeat_action_probability, full_action_space, continuous, continuous_action_threshold,
-        mode, difficulty: as AtariEnv has them.
-    autoreset_mode: NEXT_STEP, SAME_STEP or DISABLED, as Gymnasium defines them, or their names.
-    img_height, img_width, grayscale, stack_num: an observation is so many screens of this size, oldest first. They have 9
-        rows to those of the game's screen, and 1 to 160 columns; 0: as many as that has. There are 1 to 16 screens.
-    obs_type: "rgb" or "grayscale" makes them screens of full size instead, and "ram" one array of 128 bytes.
-    frameskip: frames of a step, 1 to 1000; a step stops where the episode ends. maxpool: a screen is the brighter of the
-        last two of them, pixel by pixel.
-    noop_max, use_fire_reset: an episode begins with FIRE, if the game has it, and with up to noop_max - 1 no-ops, drawn.
-        noop_max is 0 to 1000.
-    start: their order: "fire-noops", "noops-fire" as EnvPool has it, or "baselines" as Stable-Baselines3.
-    lives: what a lost life does. "ignored"; "told": the step is terminated, the episode goes on (life_loss_info of ale_py);
-        "end": the episode ends, and the next one goes on with the game, as in DQN; "restart": the next one is a new game
-        (episodic_life of ale_py).
-    stack_start: at first a stack has "zeros", or "repeats" the first screen.
-    reward_clipping: the reward of a step is clipped to -1..1.
-    preset: of racebeam.presets; it says what those arguments are that are None.
-    rules: "ale-0.12", or "fixed". rom: the image, a path or its bytes; None: the one that racebeam.find_image() finds.
-    seed: of the first environment, until a reset has another one; the next has one more; None: at random.
-    render_mode: "rgb_array" lets render() return the pictures.
-    server: the environments run there; token, timeout: as racebeam.connect() has them. They are of one game,
-        and batch_size is num_envs; without use_fire_reset, start is "fire-noops". A list spreads the environments over
-        servers. If one is lost, its episodes are truncated, and its environments begin new ones on the others; info["lost"]
-        says where.
+    With default arguments, it returns what ale_py's AtariVectorEnv returns, byte for byte. Arguments of None take the
+    value of `preset`. Calls from two threads take turns. All returned arrays belong to the caller, and later calls
+    leave them unchanged.
 
-    Rewards are int32. info has env_id, lives, frame_number, episode_frame_number, raw_reward, the reward before it was
-    clipped, and game_over, whatever lives and limits say: an array each. With SAME_STEP, where episodes end, also final_obs,
-    _final_obs, final_info and _final_info, as Gymnasium has them. The arrays are the caller's, and stay as they are.
+    Rewards are int32. In the shapes below, n is `batch_size`. `info` has these arrays of shape (n,):
 
-    Two threads take turns. Raises InvalidInput for what cannot be; TypeError for a wrong type; IndexError for an action or an
-    environment that is not there; ClosedEnvironmentError after close(); RuntimeError in a child process after a fork;
-    with a server, also Refused, ConnectionError and TimeoutError, after which the environments are of no use.
+    - `env_id` (int32): index of the environment that the row belongs to.
+    - `lives` (int32): lives that are left.
+    - `frame_number`, `episode_frame_number` (int32): frames since power-on, and since the episode began.
+    - `raw_reward` (int32): reward before clipping.
+    - `game_over` (bool): whether the game is over, regardless of lives and time limits.
+    - `lost` (bool): with several servers, whether the server of the environment was lost in this call.
+
+    With SAME_STEP, `info` has `final_obs`, `_final_obs`, `final_info` and `_final_info` in steps that end an episode,
+    in the form that Gymnasium defines.
+
+    Args:
+        game: Name of a game, or one name for each environment. Several games must have the same number of actions,
+            which `full_action_space=True` ensures.
+        num_envs: Number of environments. Default: 1, or the number of names in `game`.
+        batch_size: Number of environments that `recv` waits for; 0 for all.
+        num_threads: Number of threads; 0 for one per processor that the process may use.
+        thread_affinity_offset: First processor to which threads are bound, one after the other, counted among those that
+            the process may use; -1 does not bind them.
+        max_num_frames_per_episode: Frames after which an episode is truncated; 0 for no limit.
+        repeat_action_probability: Probability that a frame repeats the previous action.
+        full_action_space: Whether actions are all 18 legal ones, or only those that have an effect in the game.
+        continuous: Whether actions are float32 (radius, angle, fire) instead of indices.
+        continuous_action_threshold: Deflection from which a direction or the button counts as pressed.
+        autoreset_mode: NEXT_STEP, SAME_STEP or DISABLED of Gymnasium's AutoresetMode, or its name or value.
+        img_height: Rows of an observation: 9 to the rows of the game's screen, or 0 for all of them.
+        img_width: Columns of an observation: 1 to 160, or 0 for 160.
+        grayscale: Whether observations are shades of grey. If False, they have a last axis of 3 colours.
+        stack_num: Screens in an observation, 1 to 16, oldest first.
+        frameskip: Frames per step, 1 to 1000. A step stops early if the episode ends.
+        maxpool: Whether a screen is the pixelwise maximum of the last two frames of a step.
+        noop_max: Upper limit of the random number of NOOP frames that begin an episode: 0 to `noop_max` - 1.
+        episodic_life: Same as `lives="restart"`; for compatibility with ale_py.
+        life_loss_info: Same as `lives="told"`; for compatibility with ale_py.
+        reward_clipping: Whether rewards are clipped to [-1, 1].
+        use_fire_reset: Whether an episode begins with FIRE, if the game has this action.
+        preset: Name of a preset of `racebeam.presets`, which supplies the arguments that are None.
+        mode: Mode of the game, or None for its default.
+        difficulty: Difficulty of the game, or None for its default.
+        obs_type: "rgb" or "grayscale" for screens of full size, or "ram" for the 128 bytes of RAM. Default: screens of
+            `img_height` x `img_width`.
+        lives: Effect of a lost life. "ignored": none. "told": the step is terminated, and the episode goes on. "end":
+            the episode ends, and the next one continues the game, as in DQN. "restart": the episode ends, and the next
+            one is a new game.
+        start: How an episode begins: "fire-noops" as in ale_py, "noops-fire" as in EnvPool, or "baselines" as in
+            Stable-Baselines3.
+        stack_start: Whether the first stack of an episode has "zeros", or "repeats" of its first screen.
+        rules: "ale-0.12" for the rewards and ends of ALE 0.12, or "fixed" for corrected ones.
+        rom: Path or bytes of the cartridge image. Default: the image that `racebeam.find_image` finds.
+        seed: Seed of the first environment, from which seeds count up. The first `reset` uses it. Default: random.
+        render_mode: "rgb_array" if `render` is called.
+        server: Address of the server that runs the environments, or a list of addresses to spread them over. Needs one
+            game, and `batch_size` equal to `num_envs`.
+        token: Token that the server asks for.
+        timeout: Seconds to wait for each reply of the server. Default: no limit.
+
+    Raises:
+        gymnasium.error.Error: If an argument is wrong; also a TypeError or a ValueError.
+        UnknownGame: If no game has this name.
+        MissingImage: If no image of the game is found.
+        InvalidInput: If the game does not accept an argument, such as its mode.
+        ImportError: If Gymnasium is older than 1.1.
+        ConnectionError: If no server answers.
+
+    All methods raise ClosedEnvironmentError after `close`, RuntimeError in a child process after a fork, and with a
+    server also Refused, ConnectionError and TimeoutError. After the latter two, the environments cannot be used.
+
+    Example:
+        >>> import racebeam
+        >>> envs = racebeam.AtariVectorEnv("beamfall", 4, seed=7)
+        >>> observations, info = envs.reset()
+        >>> observations.shape, observations.dtype
+        ((4, 4, 84, 84), dtype('uint8'))
+        >>> observations, rewards, terminated, truncated, info = envs.step([1, 0, 0, 1])
+        >>> rewards.shape, info["lives"].tolist()
+        ((4,), [4, 4, 4, 4])
+        >>> envs.close()
     """
 
-    _xla_infos: tuple[str, ...] = ("env_id", "lives", "frame_number", "episode_frame_number", "raw_reward", "game_over")
+    _xla_infos: tuple[str, ...] = (
+        "env_id",
+        "lives",
+        "frame_number",
+        "episode_frame_number",
+        "raw_reward",
+        "game_over",
+    )
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 15}
     _check_game = staticmethod(images.check_name)
 
@@ -139,33 +174,70 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         token: str | None = None,
         timeout: float | None = None,
     ) -> None:
-        arguments = locals()
-        names, game_of_env = self._games(game, num_envs)
-        settings = self._settings(arguments, len(game_of_env))
-        self.num_envs = len(game_of_env)
-        self.batch_size: int = settings["batch_size"] or self.num_envs
-        self.autoreset_mode = autoreset_of(autoreset_mode)
-        self.metadata = {**type(self).metadata, "autoreset_mode": self.autoreset_mode}
-        self.render_mode = render_mode
-        self.grayscale: bool = not settings["rgb"]
-        self.continuous = flag("continuous", continuous)
-        self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
-        self._shows_ram = obs_type == "ram"
-        self._machines: Any = _machines(
-            names, game_of_env, image(rom), settings, server, token, seconds("timeout", timeout)
+        check_supported("AtariVectorEnv")
+        names, game_of_env = self._parse_games(game, num_envs)
+        usual = vector_preset(preset)
+        options = VectorOptions(
+            num_envs=len(game_of_env),
+            batch_size=batch_size,
+            num_threads=num_threads,
+            thread_affinity_offset=thread_affinity_offset,
+            max_num_frames_per_episode=value_or(max_num_frames_per_episode, usual.max_num_frames_per_episode),
+            repeat_action_probability=value_or(repeat_action_probability, usual.repeat_action_probability),
+            full_action_space=value_or(full_action_space, usual.full_action_space),
+            continuous=continuous,
+            autoreset_mode=autoreset_mode,
+            img_height=img_height,
+            img_width=img_width,
+            grayscale=grayscale,
+            stack_num=stack_num,
+            frameskip=value_or(frameskip, usual.frameskip),
+            maxpool=maxpool,
+            noop_max=value_or(noop_max, usual.noop_max),
+            reward_clipping=value_or(reward_clipping, usual.reward_clipping),
+            use_fire_reset=value_or(use_fire_reset, usual.use_fire_reset),
+            mode=mode,
+            difficulty=difficulty,
+            obs_type=obs_type,
+            lives=value_or(merge_life_flags(lives, episodic_life, life_loss_info), usual.lives),
+            start=start,
+            stack_start=stack_start,
+            rules=rules,
+            render_mode=render_mode,
+            seed=value_or(seed, secrets.randbits(32)),
         )
-        self._make_spaces(settings)
-        self._received = np.arange(self.num_envs, dtype=np.int32)
+        self.continuous_action_threshold = real("continuous_action_threshold", continuous_action_threshold)
+        rom = image(rom)
+        if server is None:
+            machines = make_local_machines(names, game_of_env, rom, options)
+        else:
+            machines = _remote_machines(names, rom, options, server, token, seconds("timeout", timeout))
+        self._use(machines, names, game_of_env, options)
+        self._first_seed = None if seed is None else options.seed
+
+    def _use(self, machines: Machines, names: list[str], game_of_env: Numbers, options: VectorOptions) -> None:
+        """Sets the attributes, for machines that were made with these options."""
+        self._machines: Any = machines
+        self._options = options
+        self._games = [names[index] for index in game_of_env]
+        self._first_seed: int | None = None  # of the constructor, until a call plays
+        self.num_envs = options.num_envs
+        self.batch_size: int = options.batch_size
+        self.autoreset_mode = autoreset_of(options.autoreset_mode)
+        self.metadata = {**type(self).metadata, "autoreset_mode": self.autoreset_mode}
+        self.render_mode = options.render_mode
+        self.grayscale: bool = not options.is_rgb
+        self.continuous = options.continuous
+        self._shows_ram = options.obs_type == "ram"
         self._has_finals = self.autoreset_mode is AutoresetMode.SAME_STEP
+        self._received = np.arange(self.num_envs, dtype=np.int32)
+        self._make_spaces()
 
-    def _settings(self, arguments: dict[str, Any], num_envs: int) -> dict[str, Any]:
-        return settings_of(arguments, num_envs)
-
-    def _games(self, game: str | Sequence[str], num_envs: int | None) -> tuple[list[str], Numbers]:
-        """The names of the games, and the position among them of each environment's."""
+    def _parse_games(self, game: str | Sequence[str], num_envs: int | None) -> tuple[list[str], Numbers]:
+        """Returns the names of the games, and for each environment the index of its game."""
         if isinstance(game, str):
             self._check_game(game)
-            return [game], np.zeros(whole("num_envs", either(num_envs, 1), 1, MOST_ENVS), np.int32)
+            return [game], np.zeros(whole("num_envs", value_or(num_envs, 1), 1, MOST_ENVS), np.int32)
         if not isinstance(game, Sequence):
             raise WrongType(f"game is {game!r}; it takes a name, or a list of names")
         if num_envs is not None and num_envs != len(game):
@@ -179,14 +251,11 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             self._check_game(name)
         return names, np.array([names.index(name) for name in game], np.int32)
 
-    def _make_spaces(self, settings: dict[str, Any]) -> None:
+    def _make_spaces(self) -> None:
         shape: tuple[int, ...] = (RAM_SIZE,)
         if not self._shows_ram:
-            shape = (
-                settings["stack"],
-                settings["height"] or self._machines.height(),
-                settings["width"] or SCREEN_WIDTH,
-            )
+            settings = self._options.core_settings()
+            shape = (settings.stack, settings.height or self._machines.height(), settings.width or SCREEN_WIDTH)
             shape += () if self.grayscale else (3,)
         self.single_observation_space = spaces.Box(0, 255, shape, np.uint8)
         counts = sorted(set(self._machines.numbers_of_actions()))
@@ -203,182 +272,195 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         self.action_space = batch_space(self.single_action_space, self.batch_size)
         self._shape = shape
 
+    def __repr__(self) -> str:
+        game = self._games[0] if len(set(self._games)) == 1 else self._games
+        return f"{type(self).__name__}(game={game!r}, num_envs={self.num_envs})"
+
     # Playing
 
     def reset(
         self, *, seed: Seeds | None = None, options: dict[str, Any] | None = None, out: Pixels | None = None
     ) -> tuple[Pixels, Info]:
-        """New episodes. A seed powers the first environment on anew, and the next with one more; of a list or array, each has
-        its own, and None or -1 is no seed.
+        """Begins new episodes.
 
-        options["reset_mask"]: an array of bools that chooses environments; the others are shown as they are.
-        out: the array that becomes the observations; None: a new one.
-        Steps that were sent and not received are played to their end, and what they show is dropped.
-        KeyboardInterrupt ends a long call, as it ends step().
+        Steps that were sent and not received are played to their end, and their results are dropped. What a signal's
+        handler raises, such as KeyboardInterrupt, ends a long call, as in `step`.
+
+        Args:
+            seed: Seed of the first environment, from which seeds count up; or one for each environment, where None and
+                -1 mean unseeded. A seed powers the environment on anew. Without a seed, the generators continue; the
+                first reset uses the seed of the constructor.
+            options: May have "reset_mask", a bool array of shape (num_envs,) that chooses the environments to reset.
+                The others are returned as they are. Needs `batch_size` equal to `num_envs`.
+            out: Array for the observations. Default: a new array.
+
+        Returns:
+            Observations, uint8 of shape (n, stack_num, img_height, img_width), with 3 as a further axis for colours, or
+            of shape (n, 128) for the RAM; and the info.
+
+        Raises:
+            TypeError: If a seed or the mask has a wrong type.
+            InvalidInput: If a seed, the mask or `out` has a wrong value or shape.
         """
         self._check_open()
         if not isinstance(options, (dict, type(None))):
             raise TypeError(f"options are {options!r}; they must be a dict")
-        mask = self._mask((options or {}).get("reset_mask"))
-        seeds = self._seeds(seed, mask)
-        results = self._room(out)
+        mask = self._parse_mask((options or {}).get("reset_mask"))
+        seeds = self._parse_seeds(value_or(seed, self._first_seed), mask)
+        results = self._allocate_results(out)
         if mask is not None and self.batch_size < self.num_envs:
             raise InvalidInput("reset_mask is given with batch_size < num_envs; it needs batch_size to be num_envs")
         self._drop_pending()
+        self._first_seed = None
         if self.batch_size == self.num_envs:
             self._machines.reset(mask, seeds, results)
         else:
             self._machines.send_resets(seeds)
             self._machines.receive(results)
-        return self._begun(results)
+        observations, *_, info = self._format_step(results)
+        return observations, info
 
     def _drop_pending(self) -> None:
-        """Receives what was sent and not received, and forgets it."""
+        """Receives what was sent and not received, and drops it."""
         pending = int(self._machines.playing())
         if pending == 0:
             return
         receive = self._machines.drop if isinstance(self._machines, Halves) else self._machines.receive
-        receive(self._room(None, pending))
+        receive(self._allocate_results(None, pending))
 
     def step(self, actions: npt.ArrayLike, *, out: Pixels | None = None) -> Step:
-        """An action for each environment; with batch_size, for each of those that the last call returned.
+        """Steps the environments.
 
-        What a signal's handler raises, such as KeyboardInterrupt, ends a long call. Each environment has then made the step, or is
-        as it was, and reset() or restore() makes them agree. With batch_size, the step goes on, and recv() returns it.
+        What a signal's handler raises, such as KeyboardInterrupt, ends a long call. Each environment has then either
+        made the step or not, and `reset` or `restore` makes them agree. With `batch_size` below `num_envs`, the step
+        goes on, and `recv` returns it.
+
+        Args:
+            actions: An action for each environment, or for each of those that the last call returned if `batch_size` is
+                below `num_envs`. Integers of shape (n,), or numbers of shape (n, 3) if `continuous`: the radius from 0
+                to 1, the angle in radians, and fire.
+            out: Array for the observations. Default: a new array.
+
+        Returns:
+            Observations as in `reset`, rewards (int32), terminated (bool), truncated (bool) and the info.
+
+        Raises:
+            TypeError: If the actions have a wrong type.
+            IndexError: If an action is out of range.
+            InvalidInput: If the actions or `out` have a wrong shape, or a number is not finite.
         """
         self._check_open()
-        meant: Any = self._joysticks(actions) if self.continuous else self._indices(actions)
+        parsed: Any = self._parse_joysticks(actions) if self.continuous else self._parse_actions(actions)
         if self.batch_size < self.num_envs:
-            self._send(meant)
+            self._send(parsed)
             return self.recv(out=out)
-        results = self._room(out)
+        results = self._allocate_results(out)
+        self._first_seed = None
         if self.continuous:
-            self._machines.step_joysticks(meant, self.continuous_action_threshold, results)
+            self._machines.step_joysticks(parsed, self.continuous_action_threshold, results)
         else:
-            self._machines.step(meant, results)
-        return self._shown(results)
+            self._machines.step(parsed, results)
+        return self._format_step(results)
 
     def send(self, actions: npt.ArrayLike) -> None:
-        """Begins a step of the environments that the last call returned."""
+        """Begins a step of the environments that the last call returned; `recv` returns its results.
+
+        Args:
+            actions: As in `step`.
+
+        Raises:
+            TypeError: If the actions have a wrong type.
+            IndexError: If an action is out of range.
+            InvalidInput: If the actions have a wrong shape.
+        """
         self._check_open()
-        self._send(self._joysticks(actions) if self.continuous else self._indices(actions))
+        self._send(self._parse_joysticks(actions) if self.continuous else self._parse_actions(actions))
 
     def recv(self, *, out: Pixels | None = None) -> Step:
-        """What those batch_size environments show that have finished first. After KeyboardInterrupt, the next recv() returns it."""
+        """Waits for the first `batch_size` environments that finish their step.
+
+        After KeyboardInterrupt, the next call returns these results.
+
+        Args:
+            out: Array for the observations. Default: a new array.
+
+        Returns:
+            The same as `step`.
+
+        Raises:
+            InvalidInput: If fewer than `batch_size` environments were sent, or `out` has a wrong shape.
+        """
         self._check_open()
-        results = self._room(out)
+        results = self._allocate_results(out)
         self._machines.receive(results)
-        return self._shown(results)
+        return self._format_step(results)
 
-    def _send(self, meant: npt.NDArray[Any]) -> None:
+    def _send(self, actions: npt.NDArray[Any]) -> None:
+        envs = self._last_received()
+        self._first_seed = None
         if self.continuous:
-            self._machines.send_joysticks(meant, self.continuous_action_threshold, self._ready())
+            self._machines.send_joysticks(actions, self.continuous_action_threshold, envs)
         else:
-            self._machines.send(meant, self._ready())
+            self._machines.send(actions, envs)
 
-    def _ready(self) -> Numbers:
-        """The environments that the last call returned. Before the first one, those are all."""
+    def _last_received(self) -> Numbers:
+        """Returns the environments that the last call returned. Before the first call, those are all."""
         if len(self._received) != self.batch_size:
             raise InvalidInput("no environment was received yet; call reset() first")
         return self._received
 
     def show(self) -> tuple[Pixels, Info]:
-        """What all environments show now, such as after restore()."""
+        """Returns the present observations of all environments, such as after `restore`.
+
+        Returns:
+            The same as `reset`, for all environments.
+        """
         self._check_open()
-        results = self._room(None, self.num_envs)
+        results = self._allocate_results(None, self.num_envs)
         self._machines.show(results)
         results.rewards[:] = results.raw_rewards[:] = 0  # nothing was played
-        return self._seen(results), self._info(results)
+        return self._observations(results), self._make_info(results)
 
     # Seeds and actions
 
-    def _seeds(self, seed: Any, mask: Bools | None) -> npt.NDArray[np.int64] | None:
-        """One for each environment, also for those that are not in the mask."""
-        return None if seed is None else self._seeds_of(seed, self.num_envs)
+    def _parse_seeds(self, seed: Any, mask: Bools | None) -> SeedArray | None:
+        """Returns one seed for each environment, also for those that are not in the mask."""
+        return None if seed is None else seeds_of(seed, self.num_envs)
 
-    @staticmethod
-    def _seeds_of(seed: Any, count: int) -> npt.NDArray[np.int64]:
-        is_array = isinstance(seed, np.ndarray) and seed.ndim > 0
-        if not is_array and not isinstance(seed, Sequence):
-            return _seed(seed) + np.arange(count, dtype=np.int64)
-        if is_array and (seed.dtype.kind not in "iuO"):
-            raise TypeError(f"the seeds have the type {seed.dtype}; they must be integers")
-        if is_array and seed.ndim > 1:
-            raise InvalidInput(f"the seeds have the shape {seed.shape}; they must have {(count,)}")
-        seeds = [-1 if one is None else _seed(one, -1) for one in seed]
-        if len(seeds) != count:
-            raise InvalidInput(
-                f"there are {len(seeds)} seeds for {count} environments; give one entry per sub-environment, or one seed"
-            )
-        return np.array(seeds, np.int64)
+    def _parse_mask(self, mask: Any) -> Bools | None:
+        return mask_of(mask, self.num_envs)
 
-    def _mask(self, mask: Any) -> Bools | None:
-        if mask is None:
-            return None
-        if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_:
-            raise TypeError(f"reset_mask is {mask!r}; it must be a boolean numpy array")
-        if mask.shape != (self.num_envs,):
-            raise InvalidInput(f"reset_mask has the shape {mask.shape}; it must have shape {(self.num_envs,)}")
-        return np.ascontiguousarray(mask)
+    def _parse_actions(self, actions: Any, count: int | None = None) -> Actions:
+        """Converts actions of `count` environments. Default: of a batch."""
+        return indices_of(actions, value_or(count, self.batch_size), self._machines.numbers_of_actions()[0])
 
-    def _indices(self, actions: Any, count: int | None = None) -> npt.NDArray[np.int64]:
-        """Of so many environments; None: of a batch."""
-        array = array_of(actions)
-        if array.dtype.kind not in "iu":
-            raise TypeError(f"actions have the type {array.dtype}; they must be integers")
-        self._check_shape(array, (), count)
-        if array.dtype.kind == "u" and (large := array[array > np.iinfo(np.int64).max]).size:
-            raise IndexError(
-                f"action {large[0]} is out of range; there are 0 to {self._machines.numbers_of_actions()[0] - 1}"
-            )
-        return np.ascontiguousarray(array, np.int64)
+    def _parse_joysticks(self, actions: Any) -> Joysticks:
+        return joysticks_of(actions, self.batch_size)
 
-    def _joysticks(self, actions: Any) -> npt.NDArray[np.float32]:
-        array = array_of(actions)
-        if array.dtype.kind not in "fiu":
-            raise TypeError(f"actions have the type {array.dtype}; they must be numbers: radius, angle and fire")
-        self._check_shape(array, (3,))
-        with np.errstate(over="ignore"):
-            joysticks = np.ascontiguousarray(array, np.float32)
-        if not np.isfinite(joysticks).all():
-            raise InvalidInput(
-                f"a part of the actions is {joysticks[~np.isfinite(joysticks)][0]}, which is not a finite number"
-            )
-        return joysticks
+    # Results
 
-    def _check_shape(self, actions: npt.NDArray[Any], rest: tuple[int, ...], count: int | None = None) -> None:
-        expected = (self.batch_size if count is None else count, *rest)
-        if actions.shape != expected:
-            raise InvalidInput(f"actions have the shape {actions.shape}; they must have {expected}")
-
-    # What is shown
-
-    def _room(self, out: Pixels | None, envs: int | None = None) -> Results:
-        """Memory for what is shown next, of so many environments; None: of a batch."""
-        shape = (self.batch_size if envs is None else envs, *self._shape)
+    def _allocate_results(self, out: Pixels | None, count: int | None = None) -> Results:
+        """Allocates results for `count` environments. Default: for a batch."""
+        shape = (self.batch_size if count is None else count, *self._shape)
         if out is None:
             out = np.empty(shape, np.uint8)
         elif not (isinstance(out, np.ndarray) and out.dtype == np.uint8 and out.shape == shape and out.flags.carray):
             raise InvalidInput(f"out must be a writable, contiguous array of uint8 with the shape {shape}")
         finals = np.empty(shape, np.uint8) if self._has_finals else None
         observations, ram = (None, out) if self._shows_ram else (out, None)
-        return Results.around(observations, ram, shape[0], finals)
+        return Results.allocate(observations, ram, shape[0], finals)
 
-    def _seen(self, results: Results) -> Any:
+    def _observations(self, results: Results) -> Any:
         return results.ram if self._shows_ram else results.observations
 
-    def _begun(self, results: Results) -> tuple[Pixels, Info]:
-        observations, *_, info = self._shown(results)
-        return observations, info
-
-    def _shown(self, results: Results) -> Step:
+    def _format_step(self, results: Results) -> Step:
         self._received = results.env_id.copy()
-        observations, info = self._seen(results), self._info(results)
+        observations, info = self._observations(results), self._make_info(results)
         if self._has_finals and results.finished.any():
             self._add_finals(info, observations, results)
         return observations, results.rewards, results.terminated, results.truncated, info
 
-    def _info(self, results: Results) -> Info:
+    def _make_info(self, results: Results) -> Info:
         lost = {"lost": self._machines.lost} if isinstance(self._machines, SpreadMachines) else {}
         return {
             "env_id": results.env_id,
@@ -390,20 +472,27 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             **lost,
         }
 
-    def _add_finals(self, info: Info, _: Any, results: Results) -> None:
-        """As Gymnasium's environments have them: objects, None where no episode ended."""
+    def _add_finals(self, info: Info, observations: Any, results: Results) -> None:
+        """Adds the keys of SAME_STEP as Gymnasium defines them: arrays of objects, None where no episode ended."""
         finished, finals = results.finished, results.final_observations
         assert finals is not None and results.final_numbers is not None
         objects = np.empty(self.batch_size, object)
         for env in np.flatnonzero(finished):
             objects[env] = finals[env].copy()
         numbers = np.where(finished, results.final_numbers, 0)
-        named = dict(zip(("lives", "frame_number", "episode_frame_number"), numbers))
+        named = dict(zip(("lives", "frame_number", "episode_frame_number"), numbers, strict=True))
         info["final_obs"], info["_final_obs"] = objects, finished
         info["final_info"], info["_final_info"] = {**named, **{f"_{key}": finished for key in named}}, finished
 
     def render(self) -> tuple[Pixels, ...] | None:
-        """The picture of each environment, height x 160 x 3."""
+        """Returns the screen of each environment.
+
+        Returns:
+            uint8 arrays of shape (height, 160, 3).
+
+        Raises:
+            gymnasium.error.Error: If `render_mode` is None.
+        """
         self._check_open()
         if self.render_mode is None:
             raise error.Error(
@@ -411,19 +500,87 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             )
         return tuple(self._machines.screen(env) for env in range(self.num_envs))
 
-    def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
-        """For programs that JAX compiles: a handle, reset(handle, seed=None, reset_mask=None) and step(handle, actions).
+    # Attributes of the environments
 
-        Both return the handle for the next call, and a tuple of what they show, as reset() and step() of this class do, in arrays
-        of JAX on the processor. Seeds end at 2,147,483,647. An array of JAX gives the lower 31 bits of its seeds, so
-        that jax.random.bits() draws some. Not with SAME_STEP, batch_size or a server. Errors of a compiled program are
-        jax.errors.JaxRuntimeError. Raises ImportError without JAX.
+    def get_action_meanings(self, env: int = 0) -> list[str]:
+        """Names the actions of an environment.
+
+        Args:
+            env: Index of the environment.
+
+        Returns:
+            The names in the order of their indices, such as ["NOOP", "FIRE"].
+
+        Raises:
+            IndexError: If there is no such environment.
         """
         self._check_open()
-        return xla.functions(self, self._xla_infos)
+        self._check_env(env)
+        return [_core.Action(number).name for number in self._machines.actions_of(env)]
+
+    def call(self, name: str, *args: Any, **kwargs: Any) -> tuple[Any, ...]:
+        """Calls a method once for each environment, as SyncVectorEnv of Gymnasium does.
+
+        Args:
+            name: Name of a method whose first parameter is the index of an environment, such as "save" or
+                "get_action_meanings".
+            *args: Further arguments of each call.
+            **kwargs: Keyword arguments of each call.
+
+        Returns:
+            What the calls return, in the order of the environments.
+
+        Raises:
+            AttributeError: If the environments have no such method.
+        """
+        if name not in ("get_action_meanings", "restore", "save"):
+            raise AttributeError(f"environments have no method {name!r}; they have get_action_meanings, restore, save")
+        method = getattr(self, name)
+        return tuple(method(env, *args, **kwargs) for env in range(self.num_envs))
+
+    def get_attr(self, name: str) -> tuple[Any, ...]:
+        """Reads an attribute of each environment, as SyncVectorEnv of Gymnasium does.
+
+        Args:
+            name: Name of an attribute. "game" is the name of the environment's game; other attributes of this class
+                have the same value for all environments.
+
+        Returns:
+            The values in the order of the environments.
+
+        Raises:
+            AttributeError: If there is no such attribute.
+        """
+        if name == "game":
+            return tuple(self._games)
+        return (getattr(self, name),) * self.num_envs
+
+    def _check_env(self, env: int) -> None:
+        if not 0 <= operator.index(env) < self.num_envs:
+            raise IndexError(f"there is no environment {env}; there are 0 to {self.num_envs - 1}")
+
+    def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
+        """Makes functions that programs compiled by JAX call. Results stay on the processor.
+
+        Errors of a compiled program are jax.errors.JaxRuntimeError.
+
+        Returns:
+            A handle, `reset(handle, seed=None, reset_mask=None)` and `step(handle, actions)`. Both functions return the
+            handle for the next call, and a tuple of what `reset` and `step` of this class return, as arrays of JAX.
+            Seeds end at 2,147,483,647. Of the seeds in an array of JAX, the lower 31 bits are used, so that
+            jax.random.bits() may draw them.
+
+        Raises:
+            ImportError: If JAX is not installed.
+            InvalidInput: With SAME_STEP, with `batch_size` below `num_envs`, or with a server.
+        """
+        self._check_open()
+        functions = xla.functions(self, self._xla_infos)
+        self._first_seed = None
+        return functions
 
     def machines(self) -> Machines:
-        """What plays; for other modules of this package."""
+        """Returns the machines that play the environments; for other modules of this package."""
         self._check_open()
         machines: Machines = self._machines
         return machines
@@ -431,85 +588,104 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     # States and the end
 
     def save(self, env: int, *, include_rng: bool = True) -> _core.SavedMachine:
-        """The state of one environment, with its stack of screens. It can be pickled.
+        """Saves the state of one environment, with its stack of screens.
 
-        include_rng: with the generators of sticky actions and of no-ops, so that later episodes are the same, too.
+        Args:
+            env: Index of the environment.
+            include_rng: Whether to save the generators of sticky actions and of no-ops, so that later episodes are the
+                same.
+
+        Returns:
+            A state that can be pickled, copied and restored in another process.
+
+        Raises:
+            IndexError: If there is no such environment.
         """
         self._check_open()
         return self.machines().save(operator.index(env), include_rng)
 
     def restore(self, env: int, state: _core.SavedMachine) -> None:
-        """Takes an environment to a state of its game. show() shows it. Raises InvalidInput for a state of another game, or whose
-        observations have another shape.
+        """Restores the state of one environment. `show` returns its observation.
+
+        Args:
+            env: Index of the environment.
+            state: A state that `save` returned, of any environment of the same game.
+
+        Raises:
+            IndexError: If there is no such environment.
+            TypeError: If `state` is not a state.
+            InvalidInput: If the state belongs to another game, or its observations have another shape.
         """
         self._check_open()
         self._machines.restore(operator.index(env), state)
+        self._first_seed = None
 
     def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError(
-            f"{type(self).__name__} has threads, and can be neither pickled nor copied; make another one with the same "
-            "arguments, and take it to the states that save(env) gives, which can be pickled, by restore(env, state)"
+            f"{type(self).__name__} cannot be pickled or copied, because it owns threads; make another one with the "
+            "same arguments, and restore() the states that save() returns, which can be pickled"
         )
 
     def close_extras(self, **kwargs: Any) -> None:
-        """Ends the threads, or the session, and gives the memory back."""
-        machines = self.__dict__.get("_machines")  # there are none where the constructor failed
+        """Stops the threads or ends the sessions, and frees the memory. `close` calls it.
+
+        Args:
+            **kwargs: Ignored.
+        """
+        machines = self.__dict__.get("_machines")  # missing if the constructor failed
         self._machines = _Closed()
         if isinstance(machines, (RemoteMachines, SpreadMachines)):
             machines.close()
 
     def _check_open(self) -> None:
         if self.closed:
-            raise _closed()
+            raise _closed_error()
 
 
 class _Closed:
-    """In the place of machines that were closed, also by another thread in the middle of a call."""
+    """Placeholder for closed machines: any use raises ClosedEnvironmentError, also in the call of another thread."""
 
     def __getattr__(self, name: str) -> Any:
-        raise _closed()
+        raise _closed_error()
 
 
-def _closed() -> error.ClosedEnvironmentError:
+def _closed_error() -> error.ClosedEnvironmentError:
     return error.ClosedEnvironmentError("these environments were closed; make new ones")
 
 
-def _machines(
+def make_local_machines(names: list[str], game_of_env: Numbers, rom: Rom | None, options: VectorOptions) -> Machines:
+    """Makes the machines of a vector in this process.
+
+    Args:
+        names: Names of the games.
+        game_of_env: For each environment, the index of its game.
+        rom: Path or bytes of the image, or None to find the images.
+        options: Options of the environments.
+
+    Returns:
+        The machines.
+
+    Raises:
+        WrongValue: If `rom` is given for several games.
+        MissingImage: If no image of a game is found.
+    """
+    if len(names) > 1 and rom is not None:
+        raise WrongValue(f"there are {len(names)} games; rom and server take one")
+    found = [(images.find(name) if rom is None else rom, name) for name in names]
+    return _core.VectorMachines(found, game_of_env, options.core_settings())
+
+
+def _remote_machines(
     names: list[str],
-    game_of_env: Numbers,
     rom: Rom | None,
-    settings: dict[str, Any],
-    server: str | Sequence[str] | None,
+    options: VectorOptions,
+    server: str | Sequence[str],
     token: str | None,
     timeout: float | None,
 ) -> Machines:
-    if len(names) > 1 and (rom is not None or server is not None):
+    """Makes machines on one server, or on several."""
+    if len(names) > 1:
         raise WrongValue(f"there are {len(names)} games; rom and server take one")
-    if server is not None:
-        kind: Any = RemoteMachines if isinstance(server, str) else SpreadMachines
-        machines: Machines = kind(server, token, timeout, names[0], rom, len(game_of_env), settings)
-        return machines
-    found = [(images.find(name) if rom is None else rom, name) for name in names]
-    chosen = _core.VectorSettings()
-    for name, value in settings.items():
-        setattr(chosen, name, value)
-    return _core.VectorMachines(found, game_of_env, chosen)
-
-
-def _seed(value: Any, least: int = SEEDS[0]) -> int:
-    """Raises TypeError for what is no whole number."""
-    try:
-        seed = operator.index(value)
-    except TypeError:
-        raise TypeError(f"the seed is {value!r}; it takes a whole number") from None
-    if not least <= seed <= SEEDS[1]:
-        raise InvalidInput(f"the seed is {seed}; it takes {least} to {SEEDS[1]}")
-    return seed
-
-
-def array_of(values: Any) -> npt.NDArray[Any]:
-    """Raises InvalidInput for what is none."""
-    try:
-        return np.asarray(values)
-    except ValueError:  # rows of several lengths
-        raise InvalidInput(f"{values!r} is given for one array; its rows have several lengths") from None
+    if isinstance(server, str):
+        return RemoteMachines(server, token, timeout, names[0], rom, options)
+    return SpreadMachines(server, token, timeout, names[0], rom, options)

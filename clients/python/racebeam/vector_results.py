@@ -1,4 +1,4 @@
-"""What many environments show after a call, in arrays."""
+"""The arrays that a call of a vector of environments fills."""
 
 from __future__ import annotations
 
@@ -15,86 +15,131 @@ Bools = npt.NDArray[np.bool_]
 
 
 class Results(NamedTuple):
-    """Memory that a call fills. Rows of numbers and flags have a value for each environment; the properties name them."""
+    """Memory for the results of `n` environments. The properties name the rows of `numbers` and `flags`.
 
-    observations: Pixels | None  # None: not wanted
+    Attributes:
+        observations: uint8 array of shape (n, ...), or None if screens are not observed.
+        ram: uint8 array of shape (n, 128), or None if the RAM is not observed.
+        numbers: int32 array of shape (6, n).
+        flags: bool array of shape (4, n).
+        final_observations: With SAME_STEP, the last observations of the episodes that ended; else None.
+        final_numbers: With SAME_STEP, int32 array of shape (3, n): their lives, frames and frames of the episode.
+        counts: int32 array of shape (3, n), or None: frames that were played in this game, acts of this step (0 in a
+            reset), and lives that these acts lost.
+    """
+
+    observations: Pixels | None
     ram: Pixels | None
     numbers: Numbers
     flags: Bools
-    final_observations: Pixels | None  # with SAME_STEP, of the episodes that have ended
-    final_numbers: Numbers | None  # lives, frames, episode_frames
-    played: Numbers | None = None  # elapsed: frames of play in this game; acts: none in a reset; lives_lost: by them
+    final_observations: Pixels | None
+    final_numbers: Numbers | None
+    counts: Numbers | None = None
 
     @property
-    def rewards(self) -> Any:
-        return self.numbers[0]
+    def rewards(self) -> Numbers:
+        """Rewards of the step, clipped if the options say so."""
+        row: Numbers = self.numbers[0]
+        return row
 
     @property
-    def raw_rewards(self) -> Any:
-        """Before they were clipped."""
-        return self.numbers[1]
+    def raw_rewards(self) -> Numbers:
+        """Rewards of the step before clipping."""
+        row: Numbers = self.numbers[1]
+        return row
 
     @property
-    def lives(self) -> Any:
-        return self.numbers[2]
+    def lives(self) -> Numbers:
+        """Lives that are left."""
+        row: Numbers = self.numbers[2]
+        return row
 
     @property
-    def frames(self) -> Any:
-        return self.numbers[3]
+    def frames(self) -> Numbers:
+        """Frames since power-on."""
+        row: Numbers = self.numbers[3]
+        return row
 
     @property
-    def episode_frames(self) -> Any:
-        return self.numbers[4]
+    def episode_frames(self) -> Numbers:
+        """Frames since the episode began."""
+        row: Numbers = self.numbers[4]
+        return row
 
     @property
-    def env_id(self) -> Any:
-        return self.numbers[5]
+    def env_id(self) -> Numbers:
+        """Index of the environment that each column belongs to."""
+        row: Numbers = self.numbers[5]
+        return row
 
     @property
-    def terminated(self) -> Any:
-        return self.flags[0]
+    def terminated(self) -> Bools:
+        """Whether the episode was terminated."""
+        row: Bools = self.flags[0]
+        return row
 
     @property
-    def truncated(self) -> Any:
-        return self.flags[1]
+    def truncated(self) -> Bools:
+        """Whether the episode was truncated."""
+        row: Bools = self.flags[1]
+        return row
 
     @property
-    def finished(self) -> Any:
-        """With SAME_STEP: the episode is over."""
-        return self.flags[2]
+    def finished(self) -> Bools:
+        """Whether an episode ended in this step and the next one has begun; only with SAME_STEP."""
+        row: Bools = self.flags[2]
+        return row
 
     @property
-    def game_over(self) -> Any:
-        """Whatever lives and limits say."""
-        return self.flags[3]
+    def game_over(self) -> Bools:
+        """Whether the game is over, regardless of lives and time limits."""
+        row: Bools = self.flags[3]
+        return row
 
-    def of(self, envs: slice) -> Results:
-        """The memory of some environments."""
+    def select(self, envs: slice) -> Results:
+        """Returns views of the columns of some environments.
 
-        def some(array: Any, axis: int = 0) -> Any:
+        Args:
+            envs: Which environments.
+
+        Returns:
+            Results that share their memory with these.
+        """
+
+        def view(array: Any, axis: int = 0) -> Any:
             return None if array is None else array[(slice(None),) * axis + (envs,)]
 
         return Results(
-            some(self.observations),
-            some(self.ram),
-            some(self.numbers, 1),
-            some(self.flags, 1),
-            some(self.final_observations),
-            some(self.final_numbers, 1),
-            some(self.played, 1),
+            view(self.observations),
+            view(self.ram),
+            view(self.numbers, 1),
+            view(self.flags, 1),
+            view(self.final_observations),
+            view(self.final_numbers, 1),
+            view(self.counts, 1),
         )
 
     @classmethod
-    def around(
-        cls, observations: Pixels | None, ram: Pixels | None, envs: int, final_observations: Pixels | None
+    def allocate(
+        cls, observations: Pixels | None, ram: Pixels | None, count: int, final_observations: Pixels | None
     ) -> Results:
-        """With new numbers and flags."""
-        final_numbers = None if final_observations is None else np.empty((3, envs), np.int32)
+        """Allocates numbers and flags beside the given arrays of observations.
+
+        Args:
+            observations: Array for screens, or None.
+            ram: Array for the RAM, or None.
+            count: Number of environments.
+            final_observations: Array for the observations at the ends of episodes, or None.
+
+        Returns:
+            Results whose numbers and flags are uninitialised.
+        """
+        final_numbers = None if final_observations is None else np.empty((3, count), np.int32)
         return cls(
             observations,
             ram,
-            np.empty((6, envs), np.int32),
-            np.empty((4, envs), np.bool_),
+            np.empty((6, count), np.int32),
+            np.empty((4, count), np.bool_),
             final_observations,
             final_numbers,
         )

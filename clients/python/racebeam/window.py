@@ -1,4 +1,4 @@
-"""A window that shows a game and plays its sound, by pygame."""
+"""A window that shows a game and plays its sound, made with pygame."""
 
 from __future__ import annotations
 
@@ -10,19 +10,33 @@ import numpy.typing as npt
 
 from .errors import InvalidInput
 
-FRAMES_A_SECOND = 60
-SAMPLES_A_FRAME = 512
+FRAMES_PER_SECOND = 60
+SAMPLES_PER_FRAME = 512
 SCALE = 2  # of a pixel, which is twice as wide as it is high
 
 
 class Window:
-    """One game's. pygame has one window in a process: all games share it, and it shows the game that played last. It is gone when
-    each of them was closed. Raises ImportError, with what to install, where there is no pygame, and InvalidInput without a display.
+    """The window of one game.
+
+    pygame has one window per process. All games share it: it shows the game that was stepped last, and closes with the
+    last game that is closed.
     """
 
     _open: weakref.WeakSet[Window] = weakref.WeakSet()
 
     def __init__(self, title: str, width: int, height: int, sound: bool) -> None:
+        """Opens the window, or joins the open one.
+
+        Args:
+            title: Title of the window.
+            width: Width of a screen in pixels of the Atari 2600.
+            height: Height of a screen in rows.
+            sound: Whether sound is played.
+
+        Raises:
+            ImportError: If pygame is not installed.
+            InvalidInput: If there is no display.
+        """
         try:
             import pygame
         except ModuleNotFoundError as missing:
@@ -37,7 +51,10 @@ class Window:
         self._open.add(self)
 
     def _surface(self) -> Any:
-        """That of the window, in the size of this game. Whatever else uses pygame may have closed it, or changed its size."""
+        """Returns the surface of the window in the size of this game.
+
+        Another user of pygame may have closed the window, or changed its size; then this opens it again.
+        """
         display = self._pygame.display
         try:
             display.init()
@@ -51,32 +68,40 @@ class Window:
             ) from error
 
     def _open_sound(self) -> Any:
-        """None where the computer has no sound."""
+        """Returns a channel of the mixer, or None if the computer has no sound."""
         mixer = self._pygame.mixer
         try:
-            mixer.init(FRAMES_A_SECOND * SAMPLES_A_FRAME, 8, 1, SAMPLES_A_FRAME)
+            mixer.init(FRAMES_PER_SECOND * SAMPLES_PER_FRAME, 8, 1, SAMPLES_PER_FRAME)
         except self._pygame.error:
             return None
         return mixer.find_channel()
 
     def show(self, rgb: npt.NDArray[np.uint8]) -> None:
-        """A picture, height x width x 3."""
+        """Shows a screen.
+
+        Args:
+            rgb: uint8 array of shape (height, width, 3).
+        """
         picture = self._pygame.surfarray.make_surface(rgb.swapaxes(0, 1))
         self._pygame.transform.scale(picture, self._size, self._surface())
         self._pygame.event.pump()
         self._pygame.display.flip()
 
     def play(self, samples: npt.NDArray[np.uint8]) -> None:
-        """The sound of one frame."""
+        """Queues the sound of one frame.
+
+        Args:
+            samples: uint8 array of shape (512,), at 30,720 samples per second.
+        """
         if self._channel is not None:
             self._channel.queue(self._pygame.mixer.Sound(buffer=samples.tobytes()))
 
     def wait(self) -> None:
-        """Until the next frame is due."""
-        self._clock.tick(FRAMES_A_SECOND)
+        """Waits until the next frame is due."""
+        self._clock.tick(FRAMES_PER_SECOND)
 
     def close(self) -> None:
-        """Once."""
+        """Leaves the window, and closes it if no other game uses it. Must be called once."""
         self._open.discard(self)
         if self._channel is not None and all(other._channel is None for other in self._open):
             self._pygame.mixer.quit()

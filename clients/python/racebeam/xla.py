@@ -1,4 +1,4 @@
-"""AtariVectorEnv.xla(): environments that a program compiled by JAX steps, on the processor, without Python in between.
+"""AtariVectorEnv.xla(): steps environments from programs that JAX compiles, on the processor and without Python.
 
 envpool/xla.py makes its calls in the same way.
 """
@@ -8,23 +8,22 @@ from __future__ import annotations
 import functools
 import importlib
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+from gymnasium import spaces
 
 from . import _core
 from .errors import InvalidInput
+from .machines import Machines
 
-if TYPE_CHECKING:
-    from .vector_env import AtariVectorEnv
+__all__ = ["RESULTS", "call", "check_shape", "functions", "handle_of", "import_jax", "whole"]
 
-__all__ = ["RESULTS", "call", "check_shape", "functions", "handle_of", "imported", "whole"]
+SEEDS = 2**31 - 1  # the largest seed that a custom call takes
+Shapes: TypeAlias = Sequence[tuple[tuple[int, ...], Any]]  # a shape and a dtype for each array
 
-SEEDS = 2**31 - 1  # the greatest that a custom call takes
-Arrays = Sequence[tuple[tuple[int, ...], Any]]  # a shape and a type each
-
-# After the observations, in the order of bind_xla.cpp.
+# The results after the observations, in the order of bind_xla.cpp.
 RESULTS = {
     "reward": np.int32,
     "terminated": np.bool_,
@@ -38,30 +37,61 @@ RESULTS = {
 }
 
 
-def functions(envs: AtariVectorEnv, infos: tuple[str, ...]) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
-    """A handle, reset and step. `infos`: the keys of the infos. Raises ImportError without JAX, and InvalidInput for
-    environments that cannot be stepped so.
+class Environments(Protocol):
+    """What xla() needs of a vector of environments."""
+
+    num_envs: int
+    batch_size: int
+    metadata: dict[str, Any]
+    single_observation_space: spaces.Space[Any]
+    continuous: bool
+    continuous_action_threshold: float
+
+    def machines(self) -> Machines:
+        """Returns the machines that play the environments."""
+
+
+def functions(envs: Environments, infos: tuple[str, ...]) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
+    """Makes the functions that compiled programs call.
+
+    Args:
+        envs: The environments.
+        infos: Keys of the infos that the functions return.
+
+    Returns:
+        A handle, `reset(handle, seed=None, reset_mask=None)` and `step(handle, actions)`.
+
+    Raises:
+        ImportError: If JAX is not installed.
+        InvalidInput: If the options of the environments rule compiled programs out.
     """
-    jax = imported()
+    jax = import_jax()
     if envs.metadata["autoreset_mode"].name == "SAME_STEP":
         raise InvalidInput("autoreset_mode is SAME_STEP; xla() takes NEXT_STEP or DISABLED")
     if envs.batch_size < envs.num_envs:
         raise InvalidInput(f"batch_size is {envs.batch_size}; xla() steps all {envs.num_envs} environments")
     count, shape = envs.num_envs, envs.single_observation_space.shape or ()
-    arrays: Arrays = [((count, *shape), np.uint8), *(((count,), kind) for kind in RESULTS.values())]
+    shapes: Shapes = [((count, *shape), np.uint8), *(((count,), kind) for kind in RESULTS.values())]
 
     def play(name: str, handle: Any, *arguments: Any) -> tuple[Any, Any, dict[str, Any]]:
-        """The next handle, the observations, and the other results by name."""
-        handle, observations, *rest = call(name, arrays, handle, *arguments)
-        return handle, observations, dict(zip(RESULTS, rest))
+        """Returns the next handle, the observations, and the other results by name."""
+        handle, observations, *rest = call(name, shapes, handle, *arguments)
+        return handle, observations, dict(zip(RESULTS, rest, strict=True))
 
-    def told(results: dict[str, Any]) -> dict[str, Any]:
+    def make_info(results: dict[str, Any]) -> dict[str, Any]:
         return {key: results[key] for key in infos}
 
     def reset(handle: Any, seed: Any = None, reset_mask: Any = None) -> tuple[Any, tuple[Any, dict[str, Any]]]:
-        """New episodes. seed: of the first environment, and the next has one more; or one for each; -1 is none.
-        Seeds end at 2**31 - 1; an array of JAX gives their lower 31 bits. reset_mask: which environments; the others
-        are shown. Returns the handle and what is shown.
+        """Begins new episodes.
+
+        Args:
+            handle: The handle that the last call returned.
+            seed: Seed of the first environment, from which the seeds count up, or an array of shape (num_envs,). -1
+                means unseeded. Seeds end at 2**31 - 1; of the seeds in an array of JAX, the lower 31 bits are used.
+            reset_mask: bool array of shape (num_envs,) that chooses the environments to reset; None for all.
+
+        Returns:
+            The next handle, and a tuple of observations and info.
         """
         seeds = _seeds(-1 if seed is None else seed, count)
         mask = jax.numpy.asarray(np.ones(count, np.bool_) if reset_mask is None else reset_mask)
@@ -70,35 +100,57 @@ def functions(envs: AtariVectorEnv, infos: tuple[str, ...]) -> tuple[Any, Callab
         check_shape("seed", seeds, (count,))
         check_shape("reset_mask", mask, (count,))
         handle, observations, results = play("reset", handle, seeds, mask)
-        return handle, (observations, told(results))
+        return handle, (observations, make_info(results))
 
     def step(handle: Any, actions: Any) -> tuple[Any, tuple[Any, Any, Any, Any, dict[str, Any]]]:
-        """An action for each environment. Returns the handle and what is shown."""
+        """Steps all environments.
+
+        Args:
+            handle: The handle that the last call returned.
+            actions: Integer array of shape (num_envs,), or float32 of shape (num_envs, 3) with continuous actions.
+
+        Returns:
+            The next handle, and a tuple of observations, rewards, terminated, truncated and info.
+        """
         if envs.continuous:
-            meant = jax.numpy.asarray(actions, np.float32)
-            check_shape("actions", meant, (count, 3))
-            handle, observations, results = play(
-                "step_joysticks", handle, meant, np.float32(envs.continuous_action_threshold).reshape(1)
-            )
+            sticks = jax.numpy.asarray(actions, np.float32)
+            check_shape("actions", sticks, (count, 3))
+            threshold = np.float32(envs.continuous_action_threshold).reshape(1)
+            handle, observations, results = play("step_joysticks", handle, sticks, threshold)
         else:
-            meant = whole("actions", actions)
-            check_shape("actions", meant, (count,))
-            handle, observations, results = play("step", handle, meant)
-        return handle, (observations, results["reward"], results["terminated"], results["truncated"], told(results))
+            indices = whole("actions", actions)
+            check_shape("actions", indices, (count,))
+            handle, observations, results = play("step", handle, indices)
+        ends = results["terminated"], results["truncated"]
+        return handle, (observations, results["reward"], *ends, make_info(results))
 
     return jax.numpy.asarray(handle_of(envs)), reset, step
 
 
-def handle_of(envs: AtariVectorEnv) -> npt.NDArray[np.uint8]:
-    """Names the environments in custom calls. The name holds until they are closed."""
+def handle_of(envs: Environments) -> npt.NDArray[np.uint8]:
+    """Makes the handle that names environments in custom calls.
+
+    Returns:
+        uint8 array of shape (8,). It is valid until the environments are closed.
+
+    Raises:
+        InvalidInput: If the environments run on a server.
+    """
     machines = envs.machines()
     if not isinstance(machines, _core.VectorMachines):
         raise InvalidInput("custom calls of XLA are not possible for environments on a server")
     return np.array([_core.xla_handle(machines)], np.uint64).view(np.uint8)
 
 
-def imported() -> Any:
-    """JAX. Raises ImportError without it."""
+def import_jax() -> Any:
+    """Imports JAX.
+
+    Returns:
+        The module `jax`.
+
+    Raises:
+        ImportError: If JAX is not installed.
+    """
     try:
         importlib.import_module("jax.ffi")
     except ImportError:
@@ -106,11 +158,21 @@ def imported() -> Any:
     return importlib.import_module("jax")
 
 
-def call(name: str, results: Arrays, handle: Any, *arguments: Any) -> Any:
-    """What a custom call of bind_xla.cpp returns: the next handle, and results of these shapes and types."""
+def call(name: str, shapes: Shapes, handle: Any, *arguments: Any) -> Any:
+    """Makes a custom call of bind_xla.cpp.
+
+    Args:
+        name: Name of the call.
+        shapes: Shape and dtype of each result.
+        handle: The handle that the last call returned.
+        *arguments: Arrays of arguments.
+
+    Returns:
+        The next handle, then the results.
+    """
     _register()
-    shapes = [imported().ShapeDtypeStruct(shape, kind) for shape, kind in [((8,), np.uint8), *results]]
-    return imported().ffi.ffi_call(_target(name), shapes, has_side_effect=True)(handle, *arguments)
+    results = [import_jax().ShapeDtypeStruct(shape, kind) for shape, kind in [((8,), np.uint8), *shapes]]
+    return import_jax().ffi.ffi_call(_target(name), results, has_side_effect=True)(handle, *arguments)
 
 
 def _target(name: str) -> str:
@@ -120,21 +182,33 @@ def _target(name: str) -> str:
 @functools.cache
 def _register() -> None:
     for name, target in _core.xla_targets().items():
-        imported().ffi.register_ffi_target(_target(name), target, platform="cpu")
+        import_jax().ffi.register_ffi_target(_target(name), target, platform="cpu")
 
 
 def whole(name: str, values: Any) -> Any:
-    """As an array of int32. What is beyond its range becomes the nearest end, which names no action and no environment.
-    Raises TypeError.
+    """Converts whole numbers to int32.
+
+    Args:
+        name: Name of the argument.
+        values: Whole numbers. One beyond the range of int32 becomes the nearest end of the range, which is not the
+            number of an action or of an environment.
+
+    Returns:
+        An int32 array of JAX.
+
+    Raises:
+        TypeError: If the values are not integers.
     """
     array = _integers(name, values)
     limits, of_array = np.iinfo(np.int32), np.iinfo(array.dtype)
-    return imported().numpy.asarray(array.clip(max(limits.min, of_array.min), min(limits.max, of_array.max)), np.int32)
+    return import_jax().numpy.asarray(
+        array.clip(max(limits.min, of_array.min), min(limits.max, of_array.max)), np.int32
+    )
 
 
 def _integers(name: str, values: Any) -> Any:
-    """As an array of NumPy, whose numbers JAX has not narrowed, or of JAX if a part of it is one. Raises TypeError."""
-    jax = imported()
+    """Converts to an array of NumPy, whose numbers JAX has not narrowed, or of JAX if a part of `values` is one."""
+    jax = import_jax()
     is_of_jax = any(isinstance(part, jax.Array) for part in jax.tree.leaves(values))
     array = jax.numpy.asarray(values) if is_of_jax else np.asarray(values)
     if array.dtype.kind not in "iu":
@@ -143,8 +217,10 @@ def _integers(name: str, values: Any) -> Any:
 
 
 def _seeds(values: Any, count: int) -> Any:
-    """Of each environment, in int32; -1 is none. One seed counts up. Raises InvalidInput for one that is too large, as far
-    as it is known before the program runs.
+    """Converts seeds to int32, one for each environment; -1 means unseeded.
+
+    Raises:
+        InvalidInput: If a seed is too large, as far as its value is known before the program runs.
     """
     array = _integers("seed", values)
     offsets = np.arange(count if array.ndim == 0 else 1, dtype=np.uint32)
@@ -152,12 +228,16 @@ def _seeds(values: Any, count: int) -> Any:
         most = SEEDS - int(offsets[-1])
         if (array > most).any():
             raise InvalidInput(f"the seed is {array[array > most][0]}; it takes up to {most}")
-    jax_numpy = imported().numpy
+    jax_numpy = import_jax().numpy
     numbers = (jax_numpy.asarray(array.astype(np.uint32)) + offsets) & np.uint32(SEEDS)
     return jax_numpy.where(array < 0, -1, numbers.astype(np.int32))
 
 
 def check_shape(name: str, array: Any, shape: tuple[int, ...]) -> None:
-    """Raises InvalidInput."""
+    """Checks the shape of an array.
+
+    Raises:
+        InvalidInput: If `array` does not have this shape.
+    """
     if array.shape != shape:
         raise InvalidInput(f"{name} have the shape {array.shape}; they must have {shape}")

@@ -153,7 +153,7 @@ class Halves(Compared):
             for _ in range(2):
                 with self.assertRaises(ConnectionError):
                     while True:  # the first reply may have been there
-                        self.halves(envs, [0, 0]) if envs.machines()._awaited is None else envs.recv()
+                        self.halves(envs, [0, 0]) if envs.machines()._pending is None else envs.recv()
 
 
 class States(Compared):

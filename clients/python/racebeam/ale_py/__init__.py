@@ -1,42 +1,43 @@
-"""The interface of ale_py 0.12.1. Code that was written for ALE runs on racebeam after
+"""The interface of ale_py 0.12.1.
+
+Code that was written for ALE runs on racebeam after
 
     import sys, racebeam.ale_py
     sys.modules["ale_py"] = racebeam.ale_py
 
-and `import racebeam.ale_py` registers ale_py's ids with Gymnasium, as `import ale_py` does. Observations, rewards, ends and
-infos are the same to the byte, for the same seeds and actions. What differs:
+and `import racebeam.ale_py` registers ale_py's ids with Gymnasium, as `import ale_py` does. Observations, rewards, ends
+and infos are equal to the byte for the same seeds and actions. These are the differences:
 
-1.  An image that is missing, cut or unknown is an exception of loadROM(); ale_py ends the process.
-2.  A method that needs a game raises a RuntimeError before loadROM(); in ale_py most end the process.
-3.  act() raises ValueError for a number that is no action; ale_py plays NOOP. AtariEnv.step() takes no negative index.
-4.  The sentence of an invalid mode or difficulty names the choices.
-5.  States are exact: the picture, the sound and the sticky action are those of the moment of cloning. In ale_py the first
-    picture after restoring has old pixels. serialize() gives other bytes, and only racebeam reads them.
-6.  Equal ALEStates have equal hashes, and comparing one with something else gives False.
-7.  AtariEnv and ALEInterface are pickled and copied with the game as it is; ale_py's copy begins anew.
-8.  loadROM() also takes bytes, and builtin:beamfall or builtin:updraft, the games of our own. roms.get_rom_path() also searches
-    RACEBEAM_ROMS, and prints nothing.
+1.  loadROM() raises an exception for an image that is missing, cut or unknown; ale_py ends the process.
+2.  A method that needs a game raises a RuntimeError before loadROM(); in ale_py most of them end the process.
+3.  act() raises ValueError for a number without an action; ale_py plays NOOP. AtariEnv.step() refuses negative indices.
+4.  The message about an invalid mode or difficulty lists the choices.
+5.  A state has the picture, the sound and the sticky action of the moment of cloning. In ale_py the first picture after
+    restoring has old pixels. serialize() gives other bytes, and only racebeam reads them.
+6.  Equal ALEStates have equal hashes, and comparing one with another type gives False.
+7.  A pickled or copied AtariEnv or ALEInterface continues the game; ale_py's copy begins anew.
+8.  loadROM() also takes bytes, and builtin:beamfall or builtin:updraft, the games of our own. roms.get_rom_path() also
+    searches RACEBEAM_ROMS, and prints nothing.
 9.  Nothing is logged: setLoggerMode() has no effect.
-10. SDL_SUPPORT is False: the settings display_screen and sound have no effect. AtariEnv(render_mode="human") opens a window by
-    pygame. record_screen_dir and record_sound_filename take only "".
-11. getInt(), getBool(), getFloat() and getString() each know the settings of their type alone.
+10. SDL_SUPPORT is False: the settings display_screen and sound have no effect. AtariEnv(render_mode="human") opens a
+    window with pygame. record_screen_dir and record_sound_filename take only "".
+11. getInt(), getBool(), getFloat() and getString() each know only the settings of their type.
 12. A closed AtariEnv raises ClosedEnvironmentError.
-13. AtariVectorEnv takes what racebeam.AtariVectorEnv takes beyond ale_py's arguments. Seeds may be of any
-    type of integer from 0, or a list.
-    autoreset_mode may be DISABLED, and render() works. metadata is each object's own.
+13. AtariVectorEnv takes the arguments that racebeam.AtariVectorEnv adds to those of ale_py. Seeds may have any integer
+    type from 0, or be a list. autoreset_mode may be DISABLED, and render() works. Each object has its own metadata.
 14. In AtariVectorEnv, an action that is out of range is an IndexError, and a step in a child process after a fork is a
-    RuntimeError; ale_py hangs. A wrong argument is an Error, an InvalidInput or an UnknownGame; ale_py takes some, and ends the
-    process for others. After close(), ClosedEnvironmentError is raised; ale_py goes on.
-15. What is below ALEVectorInterface and xla() is not there: AutoresetMode and VectorXLAReset, VectorXLAStep. xla() does not need
-    chex. A handle of environments that were closed is an error.
+    RuntimeError; ale_py hangs. A wrong argument is an Error, an InvalidInput or an UnknownGame; ale_py takes some, and
+    ends the process for others. After close(), ClosedEnvironmentError is raised; ale_py goes on.
+15. The internals of ALEVectorInterface and xla() are missing: AutoresetMode, VectorXLAReset and VectorXLAStep. xla()
+    does not need chex. The handle of closed environments is an error. ALEVectorInterface needs Gymnasium.
 16. A paddle's strength, or a part of a continuous action, that is infinite or NaN is an InvalidInput; ale_py plays it.
-17. AtariEnv refuses a repeat_action_probability that is not in 0 to 1, a negative max_num_frames_per_episode, a
-    continuous_action_threshold that is no number, and a frameskip above 2,147,483,647. It takes integers of NumPy.
-18. AtariVectorEnv has screens of 1 to 160 columns, and of 9 rows to those of the game's screen; ale_py enlarges screens.
-    stack_num ends at 16, noop_max and frameskip at 1000; ale_py takes more.
+17. AtariEnv refuses a repeat_action_probability outside of 0 to 1, a negative max_num_frames_per_episode, a
+    continuous_action_threshold that is not a number, and a frameskip above 2,147,483,647. It takes integers of NumPy.
+18. AtariVectorEnv has screens of 1 to 160 columns, and of 9 rows to those of the game's screen; ale_py enlarges
+    screens. stack_num ends at 16, noop_max and frameskip at 1000; ale_py takes more.
 19. AtariVectorEnv with max_num_frames_per_episode=0 has no limit; ale_py truncates each step.
-20. Where img_width and img_height divide the screen evenly, such as 80 x 105 of 160 x 210, a mean that ends in .5 may be
-    rounded to the other side: a pixel may differ by 1.
+20. If img_width and img_height divide the screen evenly, such as 80 x 105 of 160 x 210, a mean that ends in .5 may be
+    rounded differently: a pixel may differ by 1.
 """
 
 from __future__ import annotations
@@ -47,22 +48,23 @@ from typing import TYPE_CHECKING, Any
 
 from .._core import Action, ALEState, LoggerMode
 from .interface import ALEInterface
-from .vector_interface import ALEVectorInterface
 
 if TYPE_CHECKING:
     from ..env import AtariEnvStepMetadata as AtariEnvStepMetadata
     from ..registration import register_v0_v4_envs as register_v0_v4_envs
     from ..registration import register_v5_envs as register_v5_envs
     from .single import AtariEnv as AtariEnv
+    from .vectors import ALEVectorInterface as ALEVectorInterface
     from .vectors import AtariVectorEnv as AtariVectorEnv
 
 __version__ = "0.12.1"
 SDL_SUPPORT = False
 
-__all__ = ["ALEInterface", "ALEState", "ALEVectorInterface", "Action", "LoggerMode", "SDL_SUPPORT"]
+__all__ = ["ALEInterface", "ALEState", "Action", "LoggerMode", "SDL_SUPPORT"]
 
 _HAS_GYMNASIUM = importlib.util.find_spec("gymnasium") is not None
 _NEED_GYMNASIUM = {
+    "ALEVectorInterface": "racebeam.ale_py.vectors",
     "AtariEnv": "racebeam.ale_py.single",
     "AtariEnvStepMetadata": "racebeam.env",
     "AtariVectorEnv": "racebeam.ale_py.vectors",
@@ -70,7 +72,8 @@ _NEED_GYMNASIUM = {
     "register_v5_envs": "racebeam.registration",
 }
 
-# Those of ale_py. They import by absolute names alone: as `ale_py.env`, Python loads their files once more.
+# The submodules of ale_py. They use absolute imports: Python loads their files once more under names such as
+# `ale_py.env`.
 _SUBMODULES = ("_ale_py", "env", "registration", "roms", "vector_env")
 
 
@@ -90,4 +93,4 @@ if _HAS_GYMNASIUM:
     from ..registration import register_ale_ids
 
     register_ale_ids()
-    __all__ += ["AtariEnv", "AtariEnvStepMetadata", "AtariVectorEnv"]
+    __all__ += ["ALEVectorInterface", "AtariEnv", "AtariEnvStepMetadata", "AtariVectorEnv"]

@@ -1,8 +1,8 @@
-"""The names of ale_py's compiled module."""
+"""The names of the compiled module of ale_py."""
 
 from racebeam._core import Action, ALEState, LoggerMode
 from racebeam.ale_py.interface import ALEInterface
-from racebeam.ale_py.vector_interface import ALEVectorInterface
+from racebeam.ale_py.vectors import ALEVectorInterface
 
 SDL_SUPPORT = False
 __all__ = ["ALEInterface", "ALEState", "ALEVectorInterface", "Action", "LoggerMode", "SDL_SUPPORT"]

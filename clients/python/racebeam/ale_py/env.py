@@ -6,5 +6,5 @@ from racebeam.env import AtariEnvStepMetadata
 
 __all__ = ["AtariEnv", "AtariEnvStepMetadata"]
 
-if __name__ == "ale_py.env":  # this package stands in the place of ale_py, and so it does in the ids
+if __name__ == "ale_py.env":  # this package replaces ale_py, also in the ids
     registration.register_ale_ids("ale_py")

@@ -1,4 +1,4 @@
-"""ALEInterface of ale_py: what it refuses is a RuntimeError, and of no narrower type. Errors of the other classes."""
+"""ALEInterface with the errors of ale_py: a refused argument is a plain RuntimeError instead of an InvalidInput."""
 
 from __future__ import annotations
 
@@ -17,32 +17,31 @@ Method = TypeVar("Method", bound=Callable[..., Any])
 
 
 class NoSuchGame(UnknownGame, AssertionError, TypeError):
-    """There is no game of this name. AtariVectorEnv of ale_py raises AssertionError, and AtariEnv TypeError."""
+    """Raised for a name that no game has. ale_py's AtariVectorEnv raises AssertionError, and its AtariEnv TypeError."""
 
 
 def check_game(game: str) -> None:
-    """Raises NoSuchGame."""
+    """Checks the name of a game.
+
+    Raises:
+        NoSuchGame: If no game has this name.
+    """
     try:
         images.check_name(game)
     except UnknownGame as error:
         raise NoSuchGame(*error.args) from None
 
 
-REFUSING = (
-    "setDifficulty",
-    "setRAM",
-    "setInt",
-    "setBool",
-    "setFloat",
-    "setString",
-    "getScreen",
-    "getScreenRGB",
-    "getScreenGrayscale",
-)
-
-
 def plain_errors(method: Method, kind: type[Exception] = RuntimeError) -> Method:
-    """Raises an error of this kind where the method raises InvalidInput."""
+    """Converts the InvalidInput that a method raises.
+
+    Args:
+        method: The method.
+        kind: Class of the exception to raise instead.
+
+    Returns:
+        The method with other exceptions.
+    """
 
     @functools.wraps(method)
     def call(*arguments: Any, **named: Any) -> Any:
@@ -55,18 +54,39 @@ def plain_errors(method: Method, kind: type[Exception] = RuntimeError) -> Method
 
 
 class ALEInterface(interface.ALEInterface):
-    """racebeam.ALEInterface with the errors of ale_py."""
+    """racebeam.ALEInterface with the errors of ale_py.
+
+    Example:
+        >>> from racebeam.ale_py import ALEInterface
+        >>> ale = ALEInterface()
+        >>> ale.loadROM("builtin:beamfall")
+        >>> ale.setMode(99)
+        Traceback (most recent call last):
+        RuntimeError: Invalid game mode requested: mode is 99; it takes 0
+    """
 
     isSupportedROM = staticmethod(plain_errors(interface.ALEInterface.isSupportedROM))
+    setDifficulty = plain_errors(interface.ALEInterface.setDifficulty)
+    setRAM = plain_errors(interface.ALEInterface.setRAM)
+    setInt = plain_errors(interface.ALEInterface.setInt)
+    setBool = plain_errors(interface.ALEInterface.setBool)
+    setFloat = plain_errors(interface.ALEInterface.setFloat)
+    setString = plain_errors(interface.ALEInterface.setString)
+    getScreen = plain_errors(interface.ALEInterface.getScreen)
+    getScreenRGB = plain_errors(interface.ALEInterface.getScreenRGB)
+    getScreenGrayscale = plain_errors(interface.ALEInterface.getScreenGrayscale)
 
     @plain_errors
     def setMode(self, mode: int, /) -> None:
-        """One of getAvailableModes(). Modes for two, which racebeam.ALEInterface has besides, are refused."""
+        """Selects a mode for one player. racebeam.ALEInterface also accepts modes for two.
+
+        Args:
+            mode: One of `getAvailableModes()`.
+
+        Raises:
+            RuntimeError: If the game does not have the mode.
+        """
         offered = self.getAvailableModes()
         if isinstance(mode, (int, np.integer)) and mode not in offered:
             raise InvalidInput(f"Invalid game mode requested: mode is {mode}; it takes {', '.join(map(str, offered))}")
         super().setMode(mode)
-
-
-for _name in REFUSING:
-    setattr(ALEInterface, _name, plain_errors(getattr(interface.ALEInterface, _name)))

@@ -1,4 +1,4 @@
-"""The names of ale_py.roms: which games there are, and where their images are."""
+"""The names of ale_py.roms: lists games, and finds their images."""
 
 from __future__ import annotations
 
@@ -11,12 +11,22 @@ __all__ = ["get_all_rom_ids", "get_rom_path"]
 
 
 def get_all_rom_ids() -> list[str]:
-    """The names of all games that ale_py has."""
+    """Returns the names of all games of ale_py."""
     return list(ale_games.EVERY)
 
 
 def get_rom_path(name: str) -> pathlib.Path | None:
-    """The image of a game. Warns of an unknown name, and returns None. Raises MissingImage, a FileNotFoundError."""
+    """Finds the image of a game.
+
+    Args:
+        name: Name of the game.
+
+    Returns:
+        The path of the image, or None with a warning if the name is unknown.
+
+    Raises:
+        MissingImage: If no image is found; a FileNotFoundError.
+    """
     if name not in ale_games.EVERY:
         warnings.warn(f"Rom {name} not supported.", stacklevel=2)
         return None

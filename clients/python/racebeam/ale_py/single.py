@@ -1,4 +1,4 @@
-"""AtariEnv with the errors of ale_py's."""
+"""AtariEnv with the errors of ale_py."""
 
 from __future__ import annotations
 
@@ -9,7 +9,14 @@ __all__ = ["AtariEnv"]
 
 
 class AtariEnv(env.AtariEnv):
-    """racebeam.AtariEnv with the errors of ale_py's."""
+    """racebeam.AtariEnv with the errors of ale_py, also those of its `ale`.
+
+    Example:
+        >>> from racebeam.ale_py import AtariEnv
+        >>> AtariEnv("beamfal")
+        Traceback (most recent call last):
+        racebeam.ale_py.interface.NoSuchGame: there is no game 'beamfal'; did you mean beamfall?
+    """
 
     _local_interface = ALEInterface
     _check_game = staticmethod(check_game)

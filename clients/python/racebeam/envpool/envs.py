@@ -1,48 +1,41 @@
-"""AtariVectorEnv with the settings of EnvPool, of which any environments are sent and received."""
+"""AtariVectorEnv with the settings of EnvPool. Any of its environments can be sent and received."""
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ..arguments import MOST
 from ..errors import InvalidInput
-from ..vector_env import AtariVectorEnv, array_of
-from ..vector_results import Numbers, Pixels, Results
+from ..machines import Actions
+from ..vector_env import AtariVectorEnv, make_local_machines
+from ..vector_inputs import array_of
+from ..vector_options import VectorOptions
+from ..vector_results import Numbers, Pixels
+from ..vector_results import Results as VectorResults
 from .spec import EnvSpec
+from .types import Results
 
-__all__ = ["ROWS", "Envs", "Shown", "parts_of"]
+__all__ = ["ROWS", "Envs", "parts_of"]
 
-ROWS = 210  # EnvPool sees no more, of games that have them, too
-
-
-class Shown(NamedTuple):
-    """What environments show: arrays of NumPy, or of JAX in a compiled program."""
-
-    observations: Any
-    ram: Any
-    rewards: Any
-    raw_rewards: Any
-    terminated: Any
-    truncated: Any
-    game_over: Any
-    env_id: Any
-    lives: Any
-    elapsed: Any  # frames of play in this game
-    acts: Any  # 0: a reset
-    lives_lost: Any
+ROWS = 210  # EnvPool observes the first 210 rows of screens that have more
 
 
 class Envs(AtariVectorEnv):
-    """The first step of an environment is its reset. Without batch_size, results are in the order in which environments were sent."""
+    """A vector of environments with the semantics of EnvPool.
+
+    The first step of an environment is its reset. With `batch_size` equal to `num_envs`, results have the order in
+    which environments were sent.
+
+    Args:
+        spec: Spec of the task.
+    """
 
     def __init__(self, spec: EnvSpec) -> None:
         config = spec.config
-        super().__init__(
-            config.task,
-            config.num_envs,
+        options = VectorOptions(
+            num_envs=config.num_envs,
             batch_size=config.batch_size,
             num_threads=config.num_threads,
             thread_affinity_offset=config.thread_affinity_offset,
@@ -63,20 +56,25 @@ class Envs(AtariVectorEnv):
             start="noops-fire",
             stack_start="repeats",
             render_mode="rgb_array",
+            rows=ROWS,
         )
+        game_of_env = np.zeros(config.num_envs, np.int32)
+        machines = make_local_machines([config.task], game_of_env, None, options)
+        self._use(machines, [config.task], game_of_env, options)
         self.every: Numbers = np.arange(config.num_envs, dtype=np.int32)
         self._machines.end_episodes(self.every, spec.seeds)
 
-    def _settings(self, arguments: dict[str, Any], num_envs: int) -> dict[str, Any]:
-        return {**super()._settings(arguments, num_envs), "rows": ROWS}
-
     @property
     def received(self) -> Numbers:
-        """The environments of the last results. Raises InvalidInput before them."""
-        return self._ready()
+        """Environments of the last results. Raises InvalidInput before the first results."""
+        return self._last_received()
 
     def send_resets_of(self, envs: Numbers) -> None:
-        """Begins new games. Where those are of all environments, what was sent and not received is dropped."""
+        """Begins new games. If they are those of all environments, what was sent and not received is dropped.
+
+        Args:
+            envs: int32 array with indices of environments.
+        """
         self._check_open()
         if len(envs) == self.num_envs:
             self._drop_pending()
@@ -84,37 +82,50 @@ class Envs(AtariVectorEnv):
         self._machines.send(np.zeros(len(envs), np.int64), envs)
 
     def send_to(self, envs: Numbers, actions: Any) -> None:
-        """Begins a step of these environments."""
-        self._check_open()
-        self._machines.send(self._indices(actions, len(envs)), envs)
+        """Begins a step of some environments.
 
-    def step_every(self, actions: Any) -> Shown:
-        """Of all environments. The same as send_to() and receive(), and faster."""
+        Args:
+            envs: int32 array with indices of environments.
+            actions: An action for each of them.
+        """
         self._check_open()
-        results = self._room(None)
-        self._machines.step(self._indices(actions), results)
-        return self._told(results)
+        self._machines.send(self._parse_actions(actions, len(envs)), envs)
 
-    def receive(self) -> Shown:
-        """The first batch_size that finish; without batch_size, all that were sent."""
+    def step_every(self, actions: Any) -> Results:
+        """Steps all environments. Same as `send_to` and `receive`, and faster.
+
+        Args:
+            actions: An action for each environment.
+
+        Returns:
+            Results of all environments.
+        """
+        self._check_open()
+        results = self._allocate_results(None)
+        self._machines.step(self._parse_actions(actions), results)
+        return self._convert(results)
+
+    def receive(self) -> Results:
+        """Waits for environments.
+
+        Returns:
+            Results of the first `batch_size` environments that finish; if that is `num_envs`, of all that were sent.
+        """
         self._check_open()
         is_sync = self.batch_size == self.num_envs
-        results = self._room(None, self._machines.playing() if is_sync else self.batch_size)
+        results = self._allocate_results(None, self._machines.playing() if is_sync else self.batch_size)
         self._machines.receive(results)
-        return self._told(results)
+        return self._convert(results)
 
-    def _room(self, out: Pixels | None, envs: int | None = None) -> Results:
-        count = self.batch_size if envs is None else envs
-        return (
-            super()
-            ._room(out, count)
-            ._replace(ram=np.empty((count, 128), np.uint8), played=np.empty((3, count), np.int32))
-        )
+    def _allocate_results(self, out: Pixels | None, count: int | None = None) -> VectorResults:
+        size = self.batch_size if count is None else count
+        results = super()._allocate_results(out, size)
+        return results._replace(ram=np.empty((size, 128), np.uint8), counts=np.empty((3, size), np.int32))
 
-    def _told(self, results: Results) -> Shown:
+    def _convert(self, results: VectorResults) -> Results:
         self._received = results.env_id.copy()
-        assert results.played is not None
-        return Shown(
+        assert results.counts is not None
+        return Results(
             results.observations,
             results.ram,
             results.rewards,
@@ -124,11 +135,21 @@ class Envs(AtariVectorEnv):
             results.game_over,
             results.env_id,
             results.lives,
-            *results.played,
+            *results.counts,
         )
 
-    def chosen(self, mask: Any) -> Numbers:
-        """The environments of a mask, of one or more; None: all."""
+    def select(self, mask: Any) -> Numbers:
+        """Converts a reset mask to indices.
+
+        Args:
+            mask: A value for each environment that is true or false, at least one of them true; or None for all.
+
+        Returns:
+            int32 array with the indices of the chosen environments.
+
+        Raises:
+            InvalidInput: If `mask` has another shape or type, or chooses no environment.
+        """
         if mask is None:
             return self.every
         array = array_of(mask)
@@ -138,21 +159,31 @@ class Envs(AtariVectorEnv):
             raise InvalidInput(f"reset_mask is {mask!r}; it takes one environment or more")
         return self.every[array.astype(np.bool_)]
 
-    def _indices(self, actions: Any, count: int | None = None) -> npt.NDArray[np.int64]:
-        """A fraction is cut off, and a flag is 0 or 1."""
+    def _parse_actions(self, actions: Any, count: int | None = None) -> Actions:
+        """Converts actions as EnvPool does: cuts fractions off, and takes flags as 0 and 1."""
         array = array_of(actions)
         if array.dtype.kind not in "bf":
-            return super()._indices(array, count)
+            return super()._parse_actions(array, count)
         if (far := array[~(np.abs(array) <= MOST)]).size:
             most = self._machines.numbers_of_actions()[0] - 1
             raise IndexError(f"action {far[0]} is out of range; there are 0 to {most}")
-        return super()._indices(array.astype(np.int64), count)
+        return super()._parse_actions(array.astype(np.int64), count)
 
-    def numbers_of(self, env_id: Any) -> Numbers:
-        """Of environments, checked."""
+    def parse_env_id(self, env_id: Any) -> Numbers:
+        """Checks indices of environments.
+
+        Args:
+            env_id: One index or a sequence of indices, each once.
+
+        Returns:
+            int32 array with the indices.
+
+        Raises:
+            InvalidInput: If an index is not that of an environment, or occurs twice.
+        """
         try:
             ids = np.atleast_1d(env_id)
-        except ValueError:  # of rows of several lengths
+        except ValueError:  # rows of different lengths
             ids = np.empty((0, 0))
         if ids.ndim != 1 or (ids.dtype.kind not in "iu" and ids.size) or not np.isin(ids, self.every).all():
             raise InvalidInput(
@@ -164,7 +195,17 @@ class Envs(AtariVectorEnv):
 
 
 def parts_of(action: dict[str, Any]) -> dict[str, Any]:
-    """By name: {"players": {"env_id": ids}} has the part players.env_id. Raises InvalidInput if `action` is missing."""
+    """Flattens an action that is a dictionary.
+
+    Args:
+        action: Parts by name, such as {"action": actions, "players": {"env_id": ids}}.
+
+    Returns:
+        The parts with dotted names, such as "players.env_id".
+
+    Raises:
+        InvalidInput: If the part "action" is missing.
+    """
     parts: dict[str, Any] = {}
     for name, part in action.items():
         parts |= {f"{name}.{key}": value for key, value in part.items()} if isinstance(part, dict) else {name: part}

@@ -6,27 +6,48 @@ import math
 import sys
 import warnings
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import gymnasium
 import numpy as np
 import numpy.typing as npt
 from gymnasium import spaces
-from gymnasium.vector import AutoresetMode, VectorEnv
 
 from ..arguments import flag, whole
+from ..autoreset import AutoresetMode, VectorEnv
 from ..errors import InvalidInput
 from ..vector_env import Info
 from ..vector_results import Numbers, Pixels
 from . import xla
-from .envs import ROWS, Envs, Shown, parts_of
+from .envs import ROWS, Envs, parts_of
 from .spec import EnvSpec, InvalidSetting, checked, dm_specs
+from .types import Players, Results, State, TimeStep
 
-__all__ = ["DMEnvPool", "EnvPool", "GymEnvPool", "GymnasiumEnvPool", "State", "TimeStep"]
+__all__ = ["DMEnvPool", "EnvPool", "GymEnvPool", "GymnasiumEnvPool"]
 
 
 class EnvPool:
-    """What all kinds have. A kind says in _shown_as() what its results look like."""
+    """Base class of the environments. Subclasses convert results in `_format`.
+
+    Args:
+        spec: Spec of the task, as `make_spec` returns it.
+        render_env_id: Index of the environment that `render` returns by default.
+        render_mode: None or "rgb_array"; has no effect.
+
+    Attributes:
+        spec: The spec.
+        config: The settings, as a dictionary.
+        num_envs: Number of environments.
+        batch_size: Number of environments that `recv` waits for.
+        observation_space: Space of the observations of one environment.
+        action_space: Space of the actions of one environment.
+
+    Raises:
+        InvalidSetting: If `spec` or `render_env_id` is wrong.
+        MissingImage: If no image of the game is found.
+
+    All methods raise ClosedEnvironmentError after `close`, and RuntimeError in a child process after a fork.
+    """
 
     def __init__(self, spec: EnvSpec, render_env_id: Any = 0, render_mode: str | None = None) -> None:
         if not isinstance(spec, EnvSpec):
@@ -36,19 +57,19 @@ class EnvPool:
         self._check_size()
         self._envs = Envs(spec)
         self.num_envs, self.batch_size = self._envs.num_envs, self._envs.batch_size
-        self._shown_by_render = checked(whole, "render_env_id", render_env_id, 0, self.num_envs - 1)
+        self._render_env_id = checked(whole, "render_env_id", render_env_id, 0, self.num_envs - 1)
         self.render_mode = render_mode
         self.action_space = self.single_action_space = spec.action_space
         self.observation_space = self.single_observation_space = spec.observation_space
 
     def _check_size(self) -> None:
-        """Without another size, all ways to resize are the same."""
+        """Refuses use_inter_area_resize=False unless the screens have full size, where all ways to resize agree."""
         if not self.config["use_inter_area_resize"] and (self.config["img_height"], self.config["img_width"]) != (
             ROWS,
             160,
         ):
             raise InvalidSetting(
-                f"use_inter_area_resize is False; racebeam takes that where img_height and img_width are {ROWS} and 160"
+                f"use_inter_area_resize is False; racebeam takes that if img_height is {ROWS} and img_width is 160"
             )
 
     def __len__(self) -> int:
@@ -61,67 +82,104 @@ class EnvPool:
         self.close()
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}<{self.spec.id}>({', '.join(f'{name}={value!r}' for name, value in self.config.items())})"
+        settings = ", ".join(f"{name}={value!r}" for name, value in self.config.items())
+        return f"{type(self).__name__}<{self.spec.id}>({settings})"
 
     __str__ = __repr__
 
     def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError(
-            f"{type(self).__name__} has threads, and can be neither pickled nor copied; make another one with the same settings"
+            f"{type(self).__name__} cannot be pickled or copied, because it owns threads; "
+            "make another one with the same settings"
         )
 
     @property
     def is_async(self) -> bool:
+        """Whether `recv` waits for a part of the environments."""
         return self.batch_size < self.num_envs
 
     @property
     def all_env_ids(self) -> npt.NDArray[np.int32]:
+        """Indices of all environments."""
         return np.arange(self.num_envs, dtype=np.int32)
 
     def observation_spec(self) -> Any:
-        """As dm_env has it."""
+        """Returns the spec of the observations for dm_env."""
         return self.spec.observation_spec()
 
     def action_spec(self) -> Any:
-        """As dm_env has it."""
+        """Returns the spec of the actions for dm_env."""
         return self.spec.action_spec()
 
     def seed(self, seed: Any = None) -> None:
-        """Has no effect, as in EnvPool."""
+        """Warns that it has no effect, as in EnvPool.
+
+        Args:
+            seed: Ignored.
+        """
         warnings.warn("seed() has no effect; give seed to make()", stacklevel=2)
 
     def render(self, env_ids: Any = None, camera_id: Any = None) -> Pixels:
-        """The pictures of these environments. camera_id has no effect, as in EnvPool."""
+        """Returns the screens of some environments.
+
+        Args:
+            env_ids: One index or several. Default: `render_env_id`.
+            camera_id: Ignored, as in EnvPool.
+
+        Returns:
+            uint8 array of shape (n, height, 160, 3).
+
+        Raises:
+            InvalidInput: If `env_ids` is empty.
+        """
         pictures = self._envs.render() or ()
-        chosen = np.atleast_1d(self._shown_by_render if env_ids is None else env_ids)
+        chosen = np.atleast_1d(self._render_env_id if env_ids is None else env_ids)
         if chosen.size == 0:
             raise InvalidInput("env_ids is empty; it takes one environment or more")
         return np.stack([pictures[env][:ROWS] for env in chosen])
 
     def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
-        """For programs that JAX compiles: a handle, recv(handle), send(handle, action, env_id=None) and step(handle, action, env_id=None).
+        """Makes functions that programs compiled by JAX call.
 
-        recv returns the handle for the next call and what recv() returns, send the handle, and step does both. Results are of batch_size
-        environments. Errors of a compiled program are jax.errors.JaxRuntimeError. Raises ImportError without JAX.
+        Errors of a compiled program are jax.errors.JaxRuntimeError.
+
+        Returns:
+            A handle, `recv(handle)`, `send(handle, action, env_id=None)` and `step(handle, action, env_id=None)`.
+            `recv` returns the handle for the next call and what `recv` of this class returns, `send` returns the
+            handle, and `step` does both.
+
+        Raises:
+            ImportError: If JAX is not installed.
         """
-        return xla.functions(self._envs, self._shown_as)
+        return xla.functions(self._envs, self._format)
 
     def close(self) -> None:
+        """Ends the threads, and frees the memory."""
         self._envs.close()
 
     def async_reset(self) -> None:
-        """Begins new games of all environments; recv() returns the first. What was not received before is dropped."""
+        """Begins new games of all environments, and drops what was not received. `recv` returns the first results."""
         self._send_resets(self._envs.every)
 
     def send(self, action: Any, env_id: Any = None) -> None:
-        """Begins a step of these environments; None: of all, or with batch_size, of those that were received last."""
-        envs, actions = self._meant(action, env_id)
+        """Begins a step of some environments.
+
+        Args:
+            action: An action for each environment, or a dictionary with the parts "action" and "env_id", both int32.
+            env_id: Indices of the environments. Default: all environments, or those that were received last if
+                `batch_size` is below `num_envs`.
+
+        Raises:
+            IndexError: If an action is out of range.
+            InvalidInput: If the shapes differ, or an index is wrong.
+        """
+        envs, actions = self._parse_action(action, env_id)
         self._envs.send_to(envs, actions)
 
     def _send_resets(self, env_id: Any) -> None:
-        self._envs.send_resets_of(self._envs.numbers_of(env_id))
+        self._envs.send_resets_of(self._envs.parse_env_id(env_id))
 
-    def _receive(self) -> Shown:
+    def _receive(self) -> Results:
         return self._envs.receive()
 
     def _reset(self, env_id: Any, options: Any = None) -> Any:
@@ -130,58 +188,57 @@ class EnvPool:
         mask = _mask_of(options or {})
         if mask is not None and env_id is not None:
             raise InvalidInput("env_id and reset_mask are given; one of them chooses the environments")
-        self._envs.send_resets_of(self._envs.chosen(mask) if env_id is None else self._envs.numbers_of(env_id))
-        return self._shown_as(self._receive())
+        self._envs.send_resets_of(self._envs.select(mask) if env_id is None else self._envs.parse_env_id(env_id))
+        return self._format(self._receive())
 
     def _step(self, action: Any, env_id: Any) -> Any:
-        envs, actions = self._meant(action, env_id)
+        envs, actions = self._parse_action(action, env_id)
         if not self.is_async and np.array_equal(envs, self._envs.every):
-            return self._shown_as(self._envs.step_every(actions))
+            return self._format(self._envs.step_every(actions))
         self._envs.send_to(envs, actions)
-        return self._shown_as(self._receive())
+        return self._format(self._receive())
 
-    def _meant(self, action: Any, env_id: Any) -> tuple[Numbers, Any]:
+    def _parse_action(self, action: Any, env_id: Any) -> tuple[Numbers, Any]:
         if isinstance(action, dict):
             parts = _checked_parts(action)
             action, env_id = parts["action"], parts.get("env_id", parts.get("players.env_id", env_id))
         if env_id is None:
             return (self._envs.received if self.is_async else self._envs.every), action
-        return self._envs.numbers_of(env_id), action
+        return self._envs.parse_env_id(env_id), action
 
-    def _shown_as(self, shown: Shown) -> Any:
+    def _format(self, results: Results) -> Any:
         raise NotImplementedError
 
-    def _told_by_name(self, shown: Shown) -> dict[str, Any]:
-        """Under the names of spec.state_array_spec."""
-        observations, done = shown.observations, shown.terminated | shown.truncated
+    def _name_results(self, results: Results) -> dict[str, Any]:
+        """Returns the results under the names of `spec.state_array_spec`."""
+        observations, done = results.observations, results.terminated | results.truncated
         if observations.ndim == 5:  # colours become channels
-            observations = observations.transpose(0, 1, 4, 2, 3).reshape(
-                len(observations), *self.spec.observation_space.shape
-            )
+            shape = self.spec.observation_space.shape
+            observations = observations.transpose(0, 1, 4, 2, 3).reshape(len(observations), *shape)
         skip = self.config["frame_skip"]
-        ends = done | (shown.lives_lost > 0) if self.config["zero_discount_on_life_loss"] else done
+        ends = done | (results.lives_lost > 0) if self.config["zero_discount_on_life_loss"] else done
         return {
-            "info:env_id": shown.env_id,
-            "info:players.env_id": shown.env_id.copy(),
-            "elapsed_step": (shown.elapsed + skip - 1) // skip,
+            "info:env_id": results.env_id,
+            "info:players.env_id": results.env_id.copy(),
+            "elapsed_step": (results.elapsed + skip - 1) // skip,
             "done": done,
-            "reward": shown.rewards.astype(np.float32),
+            "reward": results.rewards.astype(np.float32),
             "discount": (~ends).astype(np.float32),
-            "step_type": ((shown.acts > 0) * (1 + done)).astype(np.int32),
-            "trunc": shown.truncated,
+            "step_type": ((results.acts > 0) * (1 + done)).astype(np.int32),
+            "trunc": results.truncated,
             "obs": observations,
-            "info:lives": shown.lives,
-            "info:reward": shown.raw_rewards.astype(np.float32),
-            "info:terminated": shown.game_over.astype(np.int32),
-            "info:ram": shown.ram,
+            "info:lives": results.lives,
+            "info:reward": results.raw_rewards.astype(np.float32),
+            "info:terminated": results.game_over.astype(np.int32),
+            "info:ram": results.ram,
         }
 
-    def _shown_with_info(self, shown: Shown) -> tuple[Any, Any, Any, Any, Info]:
-        """Observations, rewards, done, truncated and the info."""
-        told = self._told_by_name(shown)
-        info = {name: told[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
-        info |= {"players": {"env_id": told["info:players.env_id"]}, "elapsed_step": told["elapsed_step"]}
-        return told["obs"], told["reward"], told["done"], told["trunc"], info
+    def _format_with_info(self, results: Results) -> tuple[Any, Any, Any, Any, Info]:
+        """Returns observations, rewards, done, truncated and the info."""
+        named = self._name_results(results)
+        info = {name: named[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
+        info |= {"players": {"env_id": named["info:players.env_id"]}, "elapsed_step": named["elapsed_step"]}
+        return named["obs"], named["reward"], named["done"], named["trunc"], info
 
 
 def _checked_parts(action: dict[str, Any]) -> dict[str, Any]:
@@ -195,39 +252,104 @@ def _checked_parts(action: dict[str, Any]) -> dict[str, Any]:
 def _mask_of(options: Mapping[Any, Any]) -> Any:
     unknown = [name for name in options if name != "reset_mask"]
     if unknown:
-        raise InvalidInput(f"options has {', '.join(map(repr, unknown))}; it takes reset_mask alone")
+        raise InvalidInput(f"options has {', '.join(map(repr, unknown))}; it takes only reset_mask")
     return options.get("reset_mask")
 
 
 class GymnasiumEnvPool(EnvPool, VectorEnv[Any, Any, Any], gymnasium.Env[Any, Any]):  # type: ignore[misc]
-    """env_type="gymnasium"."""
+    """Environments with the interface of Gymnasium, made by make(env_type="gymnasium").
+
+    `info` has `env_id`, `players`, `lives`, `reward` (before clipping), `terminated` (whether the game is over), `ram`
+    and `elapsed_step`.
+
+    Example:
+        >>> from racebeam import envpool
+        >>> envs = envpool.make_gymnasium("Beamfall-v5", num_envs=2)
+        >>> observations, info = envs.reset()
+        >>> observations, rewards, terminated, truncated, info = envs.step([1, 0])
+        >>> rewards.dtype, info["lives"].tolist()
+        (dtype('float32'), [4, 4])
+        >>> envs.close()
+    """
 
     metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP, "render_modes": ["rgb_array"]}
     is_vector_env = True
 
     def reset(self, env_id: Any = None, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Any, Info]:
+        """Begins new games.
+
+        Args:
+            env_id: Indices of the environments. Default: all.
+            seed: Ignored with a warning, as in EnvPool.
+            options: May have "reset_mask", which chooses environments.
+
+        Returns:
+            Observations, uint8 of shape (n, channels, img_height, img_width), and info.
+
+        Raises:
+            InvalidInput: If an index, the mask or an option is wrong.
+        """
         if seed is not None:
             self.seed(seed)
         observations, *_, info = self._reset(env_id, options)
         return observations, info
 
     def step(self, action: Any, env_id: Any = None) -> tuple[Any, Any, Any, Any, Info]:
-        shown: tuple[Any, Any, Any, Any, Info] = self._step(action, env_id)
-        return shown
+        """Steps some environments.
+
+        Args:
+            action: As in `send`.
+            env_id: As in `send`.
+
+        Returns:
+            Observations, rewards (float32), terminated (bool), truncated (bool) and info.
+
+        Raises:
+            IndexError: If an action is out of range.
+            InvalidInput: If the shapes differ, or an index is wrong.
+        """
+        results: tuple[Any, Any, Any, Any, Info] = self._step(action, env_id)
+        return results
 
     def recv(self, reset: bool = False, return_info: bool = True) -> Any:
-        observations, *rest, info = self._shown_as(self._receive())
+        """Waits for environments that were sent.
+
+        Args:
+            reset: Whether to return what `reset` returns.
+            return_info: Ignored, as in EnvPool.
+
+        Returns:
+            What `step` or `reset` returns.
+
+        Raises:
+            InvalidInput: If fewer than `batch_size` environments were sent.
+        """
+        observations, *rest, info = self._format(self._receive())
         return (observations, info) if flag("reset", reset) else (observations, *rest, info)
 
-    def _shown_as(self, shown: Shown) -> tuple[Any, Any, Any, Any, Info]:
-        observations, rewards, done, truncated, info = self._shown_with_info(shown)
+    def _format(self, results: Results) -> tuple[Any, Any, Any, Any, Info]:
+        observations, rewards, done, truncated, info = self._format_with_info(results)
         return observations, rewards, done & ~truncated, truncated, info
 
 
 class GymEnvPool(EnvPool):
-    """make(env_type="gym"): reset() returns observations, and a step has one end, `done`.
+    """Environments with the interface of Gym 0.21, made by make(env_type="gym").
 
-    To a program that has imported gym, the spaces are those of that package. Wrappers of gym find what they ask for.
+    `reset` returns observations, and `step` has one flag `done`. In a program that has imported gym, the spaces are
+    those of that package. The attributes that wrappers of gym read are there.
+
+    Args:
+        spec: Spec of the task, as `make_spec` returns it.
+        render_env_id: Index of the environment that `render` returns by default.
+        render_mode: None or "rgb_array"; has no effect.
+
+    Example:
+        >>> from racebeam import envpool
+        >>> envs = envpool.make("Beamfall-v5", env_type="gym", num_envs=2)
+        >>> envs.reset().shape
+        (2, 4, 84, 84)
+        >>> observations, rewards, done, info = envs.step([1, 0])
+        >>> envs.close()
     """
 
     metadata: dict[str, Any] = {"render.modes": ["rgb_array"], "render_modes": ["rgb_array"]}
@@ -244,61 +366,80 @@ class GymEnvPool(EnvPool):
 
     @property
     def unwrapped(self) -> GymEnvPool:
+        """These environments."""
         return self
 
     def reset(self, env_id: Any = None) -> Any:
+        """Begins new games.
+
+        Args:
+            env_id: Indices of the environments. Default: all.
+
+        Returns:
+            Observations, uint8 of shape (n, channels, img_height, img_width).
+
+        Raises:
+            InvalidInput: If an index is wrong.
+        """
         return self._reset(env_id)[0]
 
     def step(self, action: Any, env_id: Any = None) -> tuple[Any, Any, Any, Info]:
-        shown: tuple[Any, Any, Any, Info] = self._step(action, env_id)
-        return shown
+        """Steps some environments.
+
+        Args:
+            action: As in `send`.
+            env_id: As in `send`.
+
+        Returns:
+            Observations, rewards (float32), done (bool), and info, which has "TimeLimit.truncated".
+
+        Raises:
+            IndexError: If an action is out of range.
+            InvalidInput: If the shapes differ, or an index is wrong.
+        """
+        results: tuple[Any, Any, Any, Info] = self._step(action, env_id)
+        return results
 
     def recv(self, reset: bool = False, return_info: bool = True) -> Any:
-        shown = self._shown_as(self._receive())
-        return shown[0] if flag("reset", reset) else shown
+        """Waits for environments that were sent.
 
-    def _shown_as(self, shown: Shown) -> tuple[Any, Any, Any, Info]:
-        observations, rewards, done, truncated, info = self._shown_with_info(shown)
+        Args:
+            reset: Whether to return what `reset` returns.
+            return_info: Ignored, as in EnvPool.
+
+        Returns:
+            What `step` or `reset` returns.
+
+        Raises:
+            InvalidInput: If fewer than `batch_size` environments were sent.
+        """
+        results = self._format(self._receive())
+        return results[0] if flag("reset", reset) else results
+
+    def _format(self, results: Results) -> tuple[Any, Any, Any, Info]:
+        observations, rewards, done, truncated, info = self._format_with_info(results)
         return observations, rewards, done, {**info, "TimeLimit.truncated": truncated}
 
 
-class State(NamedTuple):
-    """The observation of a TimeStep."""
-
-    env_id: Any
-    players: Any
-    obs: Any
-    lives: Any
-    reward: Any
-    terminated: Any
-    ram: Any
-
-
-class TimeStep(NamedTuple):
-    """As dm_env has it, for each environment: step_type is 0 for the first of an episode, 1, or 2 for the last."""
-
-    step_type: npt.NDArray[np.int32]
-    reward: npt.NDArray[np.float32]
-    discount: npt.NDArray[np.float32]
-    observation: State
-
-    def first(self) -> Any:
-        """Of which environments it is the first of an episode."""
-        return self.step_type == 0
-
-    def mid(self) -> Any:
-        return self.step_type == 1
-
-    def last(self) -> Any:
-        return self.step_type == 2
-
-
-class Players(NamedTuple):
-    env_id: Any
-
-
 class DMEnvPool(EnvPool):
-    """env_type="dm". It is a dm_env.Environment to a program that has imported dm_env."""
+    """Environments with the interface of dm_env, made by make(env_type="dm").
+
+    They are a dm_env.Environment to a program that has imported dm_env.
+
+    Args:
+        spec: Spec of the task, as `make_spec` returns it.
+        render_env_id: Index of the environment that `render` returns by default.
+        render_mode: None or "rgb_array"; has no effect.
+
+    Example:
+        >>> from racebeam import envpool
+        >>> envs = envpool.make_dm("Beamfall-v5", num_envs=2)
+        >>> envs.reset().first().tolist()
+        [True, True]
+        >>> envs.step([1, 0]).observation.obs.shape
+        (2, 4, 84, 84)
+        >>> envs.close()
+    """
 
     def __init__(self, spec: EnvSpec, render_env_id: Any = 0, render_mode: str | None = None) -> None:
         super().__init__(spec, render_env_id, render_mode)
@@ -306,26 +447,62 @@ class DMEnvPool(EnvPool):
             sys.modules["dm_env"].Environment.register(DMEnvPool)
 
     def reset(self, env_id: Any = None) -> TimeStep:
+        """Begins new games.
+
+        Args:
+            env_id: Indices of the environments. Default: all.
+
+        Returns:
+            The first step.
+
+        Raises:
+            InvalidInput: If an index is wrong.
+        """
         time_step: TimeStep = self._reset(env_id)
         return time_step
 
     def step(self, action: Any, env_id: Any = None) -> TimeStep:
+        """Steps some environments.
+
+        Args:
+            action: As in `send`.
+            env_id: As in `send`.
+
+        Returns:
+            The step.
+
+        Raises:
+            IndexError: If an action is out of range.
+            InvalidInput: If the shapes differ, or an index is wrong.
+        """
         time_step: TimeStep = self._step(action, env_id)
         return time_step
 
     def recv(self, reset: bool = False, return_info: bool = True) -> TimeStep:
-        return self._shown_as(self._receive())
+        """Waits for environments that were sent.
+
+        Args:
+            reset: Ignored: `reset` and `step` return the same.
+            return_info: Ignored, as in EnvPool.
+
+        Returns:
+            The step.
+
+        Raises:
+            InvalidInput: If fewer than `batch_size` environments were sent.
+        """
+        return self._format(self._receive())
 
     def reward_spec(self) -> Any:
-        """As dm_env has it, and EnvPool."""
+        """Returns the spec of the rewards for dm_env."""
         return dm_specs().Array((), float, "reward")
 
     def discount_spec(self) -> Any:
-        """As dm_env has it, and EnvPool."""
+        """Returns the spec of the discounts for dm_env."""
         return dm_specs().BoundedArray((), float, 0.0, 1.0, "discount")
 
-    def _shown_as(self, shown: Shown) -> TimeStep:
-        told = self._told_by_name(shown)
-        info = {name: told[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
-        state = State(players=Players(told["info:players.env_id"]), obs=told["obs"], **info)
-        return TimeStep(told["step_type"], told["reward"], told["discount"], state)
+    def _format(self, results: Results) -> TimeStep:
+        named = self._name_results(results)
+        info = {name: named[f"info:{name}"] for name in ("env_id", "lives", "reward", "terminated", "ram")}
+        state = State(players=Players(named["info:players.env_id"]), obs=named["obs"], **info)
+        return TimeStep(named["step_type"], named["reward"], named["discount"], state)

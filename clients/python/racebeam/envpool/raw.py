@@ -1,4 +1,4 @@
-"""EnvPool's raw interface: arrays in, arrays out, in the order of their names."""
+"""EnvPool's raw interface, which takes and returns arrays in the order of their names."""
 
 from __future__ import annotations
 
@@ -15,7 +15,20 @@ __all__ = ["RawPool", "RawSpec"]
 
 
 class RawSpec(EnvSpec):
-    """Of the values of all settings, in their order. Texts may be bytes."""
+    """The spec of a task, made from the values of all settings in their order.
+
+    Args:
+        values: A value for each setting of `CONFIG`. Text may be bytes.
+
+    Raises:
+        InvalidSetting: If a value is wrong.
+
+    Example:
+        >>> from racebeam.envpool.raw import RawSpec
+        >>> config = dict(zip(RawSpec._config_keys, RawSpec._default_config_values)) | {"task": b"beamfall"}
+        >>> RawSpec(config.values()).id
+        'Beamfall-v5'
+    """
 
     _config_keys = list(CONFIG)
     _default_config_values = tuple(CONFIG.values())
@@ -34,7 +47,11 @@ class RawSpec(EnvSpec):
 
 
 class RawPool:
-    """Environments that are sent and received as tuples of arrays."""
+    """Environments that are sent and received as tuples of arrays.
+
+    Args:
+        spec: Spec of the task.
+    """
 
     def __init__(self, spec: EnvSpec) -> None:
         self._pool, self._spec = EnvPool(spec), spec
@@ -44,11 +61,11 @@ class RawPool:
         self._pool._send_resets(env_ids)
 
     def _send(self, action: Iterable[Any]) -> None:
-        parts = dict(zip(self._action_keys, action))
+        parts = dict(zip(self._action_keys, action, strict=False))
         if len(parts) < len(self._action_keys):
             raise InvalidInput(f"the action has {len(parts)} arrays; it must have {', '.join(self._action_keys)}")
         self._pool.send(parts["action"], parts["env_id"])
 
     def _recv(self) -> tuple[Any, ...]:
-        told = self._pool._told_by_name(self._pool._receive())
-        return tuple(np.asarray(told[key]) for key in self._state_keys)
+        named = self._pool._name_results(self._pool._receive())
+        return tuple(np.asarray(named[key]) for key in self._state_keys)

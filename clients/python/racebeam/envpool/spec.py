@@ -11,9 +11,10 @@ import numpy as np
 from gymnasium import error, spaces
 
 from .. import ale_games, images
-from ..arguments import MOST, flag, listed, share, whole
+from ..arguments import MOST, flag, join, share, whole
 from ..errors import InvalidInput, UnknownGame
 from ..interface import ALEInterface
+from .types import Players, State
 
 __all__ = ["CONFIG", "ArraySpec", "EnvSpec", "InvalidSetting"]
 
@@ -47,9 +48,9 @@ CONFIG: dict[str, Any] = {
     "use_inter_area_resize": True,
     "gray_scale": True,
 }
-OF_TASKS = {"max_episode_steps": 27000}  # where they differ, for make()
-FIXED = {"max_num_players": 1}  # no other value is played
-# Whole numbers: the least and the greatest. batch_size and seeds depend on num_envs.
+TASK_DEFAULTS = {"max_episode_steps": 27000}  # defaults of make() that differ from those of CONFIG
+FIXED = {"max_num_players": 1}  # settings with one accepted value
+# Smallest and largest values of whole numbers. Those of batch_size and the seeds depend on num_envs.
 LIMITS = {
     "num_envs": (1, 10**7),
     "num_threads": (0, MOST),
@@ -63,7 +64,7 @@ LIMITS = {
     "mode": (-1, MOST),
     "difficulty": (-1, MOST),
 }
-# What make() takes beside the settings, and the values that are played; render_env_id takes an environment.
+# Arguments of make() for rendering, and their accepted values. render_env_id takes the index of an environment.
 RENDERING: dict[str, tuple[Any, ...]] = {
     "render_mode": (None, "rgb_array"),
     "render_env_id": (),
@@ -79,15 +80,26 @@ FLOAT = np.finfo(np.float32)
 
 
 class InvalidSetting(InvalidInput, error.Error, AssertionError, TypeError):
-    """A task or a setting is wrong. EnvPool raises AssertionError or TypeError, by the setting."""
+    """Raised for a wrong task or setting. EnvPool raises AssertionError or TypeError, depending on the setting."""
 
 
 class UnknownTask(UnknownGame, InvalidSetting):
-    """There is no task of this name."""
+    """Raised for an id that no task has."""
 
 
 def checked(check: Callable[..., Value], *arguments: Any) -> Value:
-    """What a check of racebeam.arguments returns. Raises InvalidSetting."""
+    """Calls a check of `racebeam.arguments`.
+
+    Args:
+        check: The check.
+        *arguments: Its arguments.
+
+    Returns:
+        What the check returns.
+
+    Raises:
+        InvalidSetting: If the check fails.
+    """
     try:
         return check(*arguments)
     except error.Error as refusal:
@@ -95,40 +107,50 @@ def checked(check: Callable[..., Value], *arguments: Any) -> Value:
 
 
 def games() -> dict[str, str]:
-    """The game of each task."""
+    """Returns the name of the game of each task."""
     return {_task_of(game): game for game in images.titles() if game not in ale_games.FOR_TWO}
 
 
 def _task_of(game: str) -> str:
-    """SpaceInvaders-v5 of space_invaders. A digit does not begin a word: TicTacToe3d-v5."""
+    """Returns the id of a game's task, such as "SpaceInvaders-v5". A digit does not begin a word: "TicTacToe3d-v5"."""
     return f"{''.join(map(str.capitalize, game.split('_')))}-v5"
 
 
 def without_rendering(given: Mapping[str, Any]) -> dict[str, Any]:
-    """The settings. Raises InvalidSetting for what is given for rendering and not played."""
+    """Takes the arguments for rendering away.
+
+    Args:
+        given: Settings and arguments for rendering.
+
+    Returns:
+        The settings.
+
+    Raises:
+        InvalidSetting: If an argument for rendering has a value that is not accepted.
+    """
     for name in RENDERING.keys() & given.keys():
         played = RENDERING[name]
-        if played and not any(given[name] is one or _is(given[name], one) for one in played):
-            raise InvalidSetting(f"{name} is {given[name]!r}; racebeam has {listed(map(repr, played))} alone")
+        if played and not any(given[name] is one or _equals(given[name], one) for one in played):
+            raise InvalidSetting(f"{name} is {given[name]!r}; racebeam has only {join(map(repr, played))}")
     return {name: value for name, value in given.items() if name not in RENDERING}
 
 
-def _is(value: Any, wanted: Any) -> bool:
-    """An array of several values is not the one that is wanted."""
+def _equals(value: Any, wanted: Any) -> bool:
+    """Compares values. An array of several values does not equal a number."""
     return bool(np.array_equal(value, wanted))
 
 
 def _checked_config(given: Iterable[Any]) -> Any:
-    """A Config. Raises InvalidSetting."""
-    told = tuple(given)
-    if len(told) != len(CONFIG):
-        raise InvalidSetting(f"there are {len(told)} values; there must be {len(CONFIG)}: {', '.join(CONFIG)}")
-    values = dict(zip(CONFIG, told))
+    """Checks the values of all settings, and returns them as a Config."""
+    listed = tuple(given)
+    if len(listed) != len(CONFIG):
+        raise InvalidSetting(f"there are {len(listed)} values; there must be {len(CONFIG)}: {', '.join(CONFIG)}")
+    values = dict(zip(CONFIG, listed, strict=True))
     if values["task"] not in games().values():
         raise UnknownTask(f"there is no task of a game {values['task']!r}; list_all_envs() lists the tasks")
     for name, value in FIXED.items():
-        if not _is(values[name], value):
-            raise InvalidSetting(f"{name} is {values[name]!r}; racebeam has {value!r} alone")
+        if not _equals(values[name], value):
+            raise InvalidSetting(f"{name} is {values[name]!r}; racebeam has only {value!r}")
     for name, (low, high) in LIMITS.items():
         values[name] = checked(whole, name, values[name], low, high)
     for name, value in CONFIG.items():
@@ -144,7 +166,17 @@ def _checked_config(given: Iterable[Any]) -> Any:
 
 
 def seeds_of(config: Any) -> np.ndarray[Any, np.dtype[np.int64]]:
-    """Of each environment, from 0. A negative seed, which EnvPool takes, counts from the end."""
+    """Returns the seed of each environment.
+
+    Args:
+        config: Checked settings, except for the seeds.
+
+    Returns:
+        int64 array of shape (num_envs,), from 0. A negative seed, which EnvPool accepts, counts from 2**32 down.
+
+    Raises:
+        InvalidSetting: If a seed is not an int32, or the number of seeds is wrong.
+    """
     name = "env_seed" if np.size(config.env_seed) else "seed"
     given = getattr(config, name)
     if np.ndim(given) == 0 and not isinstance(given, str):
@@ -156,7 +188,14 @@ def seeds_of(config: Any) -> np.ndarray[Any, np.dtype[np.int64]]:
 
 
 class ArraySpec(NamedTuple):
-    """Of one environment. A length of -1 in `shape` is one for each player."""
+    """The spec of an array of one environment.
+
+    Attributes:
+        dtype: Type of the elements.
+        shape: Shape of the array. A length of -1 means the number of players.
+        minimum: Smallest value.
+        maximum: Largest value.
+    """
 
     dtype: Any
     shape: list[int]
@@ -165,6 +204,7 @@ class ArraySpec(NamedTuple):
 
     @property
     def is_discrete(self) -> bool:
+        """Whether the values are indices."""
         return self.minimum == 0 and self.maximum != INT.max and np.issubdtype(self.dtype, np.int32)
 
 
@@ -177,24 +217,64 @@ def _rewards() -> ArraySpec:
 
 
 class EnvSpec:
-    """The settings and the spaces of a task. Its specs of dm_env need that package. Raises InvalidSetting."""
+    """The settings and the spaces of a task. Its specs of dm_env need that package.
+
+    Args:
+        config: A value for each setting of `CONFIG`, in their order.
+
+    Attributes:
+        config: The checked settings, as a named tuple.
+        seeds: Seed of each environment, int64 of shape (num_envs,).
+        observation_space: Space of the observations of one environment, uint8 of shape
+            (stack_num, img_height, img_width); colours are channels.
+
+    Raises:
+        InvalidSetting: If a value is wrong.
+
+    Example:
+        >>> from racebeam.envpool import make_spec
+        >>> spec = make_spec("Beamfall-v5", num_envs=4)
+        >>> spec.id, spec.config.num_envs, spec.observation_space.shape
+        ('Beamfall-v5', 4, (4, 84, 84))
+    """
 
     reward_threshold = None
 
     @staticmethod
     def gen_config(**settings: Any) -> Any:
-        """All settings, with those of CONFIG where they are not given."""
+        """Completes settings.
+
+        Args:
+            **settings: Some settings.
+
+        Returns:
+            All settings, with the values of `CONFIG` where none is given, as a named tuple.
+
+        Raises:
+            InvalidSetting: If there is no such setting.
+        """
         for name in settings:
             if name not in CONFIG:
                 raise InvalidSetting(f"there is no setting {name!r}; there are {', '.join(CONFIG)}")
         return Config(**{**CONFIG, **settings})
 
     @classmethod
-    def of(cls, task_id: str, settings: Mapping[str, Any]) -> EnvSpec:
-        """Of a task such as "Pong-v5"."""
+    def from_task(cls, task_id: str, settings: Mapping[str, Any]) -> EnvSpec:
+        """Makes the spec of a task.
+
+        Args:
+            task_id: Id of the task, such as "Pong-v5".
+            settings: Some settings.
+
+        Returns:
+            The spec.
+
+        Raises:
+            InvalidSetting: If there is no such task, or a setting is wrong.
+        """
         if not isinstance(task_id, str) or task_id not in games():
             raise UnknownTask(f"there is no task {task_id!r}; list_all_envs() lists them")
-        return cls(cls.gen_config(**{**OF_TASKS, **settings, "task": games()[task_id]}))
+        return cls(cls.gen_config(**{**TASK_DEFAULTS, **settings, "task": games()[task_id]}))
 
     def __init__(self, config: Iterable[Any]) -> None:
         self.config = _checked_config(config)
@@ -203,16 +283,17 @@ class EnvSpec:
 
     @property
     def id(self) -> str:
-        """Pong-v5 of pong."""
+        """Id of the task, such as "Pong-v5"."""
         return _task_of(self.config.task)
 
     @property
     def action_space(self) -> spaces.Discrete:
+        """Space of the actions of one environment. Needs the image of the game."""
         return self.gymnasium_action_space
 
     @functools.cached_property
     def gymnasium_action_space(self) -> spaces.Discrete:
-        """The image of the game is needed for it."""
+        """Space of the actions of one environment. Needs the image of the game."""
         game = ALEInterface()
         game.loadROM(images.find(self.config.task))
         return spaces.Discrete(
@@ -221,7 +302,7 @@ class EnvSpec:
 
     @property
     def action_array_spec(self) -> dict[str, ArraySpec]:
-        """What send() takes, by name."""
+        """Specs of the arrays that `send` takes, by name."""
         return {
             "env_id": _numbers(),
             "players.env_id": _numbers(-1),
@@ -230,7 +311,7 @@ class EnvSpec:
 
     @property
     def state_array_spec(self) -> dict[str, ArraySpec]:
-        """What is shown, by name."""
+        """Specs of the arrays that `recv` returns, by name."""
         flag = ArraySpec(np.bool_, [], False, True)
         return {
             "info:env_id": _numbers(),
@@ -249,9 +330,11 @@ class EnvSpec:
         }
 
     def observation_spec(self) -> Any:
-        """As dm_env has it: a State of specs."""
-        from .pools import Players, State
+        """Returns the spec of the observations for dm_env: a State of specs.
 
+        Raises:
+            ImportError: If dm_env is not installed.
+        """
         arrays = {name.removeprefix("info:"): array for name, array in self.state_array_spec.items()}
         env_id = _dm_spec("env_id", arrays["env_id"])
         fields = {name: _dm_spec(name, arrays[name]) for name in State._fields if name not in ("env_id", "players")}
@@ -260,7 +343,11 @@ class EnvSpec:
         )
 
     def action_spec(self) -> Any:
-        """As dm_env has it."""
+        """Returns the spec of the actions for dm_env.
+
+        Raises:
+            ImportError: If dm_env is not installed.
+        """
         return _dm_spec("action", self.action_array_spec["action"])
 
     def __repr__(self) -> str:
@@ -268,14 +355,21 @@ class EnvSpec:
 
 
 def _observations(config: Any) -> spaces.Box:
-    """Of one environment. Colours are channels."""
+    """Returns the space of the observations of one environment. Colours are channels."""
     return spaces.Box(
         0, 255, (config.stack_num * (1 if config.gray_scale else 3), config.img_height, config.img_width), np.uint8
     )
 
 
 def dm_specs() -> Any:
-    """dm_env.specs, if it is installed."""
+    """Imports dm_env.specs.
+
+    Returns:
+        The module.
+
+    Raises:
+        ImportError: If dm_env is not installed.
+    """
     try:
         return importlib.import_module("dm_env.specs")
     except ImportError:

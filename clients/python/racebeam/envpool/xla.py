@@ -1,4 +1,4 @@
-"""xla() of EnvPool's interface: environments that a program compiled by JAX sends and receives, without Python in between."""
+"""xla() of EnvPool's interface: programs that JAX compiles send and receive environments, without Python."""
 
 from __future__ import annotations
 
@@ -9,33 +9,45 @@ import numpy as np
 
 from .. import xla
 from ..errors import InvalidInput
-from .envs import Envs, Shown, parts_of
+from .envs import Envs, parts_of
+from .types import Results
 
 __all__ = ["functions"]
 
-# After the observations, in the order of bind_xla.cpp.
+# The results after the observations, in the order of bind_xla.cpp.
 RESULTS = {**xla.RESULTS, "ram": np.uint8, "elapsed": np.int32, "acts": np.int32, "lives_lost": np.int32}
-FIELDS = {"rewards": "reward", "raw_rewards": "raw_reward"}  # of Shown, where their names differ
+FIELDS = {"rewards": "reward", "raw_rewards": "raw_reward"}  # names of Results that differ from those of RESULTS
 
 
 def functions(
-    envs: Envs, shown_as: Callable[[Shown], Any]
+    envs: Envs, format_results: Callable[[Results], Any]
 ) -> tuple[Any, Callable[..., Any], Callable[..., Any], Callable[..., Any]]:
-    """A handle, recv, send and step. shown_as: what recv and step return of what is shown."""
-    jax, count = xla.imported(), envs.batch_size
-    shapes = [
-        (count, *(envs.single_observation_space.shape or ())),
-        *((count, 128) if name == "ram" else (count,) for name in RESULTS),
-    ]
+    """Makes the functions that compiled programs call.
+
+    Args:
+        envs: The environments.
+        format_results: Converts results to what `recv` and `step` return.
+
+    Returns:
+        A handle, `recv(handle)`, `send(handle, action, env_id=None)` and `step(handle, action, env_id=None)`.
+
+    Raises:
+        ImportError: If JAX is not installed.
+    """
+    jax, count = xla.import_jax(), envs.batch_size
+    observation_shape = (count, *(envs.single_observation_space.shape or ()))
+    shapes = [observation_shape, *((count, 128) if name == "ram" else (count,) for name in RESULTS)]
     kinds = [np.uint8, *RESULTS.values()]
 
     def recv(handle: Any) -> tuple[Any, Any]:
-        handle, observations, *rest = xla.call("receive", list(zip(shapes, kinds)), handle)
-        told = dict(zip(RESULTS, rest))
-        fields = {name: told[FIELDS.get(name, name)] for name in Shown._fields if name != "observations"}
-        return handle, shown_as(Shown(observations, **fields))
+        """Waits for the first `batch_size` environments that finish."""
+        handle, observations, *rest = xla.call("receive", list(zip(shapes, kinds, strict=True)), handle)
+        named = dict(zip(RESULTS, rest, strict=True))
+        fields = {name: named[FIELDS.get(name, name)] for name in Results._fields if name != "observations"}
+        return handle, format_results(Results(observations, **fields))
 
     def send(handle: Any, action: Any, env_id: Any = None) -> Any:
+        """Begins a step of some environments."""
         if isinstance(action, dict):
             parts = parts_of(action)
             action, env_id = parts["action"], parts.get("env_id", parts.get("players.env_id", env_id))
@@ -43,13 +55,14 @@ def functions(
             raise InvalidInput(
                 "env_id is None; with batch_size below num_envs, it takes the environments of the actions"
             )
-        numbers = xla.whole("env_id", envs.every if env_id is None else env_id)
+        ids = xla.whole("env_id", envs.every if env_id is None else env_id)
         actions = xla.whole("actions", action)
-        xla.check_shape("env_id", numbers, (numbers.size,))
-        xla.check_shape("actions", actions, numbers.shape)
-        return xla.call("send", [], handle, actions, numbers)[0]
+        xla.check_shape("env_id", ids, (ids.size,))
+        xla.check_shape("actions", actions, ids.shape)
+        return xla.call("send", [], handle, actions, ids)[0]
 
     def step(handle: Any, action: Any, env_id: Any = None) -> tuple[Any, Any]:
+        """Steps some environments."""
         return recv(send(handle, action, env_id))
 
     return jax.numpy.asarray(xla.handle_of(envs)), recv, send, step

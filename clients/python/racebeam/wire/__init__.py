@@ -1,1 +1,1 @@
-"""Games on a server. client.py can be copied alone."""
+"""Games on a server. The file client.py needs the standard library only, and can be copied into other projects."""

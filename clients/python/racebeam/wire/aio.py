@@ -20,7 +20,7 @@ from typing import IO, Any, cast
 from . import client
 from .client import LONGEST_REPLY, Refused, Values
 
-Read = Callable[[str], Coroutine[Any, Any, Any]]  # makes a value of the line of a reply
+Read = Callable[[str], Coroutine[Any, Any, Any]]  # converts the line of a reply to a value
 
 __all__ = ["AsyncSession", "connect", "launch"]
 
@@ -34,7 +34,26 @@ async def connect(
     longest_reply: int = LONGEST_REPLY,
     arrays: bool = False,
 ) -> AsyncSession:
-    """As racebeam.connect(), of sockets: tcp://, tls:// and unix: addresses, and file: with one of these."""
+    """Connects to a server through a socket.
+
+    Args:
+        address: A tcp://, tls:// or unix: address, or a file: address of a file that has one. Default: the value of
+            RACEBEAM_ADDRESS.
+        token: Token that the server asks for. Default: that of the announce file, if there is one.
+        tls: Context that verifies the server's certificate. Default: the authorities of the system.
+        timeout: Seconds to wait for the connection and for each reply. Default: no limit.
+        longest_reply: Bytes of the longest reply that is accepted.
+        arrays: Whether bytes are returned as arrays of NumPy.
+
+    Returns:
+        The session.
+
+    Raises:
+        ValueError: If the address is invalid.
+        OSError: If no server answers.
+        TimeoutError: If no server answers in time.
+        Refused: If the token is wrong.
+    """
     opened = await asyncio.to_thread(client.reached, address, lambda found: client.connected(found, timeout))
     (connection, host), found, announced = opened
     context = (tls or ssl.create_default_context()) if host else None
@@ -49,21 +68,34 @@ async def connect(
     session.again = lambda: connect(
         found, token=token, tls=tls, timeout=timeout, longest_reply=longest_reply, arrays=arrays
     )
-    return await _greeted(session, token)
+    return await _greet(session, token)
 
 
 async def launch(*options: str, program: str | None = None, arrays: bool = False) -> AsyncSession:
-    """As racebeam.launch()."""
+    """Starts a private server over standard streams. It stops when the session is closed or garbage-collected.
+
+    Args:
+        *options: Options of `racebeam serve`.
+        program: Path of the program racebeam. Default: the installed one.
+        arrays: Whether bytes are returned as arrays of NumPy.
+
+    Returns:
+        The session.
+
+    Raises:
+        FileNotFoundError: If the program is not found.
+        ConnectionError: If the program does not serve.
+    """
     pipe, command = asyncio.subprocess.PIPE, client.command_of(program, options)
     process = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, limit=LONGEST_REPLY)
     assert process.stdout is not None and process.stdin is not None
     try:
-        return await _greeted(AsyncSession(process.stdout, process.stdin, "", LONGEST_REPLY, arrays, process), None)
+        return await _greet(AsyncSession(process.stdout, process.stdin, "", LONGEST_REPLY, arrays, process), None)
     except ConnectionError as error:
         raise client.not_serving(command, error) from error
 
 
-async def _greeted(session: AsyncSession, token: str | None) -> AsyncSession:
+async def _greet(session: AsyncSession, token: str | None) -> AsyncSession:
     try:
         said = await session.request("hello", **({} if token is None else {"token": token}))
         session.check_greeting(said[0])
@@ -74,8 +106,31 @@ async def _greeted(session: AsyncSession, token: str | None) -> AsyncSession:
 
 
 class AsyncSession:
-    """One session. connect() and launch() make them. A request that is cancelled is carried out all the same. Without the last
-    reference to it, a session ends.
+    """One session of the line protocol. `connect` and `launch` make sessions.
+
+    A cancelled request is carried out all the same. A session ends with the last reference to it.
+
+    Args:
+        reader: Stream of replies.
+        writer: Stream of requests.
+        address: Address of the server.
+        longest_reply: Bytes of the longest reply that is accepted.
+        arrays: Whether bytes are returned as arrays of NumPy.
+        process: Process of the server, if the session started it.
+        timeout: Seconds to wait for each reply, or None.
+
+    Attributes:
+        again: Opens a new session of the same server, or None.
+
+    Example:
+        >>> import asyncio
+        >>> from racebeam.wire import aio
+        >>> async def play():
+        ...     async with await aio.launch() as session:
+        ...         await session.request("load", "beamfall", seed=7)
+        ...         return await session.request("act", "FIRE*10")
+        >>> asyncio.run(play())[0]["frame"]
+        10
     """
 
     def __init__(
@@ -97,7 +152,7 @@ class AsyncSession:
         self._reading = asyncio.create_task(self._replies.read())
 
     def __del__(self) -> None:
-        with contextlib.suppress(Exception):  # where the constructor failed, or the event loop has ended
+        with contextlib.suppress(Exception):  # the constructor failed, or the event loop has ended
             self._session.check_process()
             self._reading.get_loop().call_soon_threadsafe(self._reading.cancel)  # which ends the session
 
@@ -108,23 +163,49 @@ class AsyncSession:
         await self.close()
 
     def check_greeting(self, said: Values) -> None:
-        """Raises ConnectionError for another version of the protocol."""
+        """Checks the reply to the first request.
+
+        Args:
+            said: Values of the reply.
+
+        Raises:
+            ConnectionError: If the server speaks another version of the protocol.
+        """
         self._session.check_greeting(said)
 
     async def request(self, *words: object, **settings: object) -> list[Values]:
-        """The groups of the reply, with numbers, and bytes or arrays. Raises Refused; ConnectionError when the server has gone; and
-        TimeoutError when nothing came from it for as long as `timeout` of connect() says.
+        """Sends a request, and waits for its reply.
+
+        Args:
+            *words: Words of the request.
+            **settings: Settings of the request, sent as key=value.
+
+        Returns:
+            The groups of the reply, with numbers, and bytes or arrays.
+
+        Raises:
+            Refused: If the server refuses the request.
+            ConnectionError: If the server is gone.
+            TimeoutError: If nothing comes from the server for as long as `timeout` says.
         """
         answer: list[Values] = await self._exchange(self._replies.values, *words, **settings)
         return answer
 
     async def help(self, *words: str) -> str:
-        """As Session.help()."""
+        """Returns the server's help.
+
+        Args:
+            *words: What the help is about.
+
+        Raises:
+            Refused: If the server has no such help.
+            ConnectionError: If the server is gone.
+        """
         text: str = await self._exchange(self._replies.text, "help", *words)
         return text
 
     async def _exchange(self, read: Read, *words: object, **settings: object) -> Any:
-        """What `read` makes of the reply to a request."""
+        """Sends a request, and returns what `read` makes of its reply."""
         self._session.send(*words, **settings)
         answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
         self._replies.awaited.append((answer, read))
@@ -139,7 +220,7 @@ class AsyncSession:
         return answer.result()
 
     async def _await_reply(self, answer: asyncio.Future[Any], limit: float) -> None:
-        """Returns when it is there. Each reply to an earlier request begins the time anew."""
+        """Waits for an answer. Each reply to an earlier request restarts the time limit."""
         clock = asyncio.get_running_loop().time
         begin = clock()
         while not answer.done():
@@ -150,14 +231,21 @@ class AsyncSession:
             await asyncio.wait([answer], timeout=left)
 
     async def reconnect(self) -> AsyncSession:
-        """A new session of the same server, after the old one ended. It has no game yet. Only for sessions of connect()."""
+        """Opens a new session of the same server, without a game, and closes this one.
+
+        Returns:
+            The new session.
+
+        Raises:
+            ValueError: If `connect` did not make this session.
+        """
         if self.again is None:
             raise ValueError("this session cannot be opened again: connect() did not make it")
         await self.close()
         return await self.again()
 
     async def close(self) -> None:
-        """Ends the session. More than once does nothing."""
+        """Ends the session. A second call does nothing."""
         self._session.close_connection()
         self._reading.cancel()
         await asyncio.gather(self._reading, return_exceptions=True)
@@ -166,19 +254,22 @@ class AsyncSession:
 
 
 class _Replies:
-    """Reads the replies of a session, and gives each to its request. An AsyncSession has one. It does not refer to the AsyncSession,
-    which can end while this waits.
+    """Reads the replies of a session, and gives each to its request.
+
+    It does not refer to its AsyncSession, which can be garbage-collected while this waits.
+
+    Attributes:
+        awaited: For each request without a reply, in order, its future and its reader.
+        heard: Time of the last reply, on the clock of the event loop.
     """
 
     def __init__(self, reader: asyncio.StreamReader, session: client.Session) -> None:
         self._reader, self._session = reader, session
-        self.awaited: collections.deque[tuple[asyncio.Future[Any], Read]] = (
-            collections.deque()
-        )  # of the requests, in order
-        self.heard = 0.0  # when the last reply came
+        self.awaited: collections.deque[tuple[asyncio.Future[Any], Read]] = collections.deque()
+        self.heard = 0.0
 
     async def read(self) -> None:
-        """Answers requests until the connection ends; then each that is left gets the error."""
+        """Answers requests until the connection ends. Then the other requests raise the error."""
         error: BaseException = ConnectionError("the session was closed")
         try:
             while True:
@@ -198,24 +289,33 @@ class _Replies:
         read = self.awaited[0][1] if self.awaited else self.values
         try:
             value = await read(line)
-        except Refused as refused:
+        except Refused as error:
+            refused = error
             self._answer(lambda answer: answer.set_exception(refused))
         else:
             self._answer(lambda answer: answer.set_result(value))
 
     async def values(self, line: str) -> list[Values]:
-        """The groups of a reply."""
+        """Returns the groups of a reply.
+
+        Args:
+            line: Line of the reply.
+        """
         words, groups, count = self._session.read_line(line)
         if count:
             self._session.take_bytes(words, groups, await self._reader.readexactly(count))
         return self._session.all_decoded(words, groups)
 
     async def text(self, line: str) -> str:
-        """A reply without its status."""
+        """Returns a reply without its status.
+
+        Args:
+            line: Line of the reply.
+        """
         return self._session.read_status(line)[1]
 
     def _answer(self, how: Callable[[asyncio.Future[Any]], None]) -> None:
-        """The oldest request, if it still waits."""
+        """Answers the oldest request, if it still waits."""
         self.heard = asyncio.get_running_loop().time()
         if (
             self.awaited and len(self.awaited) != len(self._session.unanswered) + 1

@@ -1,8 +1,9 @@
-"""The machines of AtariVectorEnv on several servers. What one server played goes on elsewhere when that server is lost."""
+"""The machines of AtariVectorEnv on several servers. If a server is lost, its environments move to another one."""
 
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import queue
 import secrets
 import threading
@@ -13,8 +14,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .._core import Autoreset, SavedMachine
+from .._core import SavedMachine
+from ..autoreset import AutoresetMode
 from ..errors import InvalidInput
+from ..machines import Actions, Joysticks, Seeds
+from ..vector_options import VectorOptions
 from ..vector_results import Bools, Numbers, Pixels, Results
 from .client import Refused
 from .remote_machines import Halves, RemoteMachines, with_strengths
@@ -23,7 +27,7 @@ LEAVING = ("stopping", "busy", "idle", "internal")  # the errors after which a s
 
 
 def _is_loss(error: Exception) -> bool:
-    """Whether the server is lost, in place of a bad request."""
+    """Returns whether an exception means that the server is lost; else the request was wrong."""
     refused = error if isinstance(error, Refused) else error.__cause__
     return isinstance(error, (ConnectionError, TimeoutError)) or (
         isinstance(refused, Refused) and refused.code in LEAVING
@@ -37,21 +41,48 @@ class _Part:
 
     def __init__(self, rows: slice, address: str) -> None:
         self.rows, self.address = rows, address
-        self.is_fresh = False  # it was moved, and the next step shows the beginning of its episodes
+        self.is_fresh = False  # the part moved, and the next step shows the first observations of its new episodes
+
+    @property
+    def count(self) -> int:
+        return int(self.rows.stop - self.rows.start)
+
+    @property
+    def names(self) -> str:
+        return f"environments {self.rows.start} to {self.rows.stop - 1}"
 
 
 class SpreadMachines(Halves):
-    """Has the methods of _core.VectorMachines. Raises what RemoteMachines does; ConnectionError when no server is left.
+    """Machines on several servers, with the methods of the protocol `Machines`.
 
-    Each server plays as many environments as the next, give or take one. Those beyond the number of environments are spare.
+    The numbers of environments on two servers differ by one at most. Servers beyond the number of environments are
+    spare.
 
-    When a server is lost, its episodes are truncated in that step, with the observations of the step before, and `lost` says
-    where. Its environments then begin new games on the server that plays the fewest, with new seeds. A server that was lost is
-    not asked again. A loss in reset() or show() is no truncation: the environments of the new server are shown, and `lost`
-    says where.
+    When a server is lost, the step truncates its episodes, and returns the observations of the step before. `lost` says
+    which environments these are. They begin new games, with new seeds, on the server that plays the fewest
+    environments. A lost server is not asked again. Losing a server during `reset` or `show` does not truncate episodes:
+    these calls return the environments of the new server, and set `lost`.
 
-    A server that is absent at the start is lost, too: its environments begin elsewhere, with the seeds that they would have had.
-    A warning names it, and `lost` of the first call says where.
+    A server that does not answer at the start is lost, too. Its environments begin on another server, with the seeds
+    that they would have had. A warning names the server, and the first call sets `lost`.
+
+    Args:
+        servers: Addresses of the servers.
+        token: Token that the servers ask for, or None.
+        timeout: Seconds to wait for each reply, or None.
+        game: Name of the game.
+        rom: Path or bytes of the image to send, or None for the servers' own.
+        options: Options of the environments.
+
+    Attributes:
+        lost: bool array of shape (num_envs,): which environments lost their server in the last call.
+
+    Raises:
+        TypeError: If `servers` are not addresses.
+        InvalidInput: If a server does not play these options.
+        ConnectionError: If no server answers. Every method raises it when no server is left.
+
+    Every method raises what the methods of `RemoteMachines` raise.
     """
 
     def __init__(
@@ -61,23 +92,23 @@ class SpreadMachines(Halves):
         timeout: float | None,
         game: str,
         rom: Any,
-        count: int,
-        settings: dict[str, Any],
+        options: VectorOptions,
     ) -> None:
-        if settings["batch_size"] not in (0, count):
+        if not options.is_sync:
             raise InvalidInput(
-                f"batch_size is {settings['batch_size']}; servers play all {count} environments together"
+                f"batch_size is {options.batch_size}; servers play all {options.num_envs} environments together"
             )
         if not servers or not all(isinstance(server, str) for server in servers):
             raise TypeError(f"server is {servers!r}; it takes an address, or a list of addresses")
-        self._how, self._count, self._settings = (token, timeout, game, rom), count, settings
+        self._connection, self._count, self._options = (token, timeout, game, rom), options.num_envs, options
         self._turn, self._is_cut = threading.Lock(), False
-        self._servers = list(dict.fromkeys(servers))  # those that are not lost
-        self.lost: Bools = np.zeros(count, np.bool_)  # of the last call
-        self._lost_before: Bools = np.zeros(count, np.bool_)  # what no call has told yet
-        shares = np.array_split(np.arange(count), min(len(self._servers), count))
+        self._servers = list(dict.fromkeys(servers))  # the servers that are not lost
+        self.lost: Bools = np.zeros(self._count, np.bool_)
+        self._lost_before: Bools = np.zeros(self._count, np.bool_)  # losses that no call has returned yet
+        shares = np.array_split(np.arange(self._count), min(len(self._servers), self._count))
         self._parts = [
-            _Part(slice(int(share[0]), int(share[-1]) + 1), address) for address, share in zip(self._servers, shares)
+            _Part(slice(int(share[0]), int(share[-1]) + 1), address)
+            for share, address in zip(shares, self._servers, strict=False)
         ]
         try:
             absent = self._open_all()
@@ -86,24 +117,25 @@ class SpreadMachines(Halves):
                 self._servers.remove(part.address)
             for part, failure in absent:
                 self._place(part, [failure for _, failure in absent], self._seed_of(part))
-                warnings.warn(
-                    f"environments {part.rows.start} to {part.rows.stop - 1} begin on {part.address}: {failure}",
-                    RuntimeWarning,
-                    stacklevel=4,
-                )
+                warnings.warn(f"{part.names} begin on {part.address}: {failure}", RuntimeWarning, stacklevel=4)
         except BaseException:
             self.close()
             raise
 
     def _open_all(self) -> list[tuple[_Part, Exception]]:
-        """Opens the environments of all parts at the same time, since an address may wait for its server. Returns the parts
-        whose server is absent, and why. Raises what else goes wrong, as soon as it does.
+        """Opens the environments of all parts at the same time, since an address may wait for its server.
+
+        Returns:
+            The parts whose server is absent, and why.
+
+        Raises:
+            Exception: Whatever else goes wrong, as soon as it does.
         """
         opened: queue.SimpleQueue[tuple[_Part, Exception | None]] = queue.SimpleQueue()
 
         def open_one(part: _Part) -> None:
             try:
-                part.machines = self._opened(part.address, part.rows, self._seed_of(part))
+                part.machines = self._connect(part.address, part.count, self._seed_of(part))
                 opened.put((part, None))
             except Exception as error:
                 opened.put((part, error))
@@ -120,19 +152,22 @@ class SpreadMachines(Halves):
         return sorted(absent, key=lambda one: one[0].rows.start)
 
     def _seed_of(self, part: _Part) -> int:
-        return int((self._settings["seed"] + part.rows.start) % 2**32)
+        return int((self._options.seed + part.rows.start) % 2**32)
 
-    def _opened(self, address: str, rows: slice, seed: int) -> RemoteMachines:
-        settings = {**self._settings, "seed": seed, "batch_size": 0}
-        return RemoteMachines(address, *self._how, rows.stop - rows.start, settings)
+    def _connect(self, address: str, count: int, seed: int) -> RemoteMachines:
+        options = dataclasses.replace(self._options, num_envs=count, batch_size=count, seed=seed)
+        return RemoteMachines(address, *self._connection, options)
 
     def numbers_of_actions(self) -> list[int]:
+        """Returns the size of the action set of each machine."""
         return [number for part in self._parts for number in part.machines.numbers_of_actions()]
 
     def actions_of(self, machine: int) -> list[int]:
+        """Returns the action set of a machine, as numbers of `Action`."""
         return self._parts[0].machines.actions_of(0)
 
     def height(self) -> int:
+        """Returns the rows of the screens."""
         return self._parts[0].machines.height()
 
     def close(self) -> None:
@@ -143,61 +178,82 @@ class SpreadMachines(Halves):
 
     # Playing
 
-    def step(self, actions: npt.NDArray[np.int64], results: Results) -> None:
+    def step(self, actions: Actions, results: Results) -> None:
+        """Steps all machines."""
         words = self._words(actions)
-        self._exchange(lambda results: self._begun(words)(results), results)
+        self._exchange(lambda results: self._begin(words)(results), results)
 
-    def step_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, results: Results) -> None:
-        words = self._words_of(joysticks, threshold)
-        self._exchange(lambda results: self._begun(words)(results), results)
+    def step_joysticks(self, joysticks: Joysticks, threshold: float, results: Results) -> None:
+        """Steps all machines with continuous actions."""
+        words = self._joystick_words(joysticks, threshold)
+        self._exchange(lambda results: self._begin(words)(results), results)
 
-    def send(self, actions: npt.NDArray[np.int64], machines: Numbers) -> None:
+    def send(self, actions: Actions, machines: Numbers) -> None:
+        """Begins a step of all machines."""
         self._send(self._words(actions), machines)
 
-    def send_joysticks(self, joysticks: npt.NDArray[np.float32], threshold: float, machines: Numbers) -> None:
-        self._send(self._words_of(joysticks, threshold), machines)
+    def send_joysticks(self, joysticks: Joysticks, threshold: float, machines: Numbers) -> None:
+        """Begins a step of all machines with continuous actions."""
+        self._send(self._joystick_words(joysticks, threshold), machines)
 
-    def send_strengths(
-        self, actions: npt.NDArray[np.int64], strengths: npt.NDArray[np.float32], machines: Numbers
-    ) -> None:
-        words = self._words(actions)
-        self._send([with_strengths(acts, strengths[part.rows]) for part, acts in zip(self._parts, words)], machines)
+    def send_strengths(self, actions: Actions, strengths: npt.NDArray[np.float32], machines: Numbers) -> None:
+        """Begins a step of all machines with the strengths of their paddles, 0 to 1."""
+        words = zip(self._parts, self._words(actions), strict=True)
+        self._send([with_strengths(acts, strengths[part.rows]) for part, acts in words], machines)
 
     def _send(self, words: list[list[Any]], machines: Numbers) -> None:
         self._check_all(machines)
         with self._exclusively():
-            self._awaited = self._begun(words)
+            self._pending = self._begin(words)
 
-    def send_resets(self, seeds: npt.NDArray[np.int64] | None) -> None:
+    def send_resets(self, seeds: Seeds | None) -> None:
+        """Begins a reset of all machines."""
         with self._exclusively():
-            self._awaited = lambda results: self._reset(None, seeds, results)
+            self._pending = lambda results: self._reset(None, seeds, results)
 
     def receive(self, results: Results) -> None:
-        self._exchange(lambda results: self._take()(results), results, is_second=True)
+        """Ends the step or reset that began."""
+        self._exchange(lambda results: self._take_pending()(results), results, is_second=True)
 
     def drop(self, results: Results) -> None:
-        self.receive(results)
-        self._lost_before |= self.lost  # the next call tells it
+        """Receives what was sent, and drops it. The next call returns the losses of this one.
 
-    def _words(self, actions: npt.NDArray[np.int64]) -> list[list[Any]]:
+        Args:
+            results: Scratch memory.
+        """
+        self.receive(results)
+        self._lost_before |= self.lost
+
+    def _words(self, actions: Actions) -> list[list[Any]]:
         return [part.machines.words(actions[part.rows]) for part in self._parts]
 
-    def _words_of(self, joysticks: npt.NDArray[np.float32], threshold: float) -> list[list[Any]]:
-        return [part.machines.words_of(joysticks[part.rows], threshold) for part in self._parts]
+    def _joystick_words(self, joysticks: Joysticks, threshold: float) -> list[list[Any]]:
+        return [part.machines.joystick_words(joysticks[part.rows], threshold) for part in self._parts]
 
-    def _begun(self, words: list[list[Any]]) -> Callable[[Results], None]:
-        """All servers play at the same time. What it returns awaits them."""
+    def _begin(self, words: list[list[Any]]) -> Callable[[Results], None]:
+        """Begins a step on all servers at the same time.
+
+        Args:
+            words: The words of the step, by part.
+
+        Returns:
+            A function that waits for all servers.
+        """
         requests = [
-            ("restart", "0" * len(acts)) if part.is_fresh else ("step", *acts) for part, acts in zip(self._parts, words)
+            ("restart", "0" * len(acts)) if part.is_fresh else ("step", *acts)
+            for part, acts in zip(self._parts, words, strict=True)
         ]
-        failures = [self._failure(part.machines.begin, *request) for part, request in zip(self._parts, requests)]
+        failures = [
+            self._find_loss(part.machines.begin, *request) for part, request in zip(self._parts, requests, strict=True)
+        ]
 
         def finish(results: Results) -> None:
             for index, part in enumerate(self._parts):
-                failures[index] = failures[index] or self._failure(part.machines.finish, results.of(part.rows))
-            for part, failure in zip(self._parts, failures):
+                rows = results.select(part.rows)
+                failures[index] = failures[index] or self._find_loss(part.machines.finish, rows)
+            for part, failure in zip(self._parts, failures, strict=True):
                 if failure is not None:
-                    self._truncate(part, failure, results.of(part.rows))
+                    self._truncate(part, failure, results.select(part.rows))
                 else:
                     part.is_fresh = False
 
@@ -211,8 +267,10 @@ class SpreadMachines(Halves):
 
     @contextlib.contextmanager
     def _exclusively(self, *, is_second: bool = False) -> Iterator[None]:
-        """A turn of one thread. Where it is cut off, such as by Ctrl-C, all sessions end: replies that are read later would be taken
-        for others', and a session that ended alone for a server that is lost.
+        """Takes the turn of one thread.
+
+        If an interrupt such as Ctrl-C leaves a request without its reply, all sessions end. A later request would take
+        that reply for its own, and a session that ended by itself would look like a lost server.
         """
         self._parts[0].machines.check_process()
         with self._turn:
@@ -224,14 +282,14 @@ class SpreadMachines(Halves):
             try:
                 yield
             except BaseException as error:
-                if not isinstance(error, Exception) or any(part.machines.waits() for part in self._parts):
+                if not isinstance(error, Exception) or any(part.machines.is_waiting() for part in self._parts):
                     self._is_cut = True
                     self.close()
                 raise
 
     @staticmethod
-    def _failure(call: Callable[..., None], *arguments: object) -> Exception | None:
-        """The exception that says that the server is lost, if it is."""
+    def _find_loss(call: Callable[..., None], *arguments: object) -> Exception | None:
+        """Calls a function. Returns the exception that means that the server is lost, and raises any other."""
         try:
             call(*arguments)
         except Exception as error:
@@ -240,29 +298,34 @@ class SpreadMachines(Halves):
             raise
         return None
 
-    def reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None:
+    def reset(self, chosen: Bools | None, seeds: Seeds | None, results: Results) -> None:
+        """Resets the chosen machines, or all if `chosen` is None."""
         self._exchange(lambda results: self._reset(chosen, seeds, results), results)
 
-    def _reset(self, chosen: Bools | None, seeds: npt.NDArray[np.int64] | None, results: Results) -> None:
-        def ask(part: _Part) -> None:
+    def _reset(self, chosen: Bools | None, seeds: Seeds | None, results: Results) -> None:
+        def reset_part(part: _Part) -> None:
             rows = part.rows
-            part.machines.reset(
-                None if chosen is None else chosen[rows], None if seeds is None else seeds[rows], results.of(rows)
-            )
+            mask = None if chosen is None else chosen[rows]
+            part.machines.reset(mask, None if seeds is None else seeds[rows], results.select(rows))
             part.is_fresh = False
 
-        self._each(ask)
+        self._ask_each(reset_part)
 
     def show(self, results: Results) -> None:
-        self._exchange(lambda results: self._each(lambda part: part.machines.show(results.of(part.rows))), results)
+        """Reads what all machines show, without stepping them."""
 
-    def _each(self, ask: Callable[[_Part], None]) -> None:
+        def show_part(part: _Part) -> None:
+            part.machines.show(results.select(part.rows))
+
+        self._exchange(lambda _: self._ask_each(show_part), results)
+
+    def _ask_each(self, ask: Callable[[_Part], None]) -> None:
         for part in self._parts:
             self._ask(part, ask)
 
     def _ask(self, part: _Part, ask: Callable[[_Part], None]) -> None:
-        """Asks the server of a part, and the next one while a server is lost."""
-        while (failure := self._failure(ask, part)) is not None:
+        """Asks the server of a part; if that server is lost, the next one."""
+        while (failure := self._find_loss(ask, part)) is not None:
             self._move(part, failure)
 
     # Losing a server
@@ -270,12 +333,12 @@ class SpreadMachines(Halves):
     def _truncate(self, part: _Part, failure: Exception, results: Results) -> None:
         last = part.machines
         self._move(part, failure)
-        if self._settings["autoreset"] is Autoreset.SAME_STEP:
+        if self._options.autoreset_mode is AutoresetMode.SAME_STEP:
             self._ask(part, lambda part: part.machines.show(results))
             last.show_last_as_final(results)
         else:
             last.show_last(results)
-            part.is_fresh = self._settings["autoreset"] is Autoreset.NEXT_STEP
+            part.is_fresh = self._options.autoreset_mode is AutoresetMode.NEXT_STEP
         results.rewards[:] = results.raw_rewards[:] = 0
         results.terminated[:] = False
         results.truncated[:] = True
@@ -288,44 +351,54 @@ class SpreadMachines(Halves):
         self._place(part, [failure], secrets.randbits(32) or 1)
 
     def _place(self, part: _Part, failures: list[Exception], seed: int) -> None:
-        """Opens environments for the part. failures: of the servers before, which a ConnectionError says if there is no other."""
+        """Opens environments for the part.
+
+        Args:
+            part: The part.
+            failures: Failures of the servers before, for the message of the ConnectionError.
+            seed: Seed of the first environment.
+
+        Raises:
+            ConnectionError: If no server is left.
+        """
         failures = failures[:]
         for address in sorted(self._servers, key=self._load_of):
             try:
-                part.machines = self._opened(address, part.rows, seed)
+                part.machines = self._connect(address, part.count, seed)
             except (OSError, InvalidInput, Refused) as error:
                 failures.append(error)
                 continue
             part.address = address
             return
         why = "; ".join(map(str, failures))
-        raise ConnectionError(
-            f"no server is left for environments {part.rows.start} to {part.rows.stop - 1}: {why}"
-        ) from failures[-1]
+        raise ConnectionError(f"no server is left for {part.names}: {why}") from failures[-1]
 
     def _load_of(self, address: str) -> int:
-        return sum(part.rows.stop - part.rows.start for part in self._parts if part.address == address)
+        return sum(part.count for part in self._parts if part.address == address)
 
     def screen(self, machine: int) -> Pixels:
+        """Returns the screen of a machine, uint8 of shape (height, 160, 3)."""
         self._check_half(False)
-        part, row = self._place_of(machine)
+        part, row = self._find_part(machine)
         return part.machines.screen(row)
 
-    # States of one environment. A loss is a ConnectionError, and the next step goes on elsewhere. That step shows new episodes, and
-    # also what was restored after the loss, before it plays.
+    # States of one environment. If the server is lost, these calls raise a ConnectionError, and the next step goes on
+    # with another server. That step returns the first observations of new episodes, or what was restored meanwhile.
 
     def save(self, machine: int, include_rng: bool) -> SavedMachine:
-        part, row = self._place_of(machine)
+        """Returns the state of a machine."""
+        part, row = self._find_part(machine)
         with self._exclusively():
             return part.machines.save(row, include_rng)
 
     def restore(self, machine: int, state: SavedMachine) -> None:
-        part, row = self._place_of(machine)
+        """Restores the state of a machine."""
+        part, row = self._find_part(machine)
         with self._exclusively():
             part.machines.restore(row, state)
 
-    def _place_of(self, machine: int) -> tuple[_Part, int]:
-        """The part that plays an environment, and its row there."""
+    def _find_part(self, machine: int) -> tuple[_Part, int]:
+        """Returns the part that plays an environment, and its row there."""
         for part in self._parts:
             if part.rows.start <= machine < part.rows.stop:
                 return part, machine - part.rows.start

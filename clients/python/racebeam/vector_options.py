@@ -1,0 +1,206 @@
+"""The checked options of a vector of environments."""
+
+from __future__ import annotations
+
+import dataclasses
+import secrets
+
+from . import _core
+from .arguments import MOST, WrongType, WrongValue, check_choice, flag, join, member, optional_whole, share, whole
+from .autoreset import AutoresetMode
+
+__all__ = ["SEEDS", "VectorOptions", "autoreset_of", "merge_life_flags"]
+
+OBS_TYPES = (None, "rgb", "grayscale", "ram")
+RENDER_MODES = (None, "rgb_array")
+RULES = {"ale-0.12": _core.Rules.ALE_0_12, "fixed": _core.Rules.FIXED}
+SEEDS = (0, 2**32 - 1)
+MOST_ENVS = 10**7  # the memory sets a lower limit
+MOST_THREADS = 1024
+
+WHOLE_NUMBERS = {
+    "num_envs": (1, MOST_ENVS),
+    "num_threads": (0, MOST),
+    "thread_affinity_offset": (-1, MOST),
+    "frameskip": (1, 1000),
+    "max_num_frames_per_episode": (0, MOST),
+    "noop_max": (0, 1000),
+    "stack_num": (1, 16),
+    "img_width": (0, 1000),  # the screens of a game limit both further
+    "img_height": (0, 1000),
+    "seed": SEEDS,
+}
+FLAGS = (
+    "full_action_space",
+    "continuous",
+    "reward_clipping",
+    "maxpool",
+    "use_fire_reset",
+    "grayscale",
+)
+WORDS = {"lives": _core.LifeLoss, "start": _core.ResetOrder, "stack_start": _core.StackStart}
+CHOICES = {"obs_type": OBS_TYPES, "render_mode": RENDER_MODES, "rules": tuple(RULES)}
+
+
+def autoreset_of(mode: object) -> AutoresetMode:
+    """Converts an argument to a mode of autoreset.
+
+    Args:
+        mode: A mode, its name such as "SAME_STEP", or its value such as "SameStep".
+
+    Returns:
+        The mode.
+
+    Raises:
+        WrongType: If `mode` is neither a mode nor a string.
+        WrongValue: If no mode has this name or value.
+    """
+    for one in AutoresetMode:
+        if mode is one or (isinstance(mode, str) and mode in (one.name, one.value)):
+            return one
+    raise (WrongValue if isinstance(mode, str) else WrongType)(
+        f"autoreset_mode is {mode!r}; it takes {join(one.value for one in AutoresetMode)}"
+    )
+
+
+def merge_life_flags(lives: str | None, episodic_life: object, life_loss_info: object) -> str | None:
+    """Merges ale_py's two flags of life loss into `lives`.
+
+    Args:
+        lives: The argument `lives` of `AtariVectorEnv`.
+        episodic_life: The flag that means lives="restart".
+        life_loss_info: The flag that means lives="told".
+
+    Returns:
+        The word for `lives`, or None if none of the three arguments was given.
+
+    Raises:
+        WrongValue: If a flag contradicts `lives`.
+    """
+    if lives is not None:
+        member("lives", lives, _core.LifeLoss)
+    merged = lives
+    for name, value, word in (
+        ("life_loss_info", life_loss_info, "told"),
+        ("episodic_life", episodic_life, "restart"),  # takes precedence, as in ale_py
+    ):
+        if not flag(name, value):
+            continue
+        if lives not in (None, word):
+            raise WrongValue(f"{name} is True, which means lives={word!r}, but lives is {lives!r}")
+        merged = word
+    return merged
+
+
+@dataclasses.dataclass(frozen=True)
+class VectorOptions:
+    """Options of a vector of environments, checked when the object is made.
+
+    `AtariVectorEnv` documents the options. It merges the arguments that say the same: `lives` stands for
+    `episodic_life` and `life_loss_info`, and the values of the preset are filled in. `dataclasses.replace` copies
+    options with changes.
+
+    Attributes:
+        rows: Number of rows of the screen that observations show, from the top; 0 for all.
+
+    Raises:
+        WrongType: If an option has a wrong type.
+        WrongValue: If the value of an option is not accepted.
+
+    Example:
+        >>> from racebeam.vector_options import VectorOptions
+        >>> options = VectorOptions(num_envs=8, lives="end", autoreset_mode="SameStep", seed=7)
+        >>> options.core_settings().lives
+        LifeLoss.END
+        >>> VectorOptions(frameskip=0)
+        Traceback (most recent call last):
+        racebeam.arguments.WrongValue: frameskip is 0; it takes 1 to 1000
+    """
+
+    num_envs: int = 1
+    batch_size: int = 0
+    num_threads: int = 0
+    thread_affinity_offset: int = -1
+    max_num_frames_per_episode: int = 108000
+    repeat_action_probability: float = 0.0
+    full_action_space: bool = False
+    continuous: bool = False
+    autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP
+    img_height: int = 84
+    img_width: int = 84
+    grayscale: bool = True
+    stack_num: int = 4
+    frameskip: int = 4
+    maxpool: bool = True
+    noop_max: int = 30
+    reward_clipping: bool = True
+    use_fire_reset: bool = True
+    mode: int | None = None
+    difficulty: int | None = None
+    obs_type: str | None = None
+    lives: str = "ignored"
+    start: str = "fire-noops"
+    stack_start: str = "zeros"
+    rules: str = "ale-0.12"
+    seed: int = dataclasses.field(default_factory=lambda: secrets.randbits(32))
+    render_mode: str | None = None
+    rows: int = 0
+
+    def __post_init__(self) -> None:
+        """Checks all options, and converts them to the types that the fields declare."""
+        for name, (low, high) in WHOLE_NUMBERS.items():
+            self._set(name, whole(name, getattr(self, name), low, high))
+        for name in FLAGS:
+            self._set(name, flag(name, getattr(self, name)))
+        for name in ("mode", "difficulty"):
+            self._set(name, optional_whole(name, getattr(self, name)))
+        for name, kind in WORDS.items():
+            member(name, getattr(self, name), kind)
+        for name, choices in CHOICES.items():
+            check_choice(name, getattr(self, name), choices)
+        self._set("repeat_action_probability", share("repeat_action_probability", self.repeat_action_probability))
+        self._set("batch_size", whole("batch_size", self.batch_size, 0, self.num_envs) or self.num_envs)
+        self._set("autoreset_mode", autoreset_of(self.autoreset_mode))
+
+    def _set(self, name: str, value: object) -> None:
+        object.__setattr__(self, name, value)
+
+    @property
+    def is_sync(self) -> bool:
+        """Whether each call returns all environments."""
+        return self.batch_size == self.num_envs
+
+    @property
+    def is_rgb(self) -> bool:
+        """Whether observations are screens in colour."""
+        return self.obs_type == "rgb" if self.obs_type else not self.grayscale
+
+    def core_settings(self) -> _core.VectorSettings:
+        """Converts the options to the settings of `_core.VectorMachines`."""
+        core = _core.VectorSettings()
+        core.seed = self.seed
+        core.rules = RULES[self.rules]
+        core.mode = self.mode
+        core.difficulty = self.difficulty
+        core.frame_skip = self.frameskip
+        core.sticky = self.repeat_action_probability
+        is_legal = self.full_action_space or self.continuous
+        core.action_set = _core.ActionSet.LEGAL if is_legal else _core.ActionSet.MINIMAL
+        core.reward_min, core.reward_max = (-1, 1) if self.reward_clipping else (-MOST - 1, MOST)
+        core.pool = self.maxpool
+        core.max_episode_frames = self.max_num_frames_per_episode
+        core.noop_max = self.noop_max
+        core.fire = self.use_fire_reset
+        core.start = member("start", self.start, _core.ResetOrder)
+        core.lives = member("lives", self.lives, _core.LifeLoss)
+        core.stack_start = member("stack_start", self.stack_start, _core.StackStart)
+        core.autoreset = _core.Autoreset[autoreset_of(self.autoreset_mode).name]
+        core.stack = 0 if self.obs_type == "ram" else self.stack_num
+        core.width, core.height = (0, 0) if self.obs_type else (self.img_width, self.img_height)
+        core.rgb = self.is_rgb
+        core.rows = self.rows
+        core.screens = self.render_mode is not None
+        core.batch_size = self.batch_size
+        core.threads = min(self.num_threads, self.num_envs, MOST_THREADS)
+        core.first_processor = self.thread_affinity_offset
+        return core
