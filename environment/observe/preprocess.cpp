@@ -93,12 +93,16 @@ void make_brighter_plane(std::span<const std::uint8_t> screen, std::span<const s
   make_rows<2>({screen.data(), previous.data()}, table, plane);
 }
 
-const AreaResize& screen_resize(int height, int to_width, int to_height) {
+const ScreenResize& screen_resize(int height, int to_width, int to_height) {
   static std::mutex mutex;
-  static std::map<std::tuple<int, int, int>, AreaResize> all;
+  static std::map<std::tuple<int, int, int>, ScreenResize> all;
   const std::lock_guard lock(mutex);
-  return all.try_emplace({height, to_width, to_height}, kScreenWidth, height, to_width, to_height)
-      .first->second;
+  const std::tuple key(height, to_width, to_height);
+  const auto found = all.find(key);
+  if (found != all.end()) return found->second;
+  if (to_width > kScreenWidth || to_height > height)
+    return all.emplace(key, Enlargement(kScreenWidth, height, to_width, to_height)).first->second;
+  return all.emplace(key, AreaResize(kScreenWidth, height, to_width, to_height)).first->second;
 }
 
 }  // namespace racebeam

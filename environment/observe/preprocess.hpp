@@ -5,9 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <variant>
 
 #include "emulator/tia/palette.hpp"
 #include "environment/observe/area_resize.hpp"
+#include "environment/observe/enlarge.hpp"
 
 namespace racebeam {
 
@@ -24,8 +26,11 @@ void make_plane(std::span<const std::uint8_t> screen, const BrightnessTable& tab
 void make_brighter_plane(std::span<const std::uint8_t> screen, std::span<const std::uint8_t> previous,
                          const BrightnessTable& table, std::span<std::uint8_t> plane);
 
-// Returns the table that reduces a plane of 160 x height to this size. It is made on first use, and the
-// process shares it. Thread-safe. Throws InvalidInput for a size that AreaResize does not support.
-const AreaResize& screen_resize(int height, int to_width, int to_height);
+// Averages over areas if neither side grows; else interpolates. Both are OpenCV's INTER_AREA.
+using ScreenResize = std::variant<AreaResize, Enlargement>;
+
+// Returns the tables that resize a plane of 160 x height to this size. They are made on first use, and the
+// process shares them. Thread-safe. Throws std::invalid_argument for a size that neither supports.
+const ScreenResize& screen_resize(int height, int to_width, int to_height);
 
 }  // namespace racebeam

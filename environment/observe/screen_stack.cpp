@@ -9,9 +9,11 @@ namespace racebeam {
 namespace {
 
 constexpr int kLeastHeight = 9;  // AreaResize makes the tallest screen no lower
+constexpr int kMostGrowth = 2;
 
-int checked(int size, int least, int most, const std::string& what) {
-  if (size == 0) return most;
+int checked(int size, int least, int own, const std::string& what) {
+  const int most = kMostGrowth * own;
+  if (size == 0) return own;
   if (size >= least && size <= most) return size;
   throw InvalidInput("the " + what + " of an observation is " + std::to_string(size) + "; it takes " +
                      std::to_string(least) + " to " + std::to_string(most) + ", or 0 for the screen's own");
@@ -65,7 +67,8 @@ void ScreenStack::look_at_previous(const Environment& environment) {
 }
 
 void ScreenStack::reduce(std::size_t channel, std::span<std::uint8_t> to) {
-  if (resize_ != nullptr) return (*resize_)(plane(channel), to);
+  const auto run = [&](const auto& resize) { resize(plane(channel), to); };
+  if (resize_ != nullptr) return std::visit(run, *resize_);
   std::ranges::copy(plane(channel), to.begin());
 }
 

@@ -1,4 +1,4 @@
-// Screens as learning agents take them: small, grey or in colour, the brighter of two frames, several in a
+// Screens as learning agents take them: resized, grey or in colour, the brighter of two frames, several in a
 // stack (docs/spec/environment.md, 15; the figures of OpenCV's INTER_AREA).
 #pragma once
 
@@ -16,7 +16,7 @@ constexpr int kSmallSide = 84;
 
 struct StackSettings {
   int depth = 4;                                // screens; 0: none are made
-  int width = kSmallSide, height = kSmallSide;  // of each, at most the machine's; 0: the machine's
+  int width = kSmallSide, height = kSmallSide;  // of each, at most twice the machine's; 0: the machine's
   bool rgb = false;  // red, green and blue of each pixel, in this order, instead of one grey
   int rows = 0;      // how many of the machine's are seen, from the top; 0: all
 
@@ -63,7 +63,7 @@ class ScreenStack {
   void reduce(std::size_t channel, std::span<std::uint8_t> to);
 
   StackSettings settings_;
-  const AreaResize* resize_;                 // null: screens stay as they are
+  const ScreenResize* resize_;               // null: screens stay as they are
   std::span<const BrightnessTable> tables_;  // one a channel
   std::size_t plane_size_, screen_size_;
   std::vector<std::uint8_t> seen_;     // planes, one after the other

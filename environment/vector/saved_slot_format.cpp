@@ -53,7 +53,7 @@ void check_values(const SlotValues& values) {
   check_range("the score", values.score, -kMostScore, kMostScore);
   check_range("the number of frames played", values.elapsed, 0, kMostFrames);
   check_range("the number of screens in the stack", values.depth, 0, kMostDepth);
-  check_range("the width of a screen in the stack", values.width, 0, kScreenWidth);
+  check_range("the width of a screen in the stack", values.width, 0, 2 * kScreenWidth);
   check_range("the height of a screen in the stack", values.height, 0,
               std::numeric_limits<std::int16_t>::max());
   check_flag("the flag of colours", values.rgb);

@@ -100,7 +100,7 @@ int size_within(std::string_view text, std::string_view what, int least, int mos
 // Parses grey84, grey84xN, greyWxHxN and rgbWxHxN, and sets `name` to the name of their row. Returns nothing
 // for other fields.
 std::optional<StackSettings> parse_stack(std::string_view& name) {
-  constexpr int kLeastHeight = 9, kMostHeight = 300;  // ScreenStack checks against the machine's screen
+  constexpr int kLeastHeight = 9, kMostHeight = 600;  // ScreenStack checks against the machine's screen
   const bool rgb = name.starts_with("rgb");
   if (!rgb && !name.starts_with("grey")) return std::nullopt;
   std::string_view width = name.substr(rgb ? 3 : 4);
@@ -119,7 +119,7 @@ std::optional<StackSettings> parse_stack(std::string_view& name) {
     throw RequestError(ErrorCode::kBadArguments,
                        "a stack is written as in grey84x4, grey100x50x4 or rgb100x50x4");
   name = rgb ? kRgbStack : kGreyStack;
-  return stack_of(depth, size_within(width, "the width of a stack", 1, kScreenWidth),
+  return stack_of(depth, size_within(width, "the width of a stack", 1, 2 * kScreenWidth),
                   size_within(height, "the height of a stack", kLeastHeight, kMostHeight));
 }
 

@@ -335,9 +335,9 @@ TEST_CASE("Stacks of any size are observed, one at a time") {
     CHECK_FALSE(code(client.ask("observe " + field)).empty());
   CHECK(client.ask("observe grey84x4 rgb20x20x1") ==
         "error bad-arguments grey84x4 and rgb20x20x1 are two stacks; there can be one");
-  CHECK(client.ask("observe grey161x84x1") ==
-        "error bad-value the width of a stack is '161'; it takes a whole number from 1 to 160");
-  CHECK(client.ask("observe grey84x211x1") ==
-        "error bad-value the height of an observation is 211; it takes 9 to 210, or 0 for the screen's own");
+  CHECK(client.ask("observe grey321x84x1") ==
+        "error bad-value the width of a stack is '321'; it takes a whole number from 1 to 320");
+  CHECK(client.ask("observe grey84x421x1") ==
+        "error bad-value the height of an observation is 421; it takes 9 to 420, or 0 for the screen's own");
   CHECK(client.ask("observe") == "ok fields=reward,terminated,truncated,lives");
 }

@@ -555,12 +555,22 @@ class Differences(unittest.TestCase):
         self.assertRaises(gymnasium.error.Error, ale_py.AtariEnv, "pong", frameskip=np.int64(4))
 
     def test_18_limits_of_many_environments(self):
-        for arguments in ({"img_width": 161}, {"img_height": 211}, {"img_height": 8}, {"img_width": 224, "img_height": 224}, {"stack_num": 17},
+        for arguments in ({"img_width": 321}, {"img_height": 421}, {"img_height": 8}, {"stack_num": 17},
                           {"noop_max": 1001}, {"frameskip": 1001}):
             with self.subTest(**arguments):
                 with self.assertRaises((gymnasium.error.Error, racebeam.InvalidInput)):
                     drop_in.AtariVectorEnv("pong", 1, **arguments)
                 ale_py.AtariVectorEnv("pong", 1, **arguments)
+
+    def test_screens_that_grow_are_the_same(self):
+        for size in ((224, 224), (256, 256), (420, 320), (84, 200), (211, 100)):
+            settings = {"img_height": size[0], "img_width": size[1], "stack_num": 1}
+            shown = []
+            for module in (drop_in, ale_py):
+                envs = module.AtariVectorEnv("pong", 1, **settings)
+                envs.reset(seed=1)
+                shown.append(np.stack([envs.step(np.array([step % 3]))[0] for step in range(10)]))
+            self.assertTrue(np.array_equal(*shown), size)
 
     def test_19_no_frames(self):
         ours, theirs = (module.AtariVectorEnv("pong", 2, max_num_frames_per_episode=0) for module in (drop_in, ale_py))

@@ -1,6 +1,8 @@
 """AtariVectorEnv: what ale_py's lacks, bad input, threads and forks, and Gymnasium's own wrappers."""
 
 import copy
+import dataclasses
+import inspect
 import os
 import pathlib
 import pickle
@@ -24,6 +26,7 @@ from gymnasium.wrappers.vector import DictInfoToList, RecordEpisodeStatistics
 
 import racebeam
 from racebeam import AtariVectorEnv, InvalidInput, ale_py
+from racebeam.vector_options import VectorOptions
 
 FLAGS = ("full_action_space", "continuous", "grayscale", "maxpool", "episodic_life", "life_loss_info", "reward_clipping", "use_fire_reset")
 SHORT = {"max_num_frames_per_episode": 12, "noop_max": 0}  # three steps an episode
@@ -54,6 +57,20 @@ class Seeds(unittest.TestCase):
         envs, others = AtariVectorEnv("beamfall", 2, seed=9), AtariVectorEnv("beamfall", 2)
         others.reset(seed=9)
         self.assertTrue(same(play(envs, 10), play(others, 10)))
+
+    def test_the_first_reset_has_the_seed_of_the_constructor(self):
+        for settings in ({}, {"batch_size": 1}, {"repeat_action_probability": 0.5, "noop_max": 30}):
+            envs, others = AtariVectorEnv("beamfall", 2, seed=3, **settings), AtariVectorEnv("beamfall", 2, **settings)
+            self.assertTrue(same([envs.reset()], [others.reset(seed=3)]))
+            self.assertFalse(same([envs.reset(), envs.reset()], [others.reset(seed=3), others.reset(seed=3)]))
+
+    def test_a_seed_of_the_constructor_ends_with_the_first_call_that_plays(self):
+        for play_once in (lambda envs: envs.step([0, 0]), lambda envs: (envs.send([0, 0]), envs.recv()),
+                          lambda envs: envs.restore(0, envs.save(1))):
+            envs = AtariVectorEnv("beamfall", 2, seed=3)
+            begin = envs.show()[1]["frame_number"]
+            play_once(envs)
+            self.assertTrue((envs.reset()[1]["frame_number"] > begin).all())
 
     def test_some_have_seeds_and_some_have_none(self):
         envs = AtariVectorEnv("beamfall", 3, repeat_action_probability=0.5)
@@ -96,6 +113,7 @@ class Observations(unittest.TestCase):
     def test_kinds(self):
         for settings, shape in (({"obs_type": "grayscale"}, (4, 210, 160)), ({"obs_type": "rgb", "stack_num": 1}, (1, 210, 160, 3)),
                                 ({"obs_type": "ram"}, (128,)), ({"img_height": 20, "img_width": 31}, (4, 20, 31)),
+                                ({"img_height": 224, "img_width": 224}, (4, 224, 224)), ({"img_height": 420, "img_width": 320}, (4, 420, 320)),
                                 ({"grayscale": False}, (4, 84, 84, 3)), ({"img_height": 0, "img_width": 0}, (4, 210, 160))):
             with self.subTest(**settings):
                 envs = AtariVectorEnv("beamfall", 2, **settings)
@@ -393,6 +411,52 @@ class Halves(unittest.TestCase):
         self.assertEqual(after[1], before[1] + 4)  # it has made its step
 
 
+class Attributes(unittest.TestCase):
+    def test_the_actions_of_each_environment(self):
+        envs = AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)
+        names = [action.name for action in racebeam.Action]
+        self.assertEqual(envs.get_action_meanings(1), names)
+        self.assertEqual(envs.call("get_action_meanings"), (names, names))
+        single = racebeam.AtariEnv("beamfall")
+        self.assertEqual(AtariVectorEnv("beamfall", 2).get_action_meanings(), single.get_action_meanings())
+        for env in (2, -1):
+            self.assertRaisesRegex(IndexError, f"there is no environment {env}; there are 0 to 1", envs.get_action_meanings, env)
+
+    def test_attributes_and_calls(self):
+        envs = AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)
+        self.assertEqual(envs.get_attr("game"), ("beamfall", "updraft"))
+        self.assertEqual(envs.get_attr("grayscale"), (True, True))
+        self.assertEqual(len(envs.call("save", include_rng=False)), 2)
+        self.assertRaises(AttributeError, envs.get_attr, "colour")
+        self.assertRaisesRegex(AttributeError, "they have get_action_meanings", envs.call, "step")
+
+    def test_the_text_names_the_game(self):
+        self.assertEqual(repr(AtariVectorEnv("beamfall", 2)), "AtariVectorEnv(game='beamfall', num_envs=2)")
+        self.assertEqual(repr(AtariVectorEnv(["beamfall", "updraft"], full_action_space=True)),
+                         "AtariVectorEnv(game=['beamfall', 'updraft'], num_envs=2)")
+        self.assertEqual(repr(racebeam.AtariEnv("beamfall", frameskip=(2, 5))),
+                         "AtariEnv(game='beamfall', obs_type='rgb', frameskip=(2, 5))")
+        self.assertEqual(str(racebeam.AtariEnv("beamfall")), "<AtariEnv<beamfall>>")
+        self.assertEqual(str(gymnasium.make("racebeam/Beamfall-v5").unwrapped), "<AtariEnv<racebeam/Beamfall-v5>>")
+
+
+class Options(unittest.TestCase):
+    def test_they_are_checked_and_cannot_be_changed(self):
+        options = VectorOptions(num_envs=np.int64(4), autoreset_mode="SAME_STEP", seed=np.int64(3))
+        self.assertEqual((type(options.num_envs), options.batch_size, options.autoreset_mode), (int, 4, AutoresetMode.SAME_STEP))
+        with self.assertRaises(dataclasses.FrozenInstanceError):
+            options.seed = 4
+        self.assertRaisesRegex(Error, "batch_size is 5; it takes 0 to 4", dataclasses.replace, options, batch_size=5)
+
+    def test_the_constructor_takes_each_of_them(self):
+        taken = set(inspect.signature(AtariVectorEnv).parameters)
+        self.assertEqual({field.name for field in dataclasses.fields(VectorOptions)} - taken, {"rows"})
+
+    def test_the_core_has_what_they_say(self):
+        core = VectorOptions(obs_type="ram", lives="end", max_num_frames_per_episode=7, reward_clipping=False).core_settings()
+        self.assertEqual((core.stack, core.lives.name, core.max_episode_frames, core.reward_max), (0, "END", 7, 2**31 - 1))
+
+
 class Gymnasium(unittest.TestCase):
     def test_make_vec(self):
         envs = gymnasium.make_vec("racebeam/Beamfall-v5", 3, img_height=50)
@@ -426,7 +490,7 @@ class BadInput(unittest.TestCase):
             for value in values:
                 with self.subTest(**{name: value}), self.assertRaisesRegex(Error, name):
                     AtariVectorEnv("beamfall", **{"num_envs": 2, name: value})
-        for arguments in ({"img_width": 161}, {"img_height": 211}, {"img_height": 5}, {"mode": 99}, {"difficulty": 9}, {"rom": b"x" * 6},
+        for arguments in ({"img_width": 321}, {"img_height": 421}, {"img_height": 5}, {"mode": 99}, {"difficulty": 9}, {"rom": b"x" * 6},
                           {"rom": "/nowhere.bin"}):
             with self.subTest(**arguments), self.assertRaises(InvalidInput):
                 AtariVectorEnv("beamfall", 2, **arguments)

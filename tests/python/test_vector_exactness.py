@@ -52,6 +52,8 @@ SETTINGS = (
     {"continuous": True, "continuous_action_threshold": 0.3, "life_loss_info": True, "noop_max": 3},
     {"use_fire_reset": False, "noop_max": 0, "img_height": 105, "img_width": 160, "stack_num": 1, **SHORT},
     {"autoreset_mode": AutoresetMode.SAME_STEP, "episodic_life": True, "frameskip": 9, "repeat_action_probability": 0.25},
+    {"img_height": 224, "img_width": 224, "stack_num": 1, "grayscale": False},
+    {"img_height": 100, "img_width": 320, "stack_num": 2},
 )
 
 

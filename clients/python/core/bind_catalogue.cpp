@@ -41,15 +41,16 @@ std::tuple<std::string, std::optional<std::string>> identify(const ImageArgument
 }  // namespace
 
 void bind_catalogue(nb::module_& module) {
-  module.def("games", rows,
-             "Each game: its name, its title, whether it has a score, whether its image is built in.");
-  module.def("md5s", md5s_of, "game"_a, "The MD5s of the images that are recognised as a game.");
+  module.def(
+      "games", rows,
+      "Lists the games: name, title, whether the game has a score, and whether its image is built in.");
+  module.def("md5s", md5s_of, "game"_a, "Returns the MD5s of the images of a game.");
   module.def("identify", identify, "image"_a, nb::call_guard<WithoutGil>(),
              nb::sig("def identify(image: str | os.PathLike[str] | bytes) -> tuple[str, str | None]"),
              "The MD5 of an image, a path or its bytes, and the game that it is; None for a game that is not "
              "known.");
   module.def("image_files", image_files, "folder"_a, nb::call_guard<WithoutGil>(),
-             "The files of a folder that look like images.");
+             "Lists the files of a folder whose names end like those of images.");
 }
 
 }  // namespace racebeam::python

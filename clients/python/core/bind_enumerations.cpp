@@ -7,16 +7,16 @@ namespace racebeam::python {
 namespace nb = nanobind;
 
 void bind_enumerations(nb::module_& module) {
-  nb::enum_<PythonAction> actions(module, "Action", "What player A can do.");
+  nb::enum_<PythonAction> actions(module, "Action", "An action of player A.");
   for (const int number : all_actions()) {
     const std::string name(action_name(number));
     actions.value(name.c_str(), static_cast<PythonAction>(number));
   }
-  nb::enum_<LoggerMode>(module, "LoggerMode", "ALE's; racebeam logs nothing.")
+  nb::enum_<LoggerMode>(module, "LoggerMode", "The logger modes of ALE. racebeam logs nothing.")
       .value("Info", LoggerMode::kInfo)
       .value("Warning", LoggerMode::kWarning)
       .value("Error", LoggerMode::kError);
-  nb::enum_<View>(module, "View", "What is looked at after a step.")
+  nb::enum_<View>(module, "View", "What step() observes.")
       .value("RGB", View::kRgb, "height x 160 x 3")
       .value("GRAYSCALE", View::kGrey, "height x 160")
       .value("RAM", View::kRam, "128 bytes")

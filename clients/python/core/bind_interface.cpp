@@ -95,7 +95,7 @@ void copy_audio(AleInterface& self, std::span<std::uint8_t> out) {
 void bind_bytes(nb::class_<AleInterface>& interface) {
   const auto bind = [&interface]<View view>(const char* name, const char* what) {
     interface.def(name, fresh<view>, what)
-        .def(name, into<view>, "buffer"_a.noconvert(), "Writes into an array of the caller's.");
+        .def(name, into<view>, "buffer"_a.noconvert(), "Writes into an array of the caller.");
   };
   bind.operator()<View::kPalette>("getScreen", "height x 160 numbers of colours.");
   bind.operator()<View::kRgb>("getScreenRGB", "height x 160 x 3.");
@@ -115,7 +115,7 @@ void bind_bytes(nb::class_<AleInterface>& interface) {
             copy_audio(self, bytes.span());
             return FreshFixed<kAudioSize>(std::move(bytes).array({kAudioSize}));
           },
-          "The samples of the last act; zeros unless sound_obs was set when the image was loaded.")
+          "Returns the samples of the last act, or zeros if sound_obs was False when the image was loaded.")
       .def(
           "getAudio",
           [](AleInterface& self, const Fixed<kAudioSize>& buffer) {
@@ -217,7 +217,7 @@ void bind_play(nb::class_<AleInterface>& interface) {
       .def("getRAMSize", [](AleInterface&) { return kRamSize; })
       .def("getAudioSize", [](AleInterface&) { return kAudioSize; })
       .def("setRAM", set_ram, "index"_a, "value"_a)
-      .def("state_hash", ask<&Environment::state_hash>, "Equal where two games will go on in the same way.");
+      .def("state_hash", ask<&Environment::state_hash>, "Returns a hash of the state. Games with equal hashes continue equally.");
 }
 
 // The game
@@ -269,14 +269,14 @@ void bind_game(nb::class_<AleInterface>& interface) {
                 "None: the image decides.")
       .def_static("isSupportedROM", supported, "rom"_a, nb::call_guard<WithoutGil>(),
                   nb::sig("def isSupportedROM(rom: str | os.PathLike[str] | bytes) -> str | None"),
-                  "The name of the image's game, or None.")
+                  "Returns the name of the image's game, or None.")
       .def_static("setLoggerMode", [](LoggerMode) {}, "mode"_a)
       .def_static("setLoggerMode", [](int) {}, "mode"_a)
       .def("getLegalActionSet", [](AleInterface& self) { return as_actions(list_of<&Game::legal_actions>(self)); })
       .def("getMinimalActionSet", [](AleInterface& self) { return as_actions(list_of<&Game::minimal_actions>(self)); })
       .def("getAvailableModes", list_of<&Game::modes>)
       .def("getAvailableDifficulties", list_of<&Game::difficulties>)
-      .def("getTwoPlayerModes", list_of<&Game::two_player_modes>, "Modes in which player B plays, too.")
+      .def("getTwoPlayerModes", list_of<&Game::two_player_modes>, "Returns the modes for two players.")
       .def("getMode", ask<&Environment::mode>)
       .def("getDifficulty", ask<&Environment::difficulty>)
       .def("setMode", set_mode, "mode"_a)
@@ -284,7 +284,7 @@ void bind_game(nb::class_<AleInterface>& interface) {
       .def("getGame", [](AleInterface& self) {
             const Turn turn(self.lock());
             return self.environment().game().name;
-          }, "The name of the game.");
+          }, "Returns the name of the game.");
 }
 
 // States
@@ -400,8 +400,8 @@ void unpickle(AleInterface& self, const std::tuple<KeysAsTables, std::optional<L
 }  // namespace
 
 void bind_interface(nb::module_& module) {
-  nb::class_<AleInterface> interface(module, "ALEInterface",
-                                     "A game in this process. Settings take effect when an image is loaded.");
+  nb::class_<AleInterface> interface(
+      module, "ALEInterface", "One game in this process. Settings take effect when an image is loaded.");
   interface.def(nb::init<>()).def("__getstate__", pickled).def("__setstate__", unpickle);
   bind_game(interface);
   bind_play(interface);

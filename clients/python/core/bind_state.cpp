@@ -21,7 +21,7 @@ nb::bytes serialize(const AleState& state) {
 }  // namespace
 
 void bind_state(nb::module_& module) {
-  nb::class_<AleState>(module, "ALEState", "A state of a game, exact to the picture and the sound.")
+  nb::class_<AleState>(module, "ALEState", "A state of a game, with its picture and its sound.")
       .def(nb::init<>())
       .def(
           "__init__", [](AleState* self, const nb::bytes& bytes) { new (self) AleState(text_of(bytes)); },
@@ -32,7 +32,7 @@ void bind_state(nb::module_& module) {
             new (self) AleState(text_of(bytes));
           },
           "state"_a, "serialized"_a)
-      .def("serialize", serialize, "The state as bytes, which another process can restore.")
+      .def("serialize", serialize, "Returns the state as bytes, which another process can restore.")
       .def("equals", &AleState::equals, "other"_a)
       .def("__eq__", &AleState::equals, nb::is_operator(),
            nb::sig("def __eq__(self, other: object, /) -> bool"))

@@ -257,13 +257,13 @@ int height(VectorMachines& self) {
 
 void bind_vector(nb::module_& module) {
   nb::class_<SavedMachine>(module, "SavedMachine",
-                           "The state of one environment of many. It can be pickled and copied.")
+                           "The state of one environment of a vector. It can be pickled and copied.")
       .def("__getstate__", bytes_of_state)
       .def("__setstate__", [](SavedMachine& self, const nb::bytes& bytes) {
         new (&self) SavedMachine(std::string(bytes.c_str(), bytes.size()));
       });
   const auto results = "results"_a.noconvert();
-  nb::class_<VectorMachines>(module, "VectorMachines", "Machines that are stepped together, on threads.")
+  nb::class_<VectorMachines>(module, "VectorMachines", "Machines that are stepped together on threads.")
       .def("__init__", make, "images"_a, "of_machines"_a.noconvert(), "settings"_a,
            nb::sig("def __init__(self, images: list[tuple[str | os.PathLike[str] | bytes, str]], "
                    "of_machines: NDArray[numpy.int32], settings: VectorSettings) -> None"))
@@ -276,17 +276,18 @@ void bind_vector(nb::module_& module) {
            "machines"_a.noconvert())
       .def("send_resets", send_resets, "seeds"_a.none())
       .def("end_episodes", end_episodes, "machines"_a.noconvert(), "seeds"_a.none() = nb::none(),
-           "The next step of each of these machines begins a new game; -1 is no seed.")
-      .def("playing", playing, "How many machines were sent, and not received.")
-      .def("receive", receive, results, "As many machines as the results have room for.")
+           "Makes the next step of each machine begin a new game; a seed of -1 means unseeded.")
+      .def("playing", playing, "Returns how many machines were sent and not yet received.")
+      .def("receive", receive, results, "Waits for as many machines as the results have columns.")
       .def("reset", reset, "chosen"_a.none(), "seeds"_a.none(), results)
       .def("show", show, results)
       .def("save", save, "machine"_a, "include_rng"_a)
       .def("restore", restore, "machine"_a, "state"_a)
-      .def("screen", screen, "machine"_a, "The picture of one machine, height x 160 x 3.")
-      .def("numbers_of_actions", numbers_of_actions, "How many actions each machine has.")
-      .def("actions_of", actions_of, "machine"_a, "The numbers of a machine's actions.")
-      .def("height", height, "The rows of the tallest machine's screen.");
+      .def("screen", screen, "machine"_a, "Returns the screen of a machine, uint8 of shape (height, 160, 3).")
+      .def("numbers_of_actions", numbers_of_actions, "Returns the size of the action set of each machine.")
+      .def("actions_of", actions_of, "machine"_a,
+           "Returns the action set of a machine, as numbers of Action.")
+      .def("height", height, "Returns the rows of the tallest screen.");
 }
 
 }  // namespace racebeam::python

@@ -48,7 +48,7 @@ void bind(nb::class_<BatchSettings>& settings, const char* name, Members... path
 
 void bind_vector_settings(nb::module_& module) {
   bind_words(module);
-  nb::class_<BatchSettings> settings(module, "VectorSettings", "What VectorMachines are made with.");
+  nb::class_<BatchSettings> settings(module, "VectorSettings", "The settings of VectorMachines.");
   settings.def(nb::init<>());
   const auto slot = &BatchSettings::slot;
   const auto machine = &SlotSettings::machine;

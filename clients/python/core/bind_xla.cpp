@@ -210,8 +210,9 @@ nb::dict targets() {
 
 void bind_xla(nb::module_& module) {
   module.def("xla_targets", targets, nb::sig("def xla_targets() -> dict[str, object]"),
-             "The custom calls by name, for jax.ffi.register_ffi_target().");
-  module.def("xla_handle", handle_of, "machines"_a, "A number that names these machines in custom calls.");
+             "Returns the custom calls by name, for jax.ffi.register_ffi_target().");
+  module.def("xla_handle", handle_of, "machines"_a,
+             "Returns the number that names the machines in custom calls.");
 }
 
 }  // namespace racebeam::python

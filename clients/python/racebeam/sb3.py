@@ -19,7 +19,7 @@ from stable_baselines3.common import monitor, vec_env  # type: ignore[import-not
 
 from .arguments import WrongValue
 from .vector_env import AtariVectorEnv
-from .vector_settings import autoreset_of
+from .vector_options import autoreset_of
 
 __all__ = ["VecEnv"]
 

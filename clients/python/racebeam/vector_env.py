@@ -61,16 +61,16 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
         num_envs: Number of environments. Default: 1, or the number of names in `game`.
         batch_size: Number of environments that `recv` waits for; 0 for all.
         num_threads: Number of threads; 0 for one per processor that the process may use.
-        thread_affinity_offset: First processor to which threads are bound, one after the other, counted among those that
-            the process may use; -1 does not bind them.
+        thread_affinity_offset: Index into the processors that the process may use. Threads are bound to this one and
+            those after it; -1 does not bind them.
         max_num_frames_per_episode: Frames after which an episode is truncated; 0 for no limit.
         repeat_action_probability: Probability that a frame repeats the previous action.
         full_action_space: Whether actions are all 18 legal ones, or only those that have an effect in the game.
         continuous: Whether actions are float32 (radius, angle, fire) instead of indices.
         continuous_action_threshold: Deflection from which a direction or the button counts as pressed.
         autoreset_mode: NEXT_STEP, SAME_STEP or DISABLED of Gymnasium's AutoresetMode, or its name or value.
-        img_height: Rows of an observation: 9 to the rows of the game's screen, or 0 for all of them.
-        img_width: Columns of an observation: 1 to 160, or 0 for 160.
+        img_height: Rows of an observation: 9 to twice those of the game's screen, or 0 for its own rows.
+        img_width: Columns of an observation: 1 to 320, or 0 for the 160 of the screen.
         grayscale: Whether observations are shades of grey. If False, they have a last axis of 3 colours.
         stack_num: Screens in an observation, 1 to 16, oldest first.
         frameskip: Frames per step, 1 to 1000. A step stops early if the episode ends.
@@ -212,15 +212,29 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
             machines = make_local_machines(names, game_of_env, rom, options)
         else:
             machines = _remote_machines(names, rom, options, server, token, seconds("timeout", timeout))
-        self._use(machines, names, game_of_env, options)
-        self._first_seed = None if seed is None else options.seed
+        self._use(machines, names, game_of_env, options, None if seed is None else options.seed)
 
-    def _use(self, machines: Machines, names: list[str], game_of_env: Numbers, options: VectorOptions) -> None:
-        """Sets the attributes, for machines that were made with these options."""
+    def _use(
+        self,
+        machines: Machines,
+        names: list[str],
+        game_of_env: Numbers,
+        options: VectorOptions,
+        first_seed: int | None = None,
+    ) -> None:
+        """Sets the attributes, for machines that were made with these options.
+
+        Args:
+            machines: The machines.
+            names: Names of the games.
+            game_of_env: For each environment, the index of its game.
+            options: The options.
+            first_seed: Seed of the first reset. It is forgotten when something is played before.
+        """
+        self._first_seed = first_seed
         self._machines: Any = machines
         self._options = options
         self._games = [names[index] for index in game_of_env]
-        self._first_seed: int | None = None  # of the constructor, until a call plays
         self.num_envs = options.num_envs
         self.batch_size: int = options.batch_size
         self.autoreset_mode = autoreset_of(options.autoreset_mode)

@@ -57,6 +57,26 @@ TEST_CASE("A small screen is made of means over areas") {
   }
 }
 
+// The digests are those of what OpenCV 4 makes with INTER_AREA of the same pixels.
+TEST_CASE("A screen that grows is interpolated as OpenCV does it") {
+  Bytes in(std::size_t(160 * 210));
+  for (std::size_t y = 0; y < 210; ++y) {
+    for (std::size_t x = 0; x < 160; ++x) in[y * 160 + x] = std::uint8_t(x * 37 + y * 91 + x * y);
+  }
+  const auto [width, height, expected] =
+      GENERATE(table<int, int, std::uint64_t>({{224, 224, 0xb5fcf816f7f4cfafu},
+                                               {320, 420, 0x6584f848f00d28a5u},
+                                               {161, 84, 0x871dc228454d4841u},
+                                               {84, 250, 0x9ff272c3de388dabu},
+                                               {160, 211, 0xb2c2f91c99bfe474u}}));
+  Bytes out(std::size_t(width * height));
+  Enlargement(160, 210, width, height)(in, out);
+  std::uint64_t digest = 0xcbf29ce484222325u;  // FNV-1a
+  for (const std::uint8_t byte : out) digest = (digest ^ byte) * 0x100000001b3u;
+  CHECK(digest == expected);
+  CHECK_THROWS_WITH(Enlargement(160, 210, 513, 84), Catch::Contains("can't be enlarged to 513 x 84"));
+}
+
 TEST_CASE("A plane of one colour stays so, and one of the same size is copied") {
   Bytes out(kSmallSize);
   AreaResize(160, 210, 84, 84)(Bytes(160 * 210, 200), out);
@@ -159,10 +179,10 @@ TEST_CASE("A stack can be filled with its newest screen, and refuses sizes that 
   for (std::size_t age = 0; age < 3; ++age)
     CHECK(std::ranges::equal(std::span(shown).subspan(age * kSmallSize, kSmallSize),
                              std::span(before).last(kSmallSize)));
-  CHECK_THROWS_WITH(ScreenStack({.depth = 1, .width = 161}, environment),
-                    "the width of an observation is 161; it takes 1 to 160, or 0 for the screen's own");
+  CHECK_THROWS_WITH(ScreenStack({.depth = 1, .width = 321}, environment),
+                    "the width of an observation is 321; it takes 1 to 320, or 0 for the screen's own");
   CHECK_THROWS_WITH(ScreenStack({.depth = 1, .height = 8}, environment),
-                    "the height of an observation is 8; it takes 9 to 210, or 0 for the screen's own");
+                    "the height of an observation is 8; it takes 9 to 420, or 0 for the screen's own");
 }
 
 TEST_CASE("An act can draw its frames from a range, and a few can run by themselves") {

@@ -216,7 +216,7 @@ class Refused(unittest.TestCase):
                     with self.subTest(actions=actions), self.assertRaises(error):
                         envs.step(actions)
                 self.assertEqual(envs.step([0, 0])[0].shape, (2, 4, 84, 84))
-            for arguments in ({"mode": 7}, {"difficulty": 9}, {"img_width": 161}, {"rom": b"x" * 600000}):
+            for arguments in ({"mode": 7}, {"difficulty": 9}, {"img_width": 321}, {"rom": b"x" * 600000}):
                 for where in (None, address):
                     with self.subTest(arguments=arguments, server=where), self.assertRaises(InvalidInput):
                         AtariVectorEnv("beamfall", 2, server=where, **arguments)

@@ -33,8 +33,8 @@ and infos are equal to the byte for the same seeds and actions. These are the di
 16. A paddle's strength, or a part of a continuous action, that is infinite or NaN is an InvalidInput; ale_py plays it.
 17. AtariEnv refuses a repeat_action_probability outside of 0 to 1, a negative max_num_frames_per_episode, a
     continuous_action_threshold that is not a number, and a frameskip above 2,147,483,647. It takes integers of NumPy.
-18. AtariVectorEnv has screens of 1 to 160 columns, and of 9 rows to those of the game's screen; ale_py enlarges
-    screens. stack_num ends at 16, noop_max and frameskip at 1000; ale_py takes more.
+18. AtariVectorEnv has screens of 1 to 320 columns, and of 9 rows to twice those of the game's screen. stack_num ends
+    at 16, noop_max and frameskip at 1000. ale_py takes more.
 19. AtariVectorEnv with max_num_frames_per_episode=0 has no limit; ale_py truncates each step.
 20. If img_width and img_height divide the screen evenly, such as 80 x 105 of 160 x 210, a mean that ends in .5 may be
     rounded differently: a pixel may differ by 1.

@@ -22,9 +22,8 @@ The arguments and the keys of the infos are those of EnvPool. These are the diff
 6.  With batch_size below num_envs, actions without env_id are for the environments that were received last; xla() needs
     env_id.
 7.  Resizing is by area: use_inter_area_resize=False is accepted only for screens of full size, 210 x 160.
-    max_num_players is
-    1. Screens have 1 to 160 columns and 9 to 210 rows; EnvPool also enlarges them. stack_num ends at 16, noop_max and
-    frame_skip at 1000; EnvPool takes more.
+    max_num_players is 1. Screens have 1 to 320 columns and 9 to 420 rows. stack_num ends at 16, noop_max and frame_skip
+    at 1000. EnvPool takes more.
 8.  The least reward in a spec is negative. render() also returns the screens with render_mode=None; it has no other
     size, and no window. make(env_type="gym") has gym_reset_return_info False in its config, unless it is given.
 9.  register() is missing: the tasks are the games of racebeam. The internals of racebeam.envpool.atari are missing,

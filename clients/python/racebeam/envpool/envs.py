@@ -30,6 +30,15 @@ class Envs(AtariVectorEnv):
 
     Args:
         spec: Spec of the task.
+
+    Example:
+        >>> from racebeam.envpool import make_spec
+        >>> from racebeam.envpool.envs import Envs
+        >>> envs = Envs(make_spec("Beamfall-v5", num_envs=3))
+        >>> envs.send_resets_of(envs.every[:2])
+        >>> envs.receive().env_id.tolist()
+        [0, 1]
+        >>> envs.close()
     """
 
     def __init__(self, spec: EnvSpec) -> None:

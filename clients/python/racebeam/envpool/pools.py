@@ -47,6 +47,15 @@ class EnvPool:
         MissingImage: If no image of the game is found.
 
     All methods raise ClosedEnvironmentError after `close`, and RuntimeError in a child process after a fork.
+
+    Example:
+        >>> from racebeam import envpool
+        >>> with envpool.make_gymnasium("Beamfall-v5", num_envs=4, batch_size=2) as envs:
+        ...     envs.async_reset()
+        ...     observations, *_, info = envs.recv()
+        ...     envs.send([0, 1], info["env_id"])
+        >>> observations.shape
+        (2, 4, 84, 84)
     """
 
     def __init__(self, spec: EnvSpec, render_env_id: Any = 0, render_mode: str | None = None) -> None:

@@ -51,6 +51,14 @@ class RawPool:
 
     Args:
         spec: Spec of the task.
+
+    Example:
+        >>> from racebeam.envpool import make_spec
+        >>> from racebeam.envpool.raw import RawPool
+        >>> pool = RawPool(make_spec("Beamfall-v5", num_envs=2))
+        >>> pool._reset([0, 1])
+        >>> dict(zip(pool._state_keys, pool._recv()))["obs"].shape
+        (2, 4, 84, 84)
     """
 
     def __init__(self, spec: EnvSpec) -> None:
