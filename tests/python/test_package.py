@@ -36,11 +36,13 @@ class Import(unittest.TestCase):
                       "ale = racebeam.ALEInterface(); ale.loadROM('builtin:beamfall'); ale.act(1); print(ale.getScreenRGB().shape)\n"
                       "for name in ('AtariEnv', 'AtariVectorEnv', 'register_ale_ids'):\n"
                       "    try: getattr(racebeam, name)()\n"
-                      "    except ImportError as error: print(error)")
+                      "    except ImportError as error: print(error)\n"
+                      "try: import racebeam.envpool\n"
+                      "except ImportError as error: print(error)")
         done = python(only_numpy)
         self.assertEqual(done.stdout.splitlines(), ["(210, 160, 3)", *(
             f'racebeam.{name} needs Gymnasium; install it with: pip install "racebeam[gymnasium]"'
-            for name in ("AtariEnv", "AtariVectorEnv", "register_ale_ids"))], done.stderr)
+            for name in ("AtariEnv", "AtariVectorEnv", "register_ale_ids", "envpool"))], done.stderr)
 
     def test_nothing_heavy_is_imported_before_it_is_used(self):
         heavy = "'pygame', 'ale_py', 'jax', 'torch', 'stable_baselines3', 'cv2'"

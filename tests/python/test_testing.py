@@ -36,7 +36,7 @@ def on_server(kind):
         self.addCleanup(folder.cleanup)
         address = f"unix:{os.path.join(folder.name, 'socket')}"
         ready = os.path.join(folder.name, "ready")
-        server = racebeam.program.path(), "serve", "--listen", address, "--ready-file", ready
+        server = racebeam.program.path(), "serve", "--log-level", "warning", "--listen", address, "--ready-file", ready
         self.addCleanup(stop, os.posix_spawn(server[0], server, os.environ))
         return kind("beamfall", *count, server=f"file:{ready}?wait=60")
 

@@ -129,8 +129,8 @@ class AsyncSession:
         ...     async with await aio.launch() as session:
         ...         await session.request("load", "beamfall", seed=7)
         ...         return await session.request("act", "FIRE*10")
-        >>> asyncio.run(play())[0]["frame"]
-        10
+        >>> asyncio.run(play())[0]["lives"]
+        4
     """
 
     def __init__(
