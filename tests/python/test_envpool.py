@@ -133,7 +133,7 @@ class Gymnasium(unittest.TestCase):
             self.assertEqual(envs.reset(options={"reset_mask": mask})[1]["env_id"].tolist(), [0, 2])
         self.assertEqual(envs.reset(options={"reset_mask": None})[1]["env_id"].tolist(), [0, 1, 2])
         for options, env_id, sentence in (({"reset_mask": np.zeros(3, bool)}, None, "one environment or more"), ({"reset_mask": [True]}, None, "takes 3 values"),
-                                          ({"reset_mask": "abc"}, None, "takes 3 values"), ({"foo": 1}, None, "options has 'foo'; it takes reset_mask"),
+                                          ({"reset_mask": "abc"}, None, "takes 3 values"), ({"foo": 1}, None, "options has 'foo'; it takes only reset_mask"),
                                           ({"reset_mask": [True] * 3}, np.array([1]), "env_id and reset_mask are given")):
             with self.subTest(options=options), self.assertRaisesRegex(ValueError, sentence):
                 envs.reset(env_id, options=options)
@@ -204,6 +204,20 @@ class Gymnasium(unittest.TestCase):
         seen = [make(seed=seed).reset()[0] for seed in (-1, [-1, 0, 1], [2**31 - 1, 0, 1])]
         self.assertTrue(np.array_equal(seen[0], seen[1]))
         self.assertTrue(np.array_equal(seen[1][1:], seen[2][1:]))
+
+
+class OldGymnasium(unittest.TestCase):
+    """Gymnasium 0.29.1, which CleanRL pins, has no AutoresetMode."""
+
+    def test_without_AutoresetMode_envpool_plays_and_AtariVectorEnv_says_what_it_needs(self):
+        script = ("import gymnasium.vector as v; del v.AutoresetMode\n"
+                  "import racebeam, racebeam.envpool as envpool\n"
+                  "for kind in ('gymnasium', 'gym', 'dm'):\n"
+                  "    envs = envpool.make('Beamfall-v5', env_type=kind, num_envs=2); envs.reset(); envs.step([0, 1]); envs.close(); envs.close()\n"
+                  "try: racebeam.AtariVectorEnv('beamfall', 2)\n"
+                  "except ImportError as error: print(error)")
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+        self.assertRegex(done.stdout, "AtariVectorEnv needs Gymnasium 1.1 or later, and this is .*; install it with: pip install", done.stderr)
 
 
 class Others(unittest.TestCase):

@@ -61,7 +61,7 @@ class Same(Compared):
                     self.play(here, there, 5)
 
     def test_a_reply_without_ends_is_read_as_a_whole(self):
-        with server() as (address, _), unittest.mock.patch.object(RemoteMachines, "_show_any", side_effect=AssertionError):
+        with server() as (address, _), unittest.mock.patch.object(RemoteMachines, "_fill_each", side_effect=AssertionError):
             for settings in ({}, {"obs_type": "ram", "autoreset_mode": "SameStep"}, {"grayscale": False, "stack_num": 2}):
                 with self.subTest(**settings):
                     here, there = both(address, seed=5, **settings)
