@@ -28,8 +28,8 @@ else:
 
     Observation, Action, Array = TypeVar("Observation"), TypeVar("Action"), TypeVar("Array")
 
-    class VectorEnv(Generic[Observation, Action, Array]):
-        """The part of the VectorEnv of Gymnasium 1.1 that racebeam.envpool uses."""
+    class VectorEnv(gymnasium.vector.VectorEnv, Generic[Observation, Action, Array]):
+        """A VectorEnv with the part of the interface of Gymnasium 1.1 that racebeam.envpool uses."""
 
         closed = False
         spec = None

@@ -164,7 +164,9 @@ class EnvPool:
 
     def close(self) -> None:
         """Ends the threads, and frees the memory."""
-        self._envs.close()
+        envs = self.__dict__.get("_envs")  # missing if the constructor failed
+        if envs is not None:
+            envs.close()
 
     def async_reset(self) -> None:
         """Begins new games of all environments, and drops what was not received. `recv` returns the first results."""
