@@ -123,33 +123,6 @@ TEST_CASE("Threads are bound one after the other, and to the first after the las
 
 #if !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)  // they need much address space themselves
-TEST_CASE("Threads are bound to processors that the process may use") {
-  cpu_set_t before, one;
-  REQUIRE(::sched_getaffinity(0, sizeof before, &before) == 0);
-  int last = CPU_SETSIZE - 1;
-  while (!CPU_ISSET(last, &before)) --last;
-  CPU_ZERO(&one);
-  CPU_SET(last, &one);
-  REQUIRE(::sched_setaffinity(0, sizeof one, &one) == 0);
-  std::mutex mutex;
-  std::map<std::thread::id, cpu_set_t> bound;
-  {
-    ThreadPool pool(3, {}, 1);
-    REQUIRE(::sched_setaffinity(0, sizeof before, &before) == 0);
-    std::atomic<int> waiting = 0;
-    pool.run(3, [&](std::size_t) {
-      for (++waiting; waiting < 3;) std::this_thread::yield();  // each thread has one task
-      cpu_set_t set;
-      ::sched_getaffinity(0, sizeof set, &set);
-      const std::lock_guard lock(mutex);
-      bound[std::this_thread::get_id()] = set;
-    });
-  }
-  bound.erase(std::this_thread::get_id());
-  REQUIRE(bound.size() == 2);
-  for (const auto& [thread, set] : bound) CHECK(CPU_EQUAL(&set, &one));
-}
-
 TEST_CASE("A pool whose threads cannot all be started says so, and leaves none") {
   rlimit before{};
   REQUIRE(::getrlimit(RLIMIT_AS, &before) == 0);
