@@ -540,7 +540,7 @@ class Differences(unittest.TestCase):
             with np.errstate(invalid="ignore"):
                 theirs.step(action)
                 self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", ours.step, action)
-            self.assertRaisesRegex(racebeam.InvalidInput, "not a finite number", many.step, np.array([action] * 2))
+            self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", many.step, np.array([action] * 2))
             self.assertRaisesRegex(racebeam.InvalidInput, "must be a finite number", ours.ale.act, 0, radius)
         for env, action in ((ours, np.array([0, np.inf, 0], np.float32)), (many, np.array([[0, 0, 0], [0, 0, np.inf]], np.float32))):
             self.assertRaisesRegex(racebeam.InvalidInput, "finite number", env.step, action)

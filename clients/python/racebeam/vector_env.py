@@ -576,7 +576,8 @@ class AtariVectorEnv(VectorEnv[Any, Any, Any]):
     def xla(self) -> tuple[Any, Callable[..., Any], Callable[..., Any]]:
         """Makes functions that programs compiled by JAX call. Results stay on the processor.
 
-        Errors of a compiled program are jax.errors.JaxRuntimeError.
+        From this call on, a reset without a seed continues the random generators, also the first one. Errors of a
+        compiled program are jax.errors.JaxRuntimeError.
 
         Returns:
             A handle, `reset(handle, seed=None, reset_mask=None)` and `step(handle, actions)`. Both functions return the
