@@ -1,8 +1,13 @@
 """What of the protocol a conversation uses, compared with what the server's help lists."""
 
 import itertools
+import pathlib
 import re
 import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "protocol/description"))
+import description  # noqa: E402
 
 STEPS_WITH_REQUEST = (">", "send")
 
@@ -62,3 +67,13 @@ def missing(racebeam, steps, printed):
     """A word for each thing that is not used, such as `command open`."""
     have = used(steps, printed)
     return [f"{kind} {name}" for kind, listed in expected(racebeam).items() for name in listed if name not in have[kind]]
+
+
+def undescribed(printed):
+    """The keys of printed replies that protocol/protocol.toml does not have."""
+    protocol = description.read()
+    known = {row.name for table in (protocol.fields, protocol.settings) for row in table}
+    for command in protocol.commands:
+        known |= {key.removesuffix("?") for key in (*command.reply, *command.groups)}
+    shown = {key.removeprefix("final_") for line in printed if line.startswith("ok ") for key in re.findall(r" (\w+)=", line)}
+    return sorted(key for key in shown if kind_of_size(key) not in known and not re.fullmatch(r"grey84(x\d+)?", key))

@@ -59,6 +59,9 @@ class Coverage(unittest.TestCase):
         self.assertNotIn("error code busy", coverage.missing(BINARY, steps, ["error busy"]))
         self.assertIn("choice of open lives=told", coverage.missing(BINARY, [], []))
 
+    def test_a_key_that_is_not_described_is_named(self):
+        self.assertEqual(coverage.undescribed(["ok reward=1 luck=2 final_grey84x4=3:4 grey40x30x2=5", "error luck=3"]), ["luck"])
+
     def test_it_reads_the_help_of_the_server(self):
         counts = {kind: len(names) for kind, names in coverage.expected(BINARY).items()}
         document = (SOURCE / "protocol/PROTOCOL.md").read_text()
