@@ -49,8 +49,8 @@ TEST_CASE("Player B, strengths and repetition") {
 }
 
 TEST_CASE("An unknown action is refused with the list of actions") {
-  for (const std::string word :
-       {"18", "-1", "99999999999", "", "fier", "reset", "FIRE ", "1x", "RESET", "40", "/", "1/", "/1", "1/18"}) {
+  for (const std::string word : {"18", "-1", "99999999999", "", "fier", "reset", "FIRE ", "1x", "RESET", "40",
+                                 "/", "1/", "/1", "1/18"}) {
     INFO(word);
     CHECK_THAT(refusal(word), Contains("bad-action: ") && Contains("pong takes 0=NOOP 1=FIRE"));
   }

@@ -112,8 +112,8 @@ TEST_CASE("help explains each value of a key that has a list of them") {
   LineClient client;
   CHECK_THAT(client.ask("help start"), Contains("; start=noops-fire: as in EnvPool: the no-ops, then FIRE") &&
                                            Contains("; start=noops: only the no-ops"));
-  CHECK_THAT(client.ask("help told"), Contains("; lives=told: the step that loses a life is terminated") &&
-                                          !Contains("lives=end:"));
+  CHECK_THAT(client.ask("help told"),
+             Contains("; lives=told: the step that loses a life is terminated") && !Contains("lives=end:"));
 }
 
 TEST_CASE("help says what it has help on") {
