@@ -37,7 +37,8 @@ struct Core {
   static constexpr std::int64_t kCycle = 1 << kCycleBit;
 
   // The alarm bit of the clock is set when the budget might end before the next jump; no run without a jump
-  // is longer than a window. From then on, locate() counts. Before, only jumps and branches test the bit.
+  // is longer than a window. From then on, locate() counts. Before, only jumps and branches test the bit, and
+  // whatever else adds instructions to the clock.
   static constexpr std::int64_t kAlarm = 1 << (kCycleBit - 1);
   static constexpr std::int32_t kLongestRow = 4096;
 
@@ -198,7 +199,8 @@ struct Core {
   RACEBEAM_INLINE std::uint8_t read_at_PC() { return read(PC()); }
 
   // At the end of a taken branch that may close a timer loop: skips all iterations but the last. The last one
-  // is executed for its effect on the registers.
+  // is executed for its effect on the registers. Code without a jump may follow it, so the budget is looked
+  // at here.
   RACEBEAM_INLINE void skip_timer_loop(std::int32_t period) {
     if (at >= end) return;
     const std::uint8_t* code = byte_at(at) + 3;  // the branch instruction
@@ -206,6 +208,7 @@ struct Core {
     const std::int32_t most = (budget - executed()) / 2 - 1;
     const std::int32_t turns = sure < most ? sure : most;
     clock += turns * (period * kCycle + 2);
+    look_at_budget();
   }
 
   RACEBEAM_INLINE void write(ZeroPage address, std::uint8_t value) {
