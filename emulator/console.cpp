@@ -171,6 +171,10 @@ void Console::rest() {
 
 std::span<const std::uint8_t, 128> Console::ram() const { return impl_->board.state.riot.ram; }
 
+std::uint8_t Console::read_ram(int index) {
+  return impl_->board.state.cpu.latch = ram()[static_cast<std::size_t>(index)];
+}
+
 void Console::set_ram(int index, std::uint8_t value) {
   impl_->board.state.riot.ram[static_cast<std::size_t>(index)] = value;
   impl_->board.state.cpu.latch = value;

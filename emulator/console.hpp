@@ -77,6 +77,8 @@ class Console {
   std::shared_ptr<const FrameBuffer> drawn(std::shared_ptr<FrameBuffer> picture) const;
 
   std::span<const std::uint8_t, 128> ram() const;  // $80-$FF
+  // Over the bus, on which the byte stays (docs/spec/console.md, 4).
+  std::uint8_t read_ram(int index);
   void set_ram(int index, std::uint8_t value);
   // Reads RAM and cartridge without side effects; 0 elsewhere.
   std::uint8_t peek(std::uint16_t address) const;

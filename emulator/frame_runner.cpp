@@ -37,8 +37,6 @@ void Console::Impl::step(bool observed, bool follow) {
     latches.sought |= board.tia.asked();
     note_latches(start, kAllPairs);
   }
-  // The agent reads RAM over the bus after each step (docs/spec/console.md, 4).
-  state().cpu.latch = state().riot.ram.back();
   if (!frame.open) {
     frame.lines = (3 * state().cycle - state().tia.origin) / kLineClocks;
     frame.greyed = 0;

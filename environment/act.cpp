@@ -52,6 +52,7 @@ int Environment::Impl::act(const Presses& asked, int frames) {
     if (over()) continue;
     run_frame(legal.replace(play.held), n <= drawn || each_frame);
     count_frame();
+    observe_ram();
     reward_a += rule.reward();
     reward_b += rule.reward_b();
     if (each_frame) each_frame();
@@ -83,6 +84,9 @@ void Environment::Impl::count_frame() {
   ++play.frames;
   ++play.episode_frames;
 }
+
+// Byte after byte, so that the last one stays on the bus.
+void Environment::Impl::observe_ram() { console.read_ram(kRamSize - 1); }
 
 bool Environment::Impl::truncated() const {
   const auto episode_frames = static_cast<std::int32_t>(play.episode_frames);

@@ -63,6 +63,7 @@ struct Environment::Impl {
   void run_frame(const Presses& presses, bool draw);  // and the rule after it
   void step_console(bool draw);                       // without the rule
   void count_frame();
+  void observe_ram();  // as the agent does after each act
   bool truncated() const;
   bool over() const { return rule.terminal() || truncated(); }
   Memory memory() const;

@@ -76,10 +76,15 @@ void Environment::Impl::run_reset() {
   went_on = false;
 }
 
+// Between these frames, only the rule uses the bus (docs/spec/console.md, 4).
 void Environment::Impl::run_frames(int action, int count) {
   Presses presses;
   presses.a.action = action;
-  for (int n = 0; n < count; ++n) run_frame(presses, false);
+  for (int n = 0; n < count; ++n) {
+    run_frame(presses, false);
+    if (const auto read = rule.last_byte()) console.read_ram(*read);
+  }
+  observe_ram();
 }
 
 void Environment::Impl::soft_reset() {
@@ -91,6 +96,7 @@ void Environment::Impl::soft_reset() {
 void Environment::Impl::select(int frames) {
   ControllerInput::press_select(console.inputs(), play.difficulty);
   for (int n = 0; n < frames; ++n) step_console(false);
+  observe_ram();
   run_frames(kNoop, 1);
   count_frame();
 }
@@ -104,7 +110,7 @@ void Environment::Impl::set_up_mode() {
 
     std::uint32_t random() override {
       impl.drew_at_reset = true;
-      return static_cast<std::uint32_t>(impl.random());
+      return impl.random();
     }
 
     void act(int action, int count) override {

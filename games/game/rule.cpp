@@ -1,6 +1,7 @@
 #include "games/game/rule.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <type_traits>
 
 #include "games/game/game.hpp"
@@ -36,6 +37,15 @@ bool Rule::terminal() const {
 }
 
 int Rule::lives() const { return program_ ? evaluate(program_->lives, state_.values.data(), {}) : 0; }
+
+std::optional<int> Rule::last_byte() const {
+  if (!program_) return std::nullopt;
+  for (const Instruction& instruction : std::views::reverse(program_->step.code)) {
+    if (instruction.op == Op::kRam) return instruction.value;
+    if (instruction.op == Op::kRamAt || instruction.op == Op::kMemAt) return std::nullopt;
+  }
+  return std::nullopt;
+}
 
 bool Rule::keeps_variables() const {
   return program_ && std::ranges::any_of(program_->variables, &Variable::kept);

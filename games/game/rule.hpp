@@ -58,6 +58,10 @@ class Rule {
   int lives() const;
   int initial_lives() const;  // lives() right after a reset; "loss of life" is relative to it
 
+  // The byte of RAM that step() reads last, 0-127. Nothing if it reads none, or if that depends on its
+  // values.
+  std::optional<int> last_byte() const;
+
   bool keeps_variables() const;  // whether a variable persists over resets
 
   const RuleState& state() const { return state_; }
