@@ -61,7 +61,7 @@ void set_checksum(State& state) {
 // Any bytes are valid in pictures, so offsets are before or after them.
 std::size_t place_in(const State& state, const Environment& machine, std::size_t number) {
   const std::size_t pictures = 2U * static_cast<std::size_t>(machine.height()) * kScreenWidth;
-  const std::size_t generator = (MersenneTwister::state_size + 1) * sizeof(std::uint32_t);
+  const std::size_t generator = (MersenneTwister::kWords + 1) * sizeof(std::uint32_t);
   const std::size_t place = number % (state.size() - pictures);
   return place < state.size() - pictures - generator ? place : place + pictures;
 }

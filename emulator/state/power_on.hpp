@@ -30,7 +30,7 @@ class SystemGenerator : public PowerOn {
     }
     engine_.discard(drawn - position_);
     position_ = ++drawn;
-    return static_cast<std::uint32_t>(engine_());
+    return engine_();
   }
 
   void fill_cartridge(std::span<std::uint8_t> ram, std::uint32_t& drawn) override {

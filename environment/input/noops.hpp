@@ -19,7 +19,7 @@ class Noops {
     const std::uint32_t uneven = -choices_ % choices_;  // 2^32 mod choices
     std::uint64_t product;
     do {
-      product = std::uint64_t{static_cast<std::uint32_t>(random_())} * choices_;
+      product = std::uint64_t{random_()} * choices_;
     } while (static_cast<std::uint32_t>(product) < uneven);
     return static_cast<int>(product >> 32);
   }

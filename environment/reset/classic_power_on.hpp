@@ -15,7 +15,7 @@ class ClassicPowerOn : public PowerOn {
 
   std::uint32_t draw(std::uint32_t& drawn) override {
     ++drawn;
-    return static_cast<std::uint32_t>(shared_());
+    return shared_();
   }
 
   // Once, when the image is loaded; resets keep the contents.

@@ -53,9 +53,8 @@ void check_sound(const Sound& sound) {
 }
 
 // A generator whose words are all zero would return only zeros.
-void check_generator(std::span<const std::uint32_t, MersenneTwister::state_size> words,
-                     std::uint32_t position) {
-  check_range("the position of the generator", position, 0, MersenneTwister::state_size);
+void check_generator(std::span<const std::uint32_t, MersenneTwister::kWords> words, std::uint32_t position) {
+  check_range("the position of the generator", position, 0, MersenneTwister::kWords);
   if (std::ranges::all_of(words, [](std::uint32_t word) { return word == 0; }))
     throw InvalidInput("invalid state: the words of the generator are all 0");
 }

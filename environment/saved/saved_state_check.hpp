@@ -15,7 +15,6 @@ void check_rule_state(const RuleState& state, const Game& game);
 void check_sound(const Sound& sound);
 
 // Checks the generator's words, and the position in them.
-void check_generator(std::span<const std::uint32_t, MersenneTwister::state_size> words,
-                     std::uint32_t position);
+void check_generator(std::span<const std::uint32_t, MersenneTwister::kWords> words, std::uint32_t position);
 
 }  // namespace racebeam

@@ -2,7 +2,7 @@
 
 #include <zlib.h>
 
-#include <sstream>
+#include <algorithm>
 
 #include "environment/saved/saved_state_check.hpp"
 
@@ -12,22 +12,17 @@ std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
   return static_cast<std::uint32_t>(crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
 }
 
-// The standard's only access to a generator's state is text.
 GeneratorWords words_of(const MersenneTwister& generator) {
-  std::stringstream text;
-  text << generator;
-  GeneratorWords words{};
-  for (std::uint32_t& word : words) text >> word;
+  GeneratorWords words;
+  std::ranges::copy(generator.words(), words.begin());
+  words.back() = generator.position();
   return words;
 }
 
 MersenneTwister generator_of(const GeneratorWords& words) {
-  check_generator(std::span(words).first<MersenneTwister::state_size>(), words.back());
-  std::stringstream text;
-  for (const std::uint32_t word : words) text << word << ' ';
-  MersenneTwister generator;
-  text >> generator;
-  return generator;
+  const auto state = std::span(words).first<MersenneTwister::kWords>();
+  check_generator(state, words.back());
+  return {state, words.back()};
 }
 
 }  // namespace racebeam::state_bytes

@@ -34,7 +34,7 @@ T take(std::span<const std::uint8_t>& bytes) {
 
 std::uint32_t checksum(std::span<const std::uint8_t> bytes);  // CRC-32, as in zlib
 
-using GeneratorWords = std::array<std::uint32_t, MersenneTwister::state_size + 1>;  // and the position
+using GeneratorWords = std::array<std::uint32_t, MersenneTwister::kWords + 1>;  // and the position
 
 GeneratorWords words_of(const MersenneTwister& generator);
 MersenneTwister generator_of(const GeneratorWords& words);  // throws InvalidInput for impossible ones

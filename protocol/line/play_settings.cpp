@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <system_error>
 
 #include "protocol/description/tables.hpp"

@@ -2,6 +2,8 @@
 #include <zlib.h>
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <random>
+#include <sstream>
 
 #include "environment/saved/saved_state_format.hpp"
 #include "environment/saved_state.hpp"
@@ -43,6 +45,31 @@ TEST_CASE("A state carries its generator through bytes") {
   for (int i = 0; i < 700; ++i) first.act(i % 18);  // past one turn of the generator's 624 words
   second.restore(*from_bytes(to_bytes(*first.save(true), first), second));
   CHECK(*second.save(true)->random == *first.save(true)->random);
+}
+
+// GNU's library writes a generator as these words in decimal, and racebeam 0.1 took them from there.
+TEST_CASE("The generator's bytes are the words of MT19937 and the position") {
+  Environment environment = counter();
+  constexpr int kActs = 400;  // of a frame, with two draws each
+  for (int i = 0; i < kActs; ++i) environment.act(i % 18);
+  const MersenneTwister random = *environment.save(true)->random;
+  const Bytes bytes = to_bytes(*environment.save(true), environment);
+  constexpr std::size_t kNumbers = 625;
+  std::array<std::uint32_t, kNumbers> numbers;
+  std::memcpy(numbers.data(), bytes.data() + bytes.size() - sizeof numbers, sizeof numbers);
+  CHECK(std::ranges::equal(std::span(numbers).first(kNumbers - 1), random.words()));
+  CHECK(numbers.back() == random.position());
+#ifdef __GLIBCXX__
+  std::mt19937 standard(5);  // the environment's seed
+  standard.discard(2 * kActs);
+  std::stringstream text;
+  text << standard;
+  for (const std::uint32_t number : numbers) {
+    std::uint32_t expected = 0;
+    text >> expected;
+    REQUIRE(number == expected);
+  }
+#endif
 }
 
 // 4K of CommaVid's scheme: counts frames in cartridge RAM that does not fit into a state, and shows the count
