@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <list>
 
+#include "games/catalogue.hpp"
 #include "games/md5.hpp"
 #include "tests/environment/steered.hpp"
 #include "tests/support/random_image.hpp"
@@ -98,6 +99,48 @@ TEST_CASE("A read that switches UA's banks takes effect at once") {
       for (int act = 0; act < 5; ++act) environment.act(0);
       CHECK(int{environment.ram()[kResult]} == 1);
     }
+}
+
+// Fills RAM with a program, apart from the two bytes given, and runs it. It takes each 25th instruction from
+// $007F, where the bits of the opcode are those on the bus: $1A, NOP, which the branch to it left there. Each
+// time that it is $38, SEC, the program counts at $E0. The step's 25,000 instructions end before it.
+std::shared_ptr<const Image> image_in_tia(std::uint8_t address, std::uint8_t value) {
+  Code bytes(4096, 0xEA);
+  const Code boot = {0xA2, 0x7F, 0xBD, 0x00, 0xF2, 0x95, 0x80, 0xCA, 0x10, 0xF8, 0xA9, 0x00, 0xA2,
+                     0xFF, 0x9A, 0xA0, 0x00, 0x18, 0xEA, 0xEA, 0xEA, 0xEA, 0xEA, 0xEA, 0xEA};
+  Code loop = {0xA5, 0xE0, 0x69, 0x00, 0x85, 0xE0, 0x18};  // $E0 += carry
+  for (int i = 0; i < 8; ++i) loop.insert(loop.end(), {0xA9, 0x00});
+  loop.resize(loop.size() + 10, 0xEA);
+  loop.insert(loop.end(), {0xA9, 0x00, 0x10, 0xDA});  // LDA #0; BPL $007F
+  std::ranges::copy(boot, bytes.begin());
+  std::ranges::copy(Code{0x4C, 0x80, 0x00}, bytes.begin() + static_cast<std::ptrdiff_t>(boot.size()));
+  const auto ram = bytes.begin() + 0x200;
+  std::fill(ram, ram + 128, std::uint8_t{0x18});
+  std::ranges::copy(loop, ram);
+  ram[0x60] = 0;
+  ram[address - 0x80] = value;
+  bytes[0xFFD] = 0xF0, bytes[0xFFC] = 0x00;
+  return image_of(std::move(bytes));
+}
+
+// The numbers are ALE's. Its agent reads all RAM after each act and each group of frames of a reset; within a
+// group, the rule of Pitfall II reads $C7 last.
+TEST_CASE("Code in the TIA finds on the bus what was accessed last, at the end of a frame too") {
+  const auto game = find_game("pitfall2");
+  const auto counts = [&](std::uint8_t address, CpuKind cpu) {
+    Environment environment(image_in_tia(address, 0x38), game, running_on(cpu));
+    std::vector<int> found;
+    for (int act = 0; act < 3; ++act) {
+      found.push_back(environment.ram()[0x60]);
+      environment.act(0);
+    }
+    return found;
+  };
+  for (const CpuKind cpu : {CpuKind::kInterpreter, CpuKind::kAuto}) {
+    CHECK(counts(0xFF, cpu) == std::vector{3, 4, 5});
+    CHECK(counts(0xC7, cpu) == std::vector{65, 65, 65});
+    CHECK(counts(0xC8, cpu) == std::vector{0, 0, 0});
+  }
 }
 
 }  // namespace
