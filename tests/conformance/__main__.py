@@ -3,8 +3,9 @@ compared.
 
 Without options, all games are played: 20,000 frames in the default settings with each of two seeds, and
 2,000 frames in every other setting. That takes less than an hour on two cores. Results are stored in
-build/conformance; for a run that differs, also its picture and its actions. Status: 0 all identical, 1 a run
-differs, 2 usage error, 77 there is nothing to compare with, 130 interrupted.
+build/conformance; for a run that differs, also its picture and its actions. With --programs, random programs
+are played instead, and only what differs is stored. Status: 0 all identical, 1 a run differs, 2 usage error,
+77 there is nothing to compare with, 130 interrupted.
 """
 
 import pathlib
@@ -24,12 +25,14 @@ import shlex
 import signal
 
 import ours
-from compare import FAILED, IDENTICAL, Comparison
+from compare import IDENTICAL, Comparison, result_of
 from images import folder as image_folder
 from images import games as images_of
 from plan import plan
 from pool import results as pool_results
+from programs import KINDS as PROGRAMS
 from progress import Progress
+from random_programs import compare_programs
 from reference import VERSION as REFERENCE_VERSION
 from report import markdown
 from results import Results
@@ -52,6 +55,9 @@ def parse_arguments():
     add("--settings", choices=["default", "sample", "all"], default="all",
         help="default: the default settings; sample: these, and a random one for each game; all (the default)")
     add("--jobs", type=int, default=os.cpu_count(), metavar="N", help="processes in parallel (default: one for each processor)")
+    add("--programs", action="store_true",
+        help="play random programs instead of games, for --minutes; --seed is the first")
+    add("--minutes", type=float, default=10, metavar="N", help="how long to play random programs (default 10)")
     add("--run", action="append", metavar="NAME", help="only this run, by its name in a report; repeatable")
     add("--resume", action="store_true", help="continue from the stored results")
     add("--out", type=pathlib.Path, default=ours.SOURCE / "build/conformance", metavar="FOLDER",
@@ -94,23 +100,18 @@ def check_numbers(options):
     for name in ("frames", "seeds", "jobs"):
         if getattr(options, name) < 1:
             raise ValueError(f"--{name} is {getattr(options, name)}; it must be 1 or more")
+    if not options.minutes > 0:
+        raise ValueError(f"--minutes is {options.minutes}; it must be more than 0")
 
 
 def chosen_runs(options, seeds):
     if options.run:
         runs = [Run.parse(name) for name in options.run]
-        check_games([run.game for run in runs])
+        check_games([run.game for run in runs if run.game not in PROGRAMS])
         return runs, []
     other_frames = options.other_frames or min(2000, options.frames)
     games = check_games(options.games.split(",")) if options.games else games_with_images()
     return plan(games, options.settings, seeds, options.frames, other_frames)
-
-
-def as_result(run, result):
-    """A result that is a sentence is the reason why the comparison failed."""
-    if not isinstance(result, str):
-        return result
-    return {"run": run.name, "verdict": FAILED, "frames": 0, "report": result}
 
 
 def compare_all(runs, options, kept):
@@ -122,7 +123,7 @@ def compare_all(runs, options, kept):
     forms = ours.FORMS if options.forms else ()
     compare = lambda run: Comparison(run, options.out, extra, forms).result()
     for run, returned in pool_results(compare, todo, options.jobs, PATIENCE):
-        result = as_result(run, returned)
+        result = result_of(run, returned)
         kept.add(result)
         if result["verdict"] != IDENTICAL:
             progress.say(f"{result['run']}: {result['verdict']}: {result['report']}")
@@ -164,11 +165,14 @@ def main():
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     try:
+        if options.programs:
+            check_numbers(options)
+            return compare_programs(options, base_seed(options.seed))
         kept, runs, gaps = prepare(options)
     except (ValueError, OSError) as error:
         parser.error(str(error))
     except KeyboardInterrupt:
-        print("\nstopped before the first run")
+        print("\nstopped")
         return INTERRUPTED
     try:
         compare_all(runs, options, kept)

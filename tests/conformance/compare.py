@@ -43,7 +43,7 @@ def differing_lists(game, reference):
 class Comparison:
     def __init__(self, run, folder, extra=(), forms=()):
         self.run, self.folder, self.extra, self.forms = run, folder, extra, forms
-        self.image = Image(run.game)
+        self.image = Image(run)
         self.steps = list(run.steps())
         self.played = 0  # steps
 
@@ -112,6 +112,13 @@ class Comparison:
         extra = f" --racebeam-options={shlex.quote(shlex.join(self.extra))}" if self.extra else ""
         yield f"  again:    scripts/conformance --run {shlex.quote(self.run.name)}{extra}"
         yield f"  racebeam: {shlex.join(map(str, command))}"
+
+
+def result_of(run, result):
+    """A result that is a sentence is the reason why the comparison failed."""
+    if not isinstance(result, str):
+        return result
+    return {"run": run.name, "verdict": FAILED, "frames": 0, "report": result}
 
 
 def table(differences):

@@ -1,5 +1,6 @@
 """Runs work on all processors, a process for each item. A process that dies or hangs affects no other."""
 
+import itertools
 import multiprocessing
 import multiprocessing.connection
 import os
@@ -74,12 +75,14 @@ def results(function, items, jobs, patience):
 
     Interrupts are blocked but for the time that it waits: elsewhere they could end half a start of a process, or half
     a line of what the caller keeps."""
-    waiting, running = list(reversed(items)), []
+    waiting, running = iter(items), []
     usual = signal.pthread_sigmask(signal.SIG_BLOCK, INTERRUPTS)
     try:
-        while waiting or running:
-            while waiting and len(running) < jobs:
-                running.append(Task(function, waiting.pop(), patience))
+        while True:
+            for item in itertools.islice(waiting, jobs - len(running)):
+                running.append(Task(function, item, patience))
+            if not running:
+                return
             ready = ready_of(running)
             for task in list(running):
                 late = time.monotonic() > task.deadline

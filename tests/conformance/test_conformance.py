@@ -26,6 +26,7 @@ import not_comparable
 import ours
 import plan
 import pool
+import programs
 from run import Run
 
 FOLDER = pathlib.Path(__file__).resolve().parent
@@ -148,6 +149,30 @@ class Verdicts(Suite):
             self.assertEqual(status, 0, printed)
 
 
+class Programs(Suite):
+    def programs(self, *words, **more):
+        return self.suite("--programs", "--minutes", "0.02", "--jobs", "1", "--seed", "7", *words, **more)
+
+    def test_programs_that_run_the_same(self):
+        status, printed = self.programs()
+        self.assertEqual(status, 0, printed)
+        self.assertRegex(printed, r"[1-9]\d* random programs from seed 7, [1-9][\d,]* frames, .* minutes: 0 differ")
+
+    def test_a_program_that_runs_differently_is_found_and_shown_again(self):
+        status, printed = self.programs("--racebeam-options=--system-seed 1")
+        self.assertEqual(status, 1, printed)
+        self.assertRegex(printed, r"random_program:.*seed=7.*: DIFFERENT: first difference in line 0")
+        again = next(line for line in printed.splitlines() if "again:" in line).split("scripts/conformance ")[1]
+        rerun = subprocess.run([*self.command(), *shlex.split(again)], capture_output=True, text=True, timeout=250)
+        self.assertEqual(rerun.returncode, 1, rerun.stdout + rerun.stderr)
+
+    def test_the_seed_determines_an_image(self):
+        for kind in programs.KINDS:
+            one, same, other = (programs.image_of(kind, seed) for seed in (1, 1, 2))
+            self.assertEqual(one, same)
+            self.assertNotEqual(one, other)
+
+
 class Keeping(Suite):
     def test_resuming_plays_only_what_is_missing(self):
         self.short("--seeds", "2")
@@ -191,7 +216,8 @@ class Keeping(Suite):
                                 (["--run", "pong:skip=x"], "'x' is not a value for skip"),
                                 (["--run", "pongg:seed=2"], "there is no image of 'pongg'"),
                                 (["--seed", "x"], "'x' is not a seed"),
-                                (["--frames", "0"], "--frames is 0")):
+                                (["--frames", "0"], "--frames is 0"),
+                                (["--programs", "--minutes", "0"], "--minutes is 0.0; it must be more than 0")):
             status, printed = self.suite(*words)
             self.assertEqual(status, 2, printed)
             self.assertIn(sentence, printed)

@@ -1,0 +1,129 @@
+"""Cartridge images with random programs, in most schemes. Each kind of program is the game of a run, such as
+`tame_program:seed=7`, and the seed determines the image.
+
+Without MC, whose block numbers the reference leaves to chance, and without AR, whose BIOS differs.
+"""
+
+import random
+
+# Size, ports of RAM at the start of each bank, signature (docs/spec/cartridges.md, 2).
+SCHEMES = [(2048, 0, ""), (4096, 0, ""), (8192, 0, ""), (8192, 256, ""), (8192, 0, "8DE01F"), (8192, 0, "853EA900"),
+           (8192, 0, "853F00853F"), (8192, 0, "8D4002"), (8192, 0, "2000D0C6C5"), (10240, 0, ""), (12288, 0, ""),
+           (16384, 0, ""), (16384, 256, ""), (32768, 0, ""), (32768, 256, ""), (65536, 0, ""), (4096, 0, "9900F4")]
+SIGNATURE_AT = 0x140
+VECTORS_EVERY = 1024  # any slice of a bank may hold the vectors
+
+TIM1T, INTIM = 0x0294, 0x0284
+LDA_ABSOLUTE, STA_ABSOLUTE, JMP, BNE, NOP = 0xAD, 0x8D, 0x4C, 0xD0, 0xEA
+FREQUENT = bytes.fromhex("A9A2A0A5B5BDB9B185868495999D918D69C9E6C6CA882060")
+IDIOMS = [bytes.fromhex(text) for text in (
+    "AD8402D0FB", "AE840210FB", "2C850210FB",  # wait for the timer
+    "A9208D9602", "A9908D9502", "A9308D9702", "A9538D9702",  # TIM64T, TIM8T, T1024T
+    "A90285008502A9008500", "A9028500850285028502A90085008501",  # a frame ends
+    "A2088502CAD0FB", "A01484028409841B8810F7",  # lines
+    "A2FF9AD8", "A21F9A68684848",  # the stack in RAM, and in the TIA
+    "F8", "F86937E919", "D8", "A9A58590A9608592209000", "A9E685A0A9B085A1A94C85A24CA000")]
+
+
+def length_of(opcode):
+    column, odd_row = opcode & 15, opcode & 16
+    if opcode in (0x00, 0x40, 0x60) or column in (8, 10):
+        return 1
+    return 3 if opcode == 0x20 or column >= 12 or odd_row and column in (9, 11) else 2
+
+
+def address(rng):
+    kind = rng.random()
+    if kind < 0.3:
+        plain = 0x1000 | rng.randrange(0x1000)
+    elif kind < 0.45:
+        plain = rng.choice([0x1FE0 | rng.randrange(0x20), 0x1000 | rng.randrange(0x100)])  # hot spots, ports
+    elif kind < 0.65:
+        plain = 0x0280 | rng.randrange(0x20)
+    elif kind < 0.75:
+        plain = 0x0180 | rng.randrange(0x80)
+    else:
+        plain = rng.choice([0, 0x40, 0x140]) | rng.randrange(0x40)
+    return plain | rng.randrange(8) << 13
+
+
+def instruction(rng):
+    opcode = rng.choice(FREQUENT) if rng.random() < 0.4 else rng.randrange(256)
+    if opcode & 31 == 18 and rng.random() < 0.98:
+        opcode = NOP  # else it would halt the CPU
+    length = length_of(opcode)
+    if length == 1:
+        return [opcode]
+    if length == 3:
+        jumps = opcode in (0x20, JMP)
+        target = 0xF040 | rng.randrange(0x1000) if jumps and rng.random() < 0.97 else address(rng)
+        return [opcode, target & 255, target >> 8]
+    if opcode & 31 == 16:
+        return [opcode, rng.choice([rng.randrange(24), 254 - rng.randrange(24), rng.randrange(256)])]
+    return [opcode, rng.choice([0x80 | rng.randrange(128), rng.randrange(64), rng.randrange(256)])]
+
+
+def plant(image, at, data):
+    room = image[at:at + len(data)]
+    image[at:at + len(data)] = data[:len(room)]
+
+
+def random_program(rng, size):
+    """All bytes are random: it soon runs in RAM and in the TIA."""
+    return bytearray(rng.randbytes(size))
+
+
+def tame_program(rng, size):
+    """Random instructions whose operands mostly make sense, and idioms of games."""
+    image = bytearray()
+    while len(image) < size:
+        image += bytes(instruction(rng))
+    del image[size:]
+    for _ in range(rng.randrange(60)):
+        plant(image, rng.randrange(size), rng.choice(IDIOMS))
+    return image
+
+
+def ram_program(rng, size):
+    """Copies random bytes to RAM and runs them, on into the TIA's addresses and back. Most frames end there."""
+    code = bytearray(rng.randbytes(128))
+    for at, opcode in enumerate(code):
+        if opcode & 31 in (2, 18) and opcode not in (0x82, 0xA2, 0xC2, 0xE2):
+            code[at] = NOP  # it would halt the CPU
+    boot = bytes.fromhex("A27FBD00F29580CA10F8A900A2FFA0009A4C8000")  # copies from $F200, jumps to $0080
+    bank = bytearray([NOP] * 4096)
+    plant(bank, 0, boot)
+    plant(bank, 0x200, code)
+    after_brk = rng.choice([0xF000, 0x0080, 0x0080 | rng.randrange(128), rng.randrange(128)])
+    plant(bank, 0xFFC, [0x00, 0xF0, after_brk & 255, after_brk >> 8])
+    return bank
+
+
+def row_program(rng, size):
+    """Waits for the timer, then runs a row of code without a jump, and counts the turns. No frame closes, so
+    each ends after 25,000 instructions."""
+    bank = [0xA9, rng.randrange(1, 256), STA_ABSOLUTE, TIM1T & 255 | rng.randrange(4), TIM1T >> 8,
+            LDA_ABSOLUTE, INTIM & 255, INTIM >> 8, BNE, 0xFB]
+    bank += [NOP] * rng.randrange(size - 128)
+    bank += [0xE6, 0xA0, BNE, 0x02, 0xE6, 0xA1, JMP, 0x00, 0xF0]  # counts at $A0
+    return bytearray(bank).ljust(size - 6, bytes([NOP])) + bytes([0x00, 0xF0] * 3)
+
+
+KINDS = {maker.__name__: maker for maker in (random_program, tame_program, ram_program, row_program)}
+
+
+def image_of(kind, seed):
+    rng = random.Random(f"{kind} {seed}")
+    if kind in ("row_program", "ram_program"):
+        return bytes(KINDS[kind](rng, 4096))
+    size, ports, signature = rng.choice(SCHEMES)
+    image = KINDS[kind](rng, size)
+    for end in range(VECTORS_EVERY, size + 1, VECTORS_EVERY):
+        for at in range(end - 6, end, 2):
+            start = 0x1000 | rng.randrange(0x1000) | rng.randrange(8) << 13
+            plant(image, at, [start & 255, start >> 8])
+    if ports:
+        for bank in range(0, size, 4096):
+            image[bank:bank + ports] = bytes([image[bank]]) * ports
+    plant(image, SIGNATURE_AT, bytes.fromhex(signature))
+    return bytes(image)
