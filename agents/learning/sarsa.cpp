@@ -128,12 +128,18 @@ double Sarsa::trace(std::size_t feature, int action) const {
   return found == traces_.end() || found->place != place(feature, action) ? 0 : double{found->size};
 }
 
+// By how much a step of 1 moves the value of these features.
+double Sarsa::gain(const ActiveFeatures& features) {
+  if (features.counts.empty()) return static_cast<double>(features.indices.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < features.counts.size(); ++i)
+    sum += double{features.count(i)} * double{features.trace(i)};
+  return sum;
+}
+
 void Sarsa::update(double error) {
-  most_active_ =
-      std::max(most_active_, features_.counts.empty()
-                                 ? static_cast<double>(features_.indices.size())
-                                 : std::accumulate(features_.counts.begin(), features_.counts.end(), 0.0));
-  const double step = settings_.step_size / most_active_ * error;
+  largest_gain_ = std::max(largest_gain_, gain(features_));
+  const double step = settings_.step_size / largest_gain_ * error;
   if (!std::isfinite(step)) {
     diverged_ = true;
     return;
@@ -198,7 +204,7 @@ void Sarsa::split(const FeatureSplit& part) {
 // Traces are empty between episodes.
 void Sarsa::write(StateWriter& out) const {
   out.put(weights_);
-  out.put(most_active_);
+  out.put(largest_gain_);
   out.put(scaled_);
   out.put(random_);
 }
@@ -206,7 +212,7 @@ void Sarsa::write(StateWriter& out) const {
 void Sarsa::read(StateReader& in) {
   const std::size_t size = weights_.size();
   in.get(weights_);
-  in.get(most_active_);
+  in.get(largest_gain_);
   in.get(scaled_);
   in.get(random_);
   if (weights_.size() != size && !grows_)

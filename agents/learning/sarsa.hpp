@@ -72,6 +72,7 @@ class Sarsa {
   void compute_all_values(const ActiveFeatures& features);
   void fetch_weights(const ActiveFeatures& features, std::size_t i) const;
   int choose();
+  static double gain(const ActiveFeatures& features);
   void update(double error);
   void move_weights(float step);
   void split(const FeatureSplit& part);
@@ -85,7 +86,7 @@ class Sarsa {
   Values values_{};            // of the state that was last seen
   ActiveFeatures features_;    // of the state in which action_ was taken
   int action_ = 0;
-  double most_active_ = 1;  // the largest sum of counts so far
+  double largest_gain_ = 1;  // so far; a step is divided by it, so that no update overshoots its target
   RewardScaler scaled_;
   bool learning_ = true, diverged_ = false;
   Random random_;
