@@ -14,6 +14,9 @@
 #include "agents/kinds/baselines.hpp"
 #include "agents/kinds/learner.hpp"
 #include "agents/kinds/planner.hpp"
+#include "agents/planning/rollout_search.hpp"
+#include "agents/planning/search_tree.hpp"
+#include "agents/planning/uct.hpp"
 
 namespace racebeam {
 namespace {
@@ -102,11 +105,23 @@ constexpr AgentSetting frames_of(double value, std::string_view source) {
 constexpr AgentSetting merge(double value, std::string_view source) {
   return {"merge_duplicates", value, 0, 1, true, source};
 }
+constexpr AgentSetting reuse(double value, std::string_view source) {
+  return {"reuse_tree", value, 0, 1, true, source};
+}
+constexpr std::string_view kLipovetzky = "Lipovetzky et al. 2015", kBandres = "Bandres et al. 2018";
+constexpr AgentSetting kWidthGamma{"gamma", 0.995, 0, 1, false, kLipovetzky};
 constexpr std::array kFullTreeSettings = {frames_of(133000, "appendix C, Full-tree search"), kGamma,
-                                          merge(0, "docs/paper-notes.md, Full tree"), kRewardScale};
-constexpr std::array kWidthSettings = {frames_of(150000, "Lipovetzky et al. 2015"),
-                                       AgentSetting{"gamma", 0.995, 0, 1, false, "Lipovetzky et al. 2015"},
-                                       merge(0, "docs/paper-notes.md, Full tree"), kRewardScale};
+                                          merge(0, "docs/paper-notes.md, Full tree"),
+                                          reuse(0, "docs/paper-notes.md, Full tree"), kRewardScale};
+constexpr std::array kWidthSettings = {
+    frames_of(150000, kLipovetzky),
+    kWidthGamma,
+    merge(0, "docs/paper-notes.md, Full tree"),
+    reuse(1, "docs/paper-notes.md, IW(1)"),
+    AgentSetting{"reward_aside", 1, 0, 1, true, "docs/paper-notes.md, IW(1)"},
+    kRewardScale};
+constexpr std::array kRolloutSettings = {frames_of(150000, "docs/paper-notes.md, Rollout-IW(1)"), kWidthGamma,
+                                         reuse(1, kBandres), kRewardScale};
 constexpr std::array kUctSettings = {AgentSetting{"simulations", 500, 1, 1e9, true, "appendix C, UCT"},
                                      AgentSetting{"depth_frames", 300, 1, 1e6, true, "appendix C, UCT"},
                                      AgentSetting{"exploration", 0.1, 0, 1e6, false, "appendix C, UCT"},
@@ -183,29 +198,47 @@ std::unique_ptr<Agent> make_perturb(const AgentContext& context) {
   return std::make_unique<FixedPolicy>(context.action, context.values["probability"], context.seed);
 }
 
-std::unique_ptr<Agent> tree_planner(const AgentContext& context, bool needs_novelty) {
-  const AgentValues& values = context.values;
-  return std::make_unique<TreePlanner>(context,
-                                       TreeSettings{.frames = values.whole("frames"),
-                                                    .discount = values["gamma"],
-                                                    .merge_duplicates = values["merge_duplicates"] != 0,
-                                                    .needs_novelty = needs_novelty,
-                                                    .reward_scale = reward_scale(values)});
+template <typename Search, typename Settings>
+std::unique_ptr<Agent> planner(const AgentContext& context, const Settings& settings) {
+  return std::make_unique<Planner<Search, Settings>>(context, settings);
 }
 
-std::unique_ptr<Agent> make_full_tree(const AgentContext& context) { return tree_planner(context, false); }
-std::unique_ptr<Agent> make_iw1(const AgentContext& context) { return tree_planner(context, true); }
+TreeSettings tree_settings(const AgentValues& values) {
+  return {.frames = values.whole("frames"),
+          .discount = values["gamma"],
+          .merge_duplicates = values["merge_duplicates"] != 0,
+          .reuse_tree = values["reuse_tree"] != 0,
+          .reward_scale = reward_scale(values)};
+}
+
+std::unique_ptr<Agent> make_full_tree(const AgentContext& context) {
+  return planner<TreeSearch>(context, tree_settings(context.values));
+}
+
+std::unique_ptr<Agent> make_iw1(const AgentContext& context) {
+  TreeSettings settings = tree_settings(context.values);
+  settings.needs_novelty = true;
+  settings.reward_aside = context.values["reward_aside"] != 0;
+  return planner<TreeSearch>(context, settings);
+}
+
+std::unique_ptr<Agent> make_rollout_iw1(const AgentContext& context) {
+  const AgentValues& values = context.values;
+  return planner<RolloutSearch>(context, RolloutSettings{.frames = values.whole("frames"),
+                                                         .discount = values["gamma"],
+                                                         .reuse_tree = values["reuse_tree"] != 0,
+                                                         .reward_scale = reward_scale(values)});
+}
 
 std::unique_ptr<Agent> make_uct(const AgentContext& context) {
   const AgentValues& values = context.values;
   const int depth = values.whole("depth_frames") / context.play.machine.frame_skip;
-  return std::make_unique<UctPlanner>(context,
-                                      UctSettings{.simulations = values.whole("simulations"),
-                                                  .depth = std::max(depth, 1),
-                                                  .exploration = values["exploration"],
-                                                  .discount = values["gamma"],
-                                                  .merge_duplicates = values["merge_duplicates"] != 0,
-                                                  .reward_scale = reward_scale(values)});
+  return planner<Uct>(context, UctSettings{.simulations = values.whole("simulations"),
+                                           .depth = std::max(depth, 1),
+                                           .exploration = values["exploration"],
+                                           .discount = values["gamma"],
+                                           .merge_duplicates = values["merge_duplicates"] != 0,
+                                           .reward_scale = reward_scale(values)});
 }
 
 double tiles(const AgentValues& values) { return values.growth("grid_width") * values.growth("grid_height"); }
@@ -337,6 +370,15 @@ constexpr std::array kKinds = {
               .megabytes = 130,
               .effort = effort_of_tree,
               .make = make_iw1},
+    AgentKind{.name = "rollout_iw1",
+              .summary = "Rollout-IW(1): random ways to states with a new byte of RAM",
+              .role = Role::kPlanner,
+              .frame_skip = {},
+              .settings = kRolloutSettings,
+              .decisions_per_second = 1,
+              .megabytes = 130,
+              .effort = effort_of_tree,
+              .make = make_rollout_iw1},
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "agents/planning/search_tree.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -21,22 +22,27 @@ TreeSearch::TreeSearch(Model& model, const TreeSettings& settings, std::uint64_t
 }
 
 int TreeSearch::choose(const Model::State& root) {
-  const std::int64_t before = model_.frames();
-  nodes_.clear();
-  nodes_.push_back({.state = root});
-  open_.assign(1, 0);
-  model_.enter(root);
-  seen_.assign(model_.features().size() * kByteValues, false);
-  is_new();
-  while (!open_.empty() && model_.frames() - before < settings_.frames) {
-    const std::uint32_t next = open_.front();
-    open_.pop_front();
-    expand(next);
-  }
-  frames_ = model_.frames() - before;
+  begin(root);
+  // Breadth-first search has a tree of so many frames. IW(1) has a search of so many new ones.
+  std::int64_t spent = -model_.frames();
+  if (!settings_.needs_novelty)
+    for (const Node& node : nodes_) spent += node.frames;
+  frames_ = -model_.frames();
+  while (!(open_.empty() && aside_.empty()) && model_.frames() + spent < settings_.frames) visit(next_open());
+  frames_ += model_.frames();
   back_up();
-  for (Node& node : nodes_) node.state = nullptr;
-  return nodes_[0].chosen == 0 ? order_[0] : nodes_[nodes_[0].chosen].action;
+  return best_action();
+}
+
+void TreeSearch::keep(int action, const Model::State& state) {
+  forget();
+  const Number child = child_of_root(action);
+  const Number twin = child == 0 || nodes_[child].twin == 0 ? child : nodes_[child].twin;
+  if (!settings_.reuse_tree || twin == 0 || !nodes_[twin].state || !model_.equal(nodes_[twin].state, state))
+    return;
+  move_root(twin);
+  nodes_[0].state = state;
+  kept_ = true;
 }
 
 void TreeSearch::write(StateWriter& out) const {
@@ -55,45 +61,85 @@ void TreeSearch::read(StateReader& in) {
 }
 
 double TreeSearch::value(int action) const {
-  for (const Node& node : nodes_)
-    if (&node != &nodes_[0] && node.parent == 0 && node.action == action)
-      return node.reward + settings_.discount * node.best;
-  return 0;
+  const Number child = child_of_root(action);
+  return child == 0 ? 0 : value(nodes_[child]);
+}
+
+// The root of a kept tree has its place in it as the reused nodes have theirs: it is not looked at again.
+void TreeSearch::begin(const Model::State& root) {
+  open_.assign(1, 0);
+  aside_.clear();
+  model_.enter(root);
+  seen_.assign(model_.features().size() * kByteValues, false);
+  if (std::exchange(kept_, false)) return;
+  nodes_.clear();
+  nodes_.push_back({.state = root});
+  is_new();
+}
+
+TreeSearch::Number TreeSearch::next_open() {
+  std::deque<Number>& queue = open_.empty() ? aside_ : open_;
+  const Number next = queue.front();
+  queue.pop_front();
+  return next;
+}
+
+void TreeSearch::visit(Number number) {
+  const bool reused = nodes_[number].first_child != 0;
+  if (!reused) expand(number);
+  const Number first = nodes_[number].first_child;
+  for (Number child = first; child < first + order_.size(); ++child) {
+    Node& node = nodes_[child];
+    if (reused) look_again(node);
+    if (node.opened) (settings_.reward_aside && node.reward > 0 ? aside_ : open_).push_back(child);
+    if (!settings_.reuse_tree && !node.opened) node.state = nullptr;
+  }
 }
 
 // The order is drawn anew at each node: where frames end in the middle of a level, no action is preferred.
-void TreeSearch::expand(std::uint32_t parent) {
-  const Model::State state = std::exchange(nodes_[parent].state, nullptr);
+void TreeSearch::expand(Number parent) {
+  const Model::State state =
+      settings_.reuse_tree ? nodes_[parent].state : std::exchange(nodes_[parent].state, nullptr);
   for (std::size_t i = order_.size(); i > 1; --i) std::swap(order_[i - 1], order_[random_.below(i)]);
-  const std::size_t first_sibling = nodes_.size();
+  const auto first_child = nodes_[parent].first_child = static_cast<Number>(nodes_.size());
   for (const int action : order_) {
     model_.enter(state);
-    add_child(parent, action, first_sibling);
+    add_child(parent, action, first_child);
   }
 }
 
-void TreeSearch::add_child(std::uint32_t parent, int action, std::size_t first_sibling) {
+void TreeSearch::add_child(Number parent, int action, Number first_sibling) {
   Node child{.parent = parent, .action = action};
+  const std::int64_t before = model_.frames();
   child.reward = scaled_(model_.act(action));
-  if (!model_.over() && (!settings_.needs_novelty || is_new())) {
-    child.state = model_.save();
-    if (settings_.merge_duplicates) {
-      child.hash = model_.hash(child.state);
-      child.twin = twin_of(child, first_sibling);
-      if (child.twin != 0) child.state = nullptr;
+  child.frames = static_cast<std::int32_t>(model_.frames() - before);
+  child.over = model_.over();
+  child.opened = !child.over && (!settings_.needs_novelty || is_new());
+  if (child.opened || (settings_.reuse_tree && !child.over)) child.state = model_.save();
+  if (child.state && settings_.merge_duplicates) {
+    child.hash = model_.hash(child.state);
+    child.twin = twin_of(child, first_sibling);
+    if (child.twin != 0) {
+      child.state = nullptr;
+      child.opened = false;
     }
   }
-  if (child.state) open_.push_back(static_cast<std::uint32_t>(nodes_.size()));
   nodes_.push_back(std::move(child));
 }
 
-std::uint32_t TreeSearch::twin_of(const Node& child, std::size_t first_sibling) const {
-  for (std::size_t i = first_sibling; i < nodes_.size(); ++i) {
+TreeSearch::Number TreeSearch::twin_of(const Node& child, Number first_sibling) const {
+  for (Number i = first_sibling; i < nodes_.size(); ++i) {
     const Node& other = nodes_[i];
-    if (other.state && other.hash == child.hash && model_.equal(other.state, child.state))
-      return static_cast<std::uint32_t>(i);
+    if (other.state && other.hash == child.hash && model_.equal(other.state, child.state)) return i;
   }
   return 0;
+}
+
+// A node that was not new in a search before can be so now.
+void TreeSearch::look_again(Node& node) {
+  if (node.opened || !node.state) return;
+  model_.enter(node.state);
+  node.opened = is_new();
 }
 
 bool TreeSearch::is_new() {
@@ -108,18 +154,57 @@ bool TreeSearch::is_new() {
   return found;
 }
 
-// Children come behind their parents and their parents' siblings, so that one way back is enough. Of equal
-// children the first one drawn stays.
+// One way back is enough: the children of a twin come behind all of its siblings.
 void TreeSearch::back_up() {
+  const double none = -std::numeric_limits<double>::infinity();
+  for (Node& node : nodes_) node.best = node.first_child == 0 ? 0 : none;
   for (std::size_t i = nodes_.size() - 1; i > 0; --i) {
     if (nodes_[i].twin != 0) nodes_[i].best = nodes_[nodes_[i].twin].best;
     Node& parent = nodes_[nodes_[i].parent];
-    const double value = nodes_[i].reward + settings_.discount * nodes_[i].best;
-    if (parent.chosen == 0 || value >= parent.best) {
-      parent.best = value;
-      parent.chosen = static_cast<std::uint32_t>(i);
-    }
+    parent.best = std::max(parent.best, value(nodes_[i]));
   }
+}
+
+// Of actions with equal values, one that does not end the episode, by lot.
+int TreeSearch::best_action() {
+  const Number first = nodes_[0].first_child;
+  if (first == 0) return order_[random_.below(order_.size())];
+  const auto rank = [this](Number child) { return std::pair(value(nodes_[child]), !nodes_[child].over); };
+  std::vector<Number> best;
+  for (Number child = first; child < first + order_.size(); ++child) {
+    if (!best.empty() && rank(child) < rank(best[0])) continue;
+    if (!best.empty() && rank(child) > rank(best[0])) best.clear();
+    best.push_back(child);
+  }
+  return nodes_[best[random_.below(best.size())]].action;
+}
+
+TreeSearch::Number TreeSearch::child_of_root(int action) const {
+  if (nodes_.empty() || nodes_[0].first_child == 0) return 0;
+  Number child = nodes_[0].first_child;
+  while (nodes_[child].action != action) ++child;
+  return child;
+}
+
+// Drops all nodes but those of the subtree of `to`, which keep their order.
+void TreeSearch::move_root(Number to) {
+  std::vector<Number> number_of(nodes_.size());  // 0: it is dropped, or is the new root
+  std::vector<Node> kept;
+  kept.push_back(std::move(nodes_[to]));
+  kept[0].parent = kept[0].twin = 0;
+  kept[0].frames = 0;
+  kept[0].reward = 0;
+  for (Number number = to + 1; number < nodes_.size(); ++number) {
+    const Number parent = nodes_[number].parent;
+    if (parent != to && number_of[parent] == 0) continue;
+    number_of[number] = static_cast<Number>(kept.size());
+    Node& node = kept.emplace_back(std::move(nodes_[number]));
+    node.parent = number_of[parent];
+    node.twin = number_of[node.twin];
+    Number& first_child = kept[node.parent].first_child;
+    if (first_child == number) first_child = number_of[number];
+  }
+  nodes_ = std::move(kept);
 }
 
 }  // namespace racebeam

@@ -19,6 +19,8 @@ struct TreeSettings {
   double discount = 0.999;
   bool merge_duplicates = false;  // paper-notes: of siblings in the same state one is expanded
   bool needs_novelty = false;     // IW(1)
+  bool reuse_tree = false;        // paper-notes: the next tree begins with the chosen child's
+  bool reward_aside = false;      // paper-notes: nodes with a reward are opened when no others are left
   RewardScale reward_scale = RewardScale::kFirst;  // paper-notes
 };
 
@@ -26,10 +28,17 @@ class TreeSearch {
  public:
   TreeSearch(Model& model, const TreeSettings& settings, std::uint64_t seed);
 
-  // The action with the largest discounted sum of rewards.
+  // The action with the largest discounted sum of rewards. Begins with the tree that keep() left, if there is
+  // one.
   int choose(const Model::State& root);
 
-  std::size_t nodes() const { return nodes_.size(); }  // of the last search
+  // After choose(): with `reuse_tree`, the subtree of `action` is the beginning of the next tree, if the
+  // world went to `state` as it did.
+  void keep(int action, const Model::State& state);
+
+  void forget() { kept_ = false; }
+
+  std::size_t nodes() const { return nodes_.size(); }  // of the tree
   double value(int action) const;                      // of the root's child; 0: it has none
   std::int64_t frames() const { return frames_; }      // of the last search
 
@@ -39,31 +48,44 @@ class TreeSearch {
   void read(StateReader& in);
 
  private:
+  using Number = std::uint32_t;
   struct Node {
-    Model::State state = nullptr;  // empty: it need not be expanded, or has been
+    Model::State state = nullptr;  // empty: it is never expanded
     std::uint64_t hash = 0;
-    std::uint32_t parent = 0;
+    Number parent = 0;
+    Number first_child = 0;  // all children stand together; 0: it has not been expanded
+    Number twin = 0;         // the sibling in the same state, which is expanded for both; 0: none
     int action = 0;
+    std::int32_t frames = 0;  // of the action
+    bool over = false;
+    bool opened = false;  // it was new when it was looked at, so that it is to be expanded
     double reward = 0;
-    double best = 0;           // over the children: reward + discount * value
-    std::uint32_t chosen = 0;  // the child that gives it; 0: no child
-    std::uint32_t twin = 0;    // the sibling in the same state, which is expanded for both; 0: none
+    double best = 0;  // over the children: reward + discount * best
   };
 
-  void expand(std::uint32_t parent);
-  void add_child(std::uint32_t parent, int action, std::size_t first_sibling);
-  std::uint32_t twin_of(const Node& child, std::size_t first_sibling) const;
+  void begin(const Model::State& root);
+  Number next_open();
+  void visit(Number number);
+  void expand(Number parent);
+  void add_child(Number parent, int action, Number first_sibling);
+  Number twin_of(const Node& child, Number first_sibling) const;
+  void look_again(Node& node);
   bool is_new();  // whether the model's place has a byte that was not seen in this search
+  double value(const Node& child) const { return child.reward + settings_.discount * child.best; }
   void back_up();
+  int best_action();
+  Number child_of_root(int action) const;  // 0: there is none
+  void move_root(Number to);
 
   Model& model_;
   const TreeSettings settings_;
   Random random_;
   RewardScaler scaled_;
-  std::vector<Node> nodes_;         // a parent before its children
-  std::deque<std::uint32_t> open_;  // to be expanded
-  std::vector<bool> seen_;          // of each byte of the features, each value
-  std::vector<int> order_;          // of the actions at a node; each draw begins with the one before
+  std::vector<Node> nodes_;          // a parent before its children, and these behind its siblings
+  bool kept_ = false;                // they are the next tree's
+  std::deque<Number> open_, aside_;  // to be visited
+  std::vector<bool> seen_;           // of each byte of the features, each value
+  std::vector<int> order_;           // of the actions at a node; each draw begins with the one before
   std::int64_t frames_ = 0;
 };
 

@@ -16,7 +16,7 @@ BASELINE_VIEWS = ("random", "const", "perturb")  # const and perturb: the best o
 _BASELINE = re.compile("random|(const|perturb)[-_].+")  # such as const_noop
 # In the order of tables. Other agents follow those of their role, which agents.csv says; without it, they are learners.
 _LEARNERS = ("basic", "bass", "disco", "lsh", "ram", "blob_prost")
-_PLANNERS = ("full_tree", "uct", "iw1")
+_PLANNERS = ("full_tree", "uct", "iw1", "rollout_iw1")
 
 
 Trials = dict[tuple[str, str], npt.NDArray[np.float64]]  # by agent and game

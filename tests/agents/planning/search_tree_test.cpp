@@ -138,3 +138,139 @@ TEST_CASE("Values are the same with and without merging, in a world of penalties
     }
   }
 }
+
+namespace {
+
+// A line of places. Action 1 goes on, and action 0 stays. Each place is new by its number.
+Arrow along(int place, int action) { return {place + action, 0}; }
+
+TreeSettings iw1(std::int64_t frames) {
+  return {.frames = frames,
+          .discount = 0.995,
+          .needs_novelty = true,
+          .reuse_tree = true,
+          .reward_scale = RewardScale::kNone};
+}
+
+}  // namespace
+
+TEST_CASE("A kept tree is that of the chosen child, and costs IW(1) no frames") {
+  ToyModel model(2, along);
+  TreeSearch search(model, iw1(100), 1);  // ten nodes are expanded
+  search.choose(ToyModel::place(0));
+  REQUIRE(search.nodes() == 21);
+  search.keep(1, ToyModel::place(1));
+  CHECK(search.nodes() == 19);  // without the root and the child that stayed
+  search.choose(ToyModel::place(1));
+  CHECK(search.frames() == 100);
+  CHECK(search.nodes() == 39);
+}
+
+TEST_CASE("Breadth-first search counts the frames of the tree that it keeps") {
+  ToyModel model(2, along);
+  TreeSettings settings =
+      iw1(300);  // 30 nodes are expanded: four levels of 1, 2, 4 and 8, and 15 of the next
+  settings.needs_novelty = false;
+  TreeSearch search(model, settings, 1);
+  search.choose(ToyModel::place(0));
+  REQUIRE(search.frames() == 300);
+  search.keep(1, ToyModel::place(1));
+  const std::size_t kept = search.nodes();
+  search.choose(ToyModel::place(1));
+  CHECK(search.nodes() == 61);
+  CHECK(search.frames() == 5 * static_cast<std::int64_t>(61 - kept));
+}
+
+TEST_CASE("A kept tree gives the values of one that is built anew") {
+  const auto world = [](int place, int action) -> Arrow {
+    return {3 * place + action + 1, static_cast<double>((place * 7 + action * 5) % 11) - 4};
+  };
+  ToyModel model(3, world);
+  TreeSettings settings{
+      .frames = 5 * 3 * 13, .discount = 0.5, .reward_scale = RewardScale::kNone};  // 3 levels
+  settings.merge_duplicates = GENERATE(false, true);
+  TreeSettings reusing = settings;
+  reusing.reuse_tree = true;
+  TreeSearch anew(model, settings, 1), kept(model, reusing, 2);
+  int place = 0;
+  for (int decision = 0; decision < 3; ++decision) {
+    anew.choose(ToyModel::place(place));
+    const int action = kept.choose(ToyModel::place(place));
+    for (int each = 0; each < 3; ++each) CHECK(kept.value(each) == anew.value(each));
+    place = world(place, action).place;
+    kept.keep(action, ToyModel::place(place));
+  }
+}
+
+TEST_CASE("A tree is built anew if the world did not go where the tree did, or if nobody kept it") {
+  ToyModel model(2, along);
+  TreeSearch search(model, iw1(100), 1);
+  search.choose(ToyModel::place(0));
+  search.keep(1, ToyModel::place(5));
+  search.choose(ToyModel::place(5));
+  CHECK(search.nodes() == 21);
+  search.choose(ToyModel::place(5));
+  CHECK(search.nodes() == 21);
+  TreeSettings plain = iw1(100);
+  plain.reuse_tree = false;
+  TreeSearch forgets(model, plain, 1);
+  forgets.choose(ToyModel::place(0));
+  forgets.keep(1, ToyModel::place(1));
+  forgets.choose(ToyModel::place(1));
+  CHECK(forgets.nodes() == 21);
+}
+
+// From 0, actions 0 and 1 lead to 256 and 257; from there, both lead to 512 + action. Their bytes: (0, 1),
+// (1, 1), then (0, 2), (1, 2). So the children of the second one to be opened are pruned at first.
+TEST_CASE("What was pruned in one search is looked at again in the next") {
+  const auto world = [](int place, int action) -> Arrow {
+    if (place == 0) return {256 + action, 0};
+    if (place < 512) return {512 + action, 0};
+    return {place + 256, 0};
+  };
+  ToyModel model(2, world);
+  TreeSearch search(model, iw1(1000000), 1);
+  search.choose(ToyModel::place(0));
+  const std::size_t first = search.nodes();
+  int second = 0;  // the action whose subtree is small
+  for (const int action : {0, 1}) {
+    TreeSearch copy(model, iw1(1000000), 1);
+    copy.choose(ToyModel::place(0));
+    copy.keep(action, ToyModel::place(256 + action));
+    if (copy.nodes() == 3) second = action;
+  }
+  search.keep(second, ToyModel::place(256 + second));
+  REQUIRE(search.nodes() == 3);
+  search.choose(ToyModel::place(256 + second));
+  CHECK(search.nodes() > 100);
+  CHECK(first > 100);
+}
+
+TEST_CASE("Nodes with a reward are opened when no others are left") {
+  // At 0, action 0 gives a reward, and action 1 does not. Behind each is a line of places.
+  const auto world = [](int place, int action) -> Arrow {
+    if (place == 0) return action == 0 ? Arrow{1000, 1} : Arrow{1, 0};
+    return {place == 50 ? 50 : place + 1, 0};
+  };
+  ToyModel model(2, world);
+  for (const bool aside : {false, true}) {
+    TreeSettings settings = iw1(5 * 2 * 21);
+    settings.reward_aside = aside;
+    TreeSearch search(model, settings, 1);
+    CHECK(search.choose(ToyModel::place(0)) == 0);
+    search.keep(0, ToyModel::place(1000));
+    CHECK(search.nodes() == (aside ? 1 : 21));  // half of the other 20 nodes, or none
+  }
+  TreeSettings rich = iw1(1000000);
+  rich.reward_aside = true;
+  TreeSearch search(model, rich, 1);
+  search.choose(ToyModel::place(0));
+  search.keep(0, ToyModel::place(1000));
+  CHECK(search.nodes() > 40);  // in the end it was opened
+}
+
+TEST_CASE("Of equal actions, one that ends the episode is not chosen") {
+  ToyModel model(3, [](int place, int action) -> Arrow { return {place, 0, action != 1}; });
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    CHECK(TreeSearch(model, settings(2, 3), seed).choose(ToyModel::place(0)) == 1);
+}
