@@ -35,6 +35,10 @@ void put_in_order(Shape& runs) {
 
 }  // namespace
 
+Velocity way(const Box& from, const Box& to) { return {to.x() - from.x(), to.y() - from.y()}; }
+
+bool within(const Velocity& way, int reach) { return std::abs(way.x) <= reach && std::abs(way.y) <= reach; }
+
 void ObjectList::clear() {
   objects_.clear();
   runs_.clear();
@@ -54,13 +58,13 @@ ScreenObject& ObjectList::add(const Box& box, int area, ShapeView shape) {
   return objects_.back();
 }
 
-const ScreenObject* ObjectList::nearest(const ScreenObject& object, ShapeView shape_of_it) const {
+const ScreenObject* ObjectList::nearest(const ScreenObject& object, ShapeView shape_of_it, int reach) const {
   const ScreenObject* best = nullptr;
   std::tuple<bool, int> least;  // whether the shapes differ, and the square of the distance
   for (const ScreenObject& other : objects_) {
-    const int x = std::abs(other.box.x() - object.box.x()), y = std::abs(other.box.y() - object.box.y());
-    if (x > kMostVelocity || y > kMostVelocity || !of_similar_area(object, other)) continue;
-    const std::tuple found(other.key != object.key, x * x + y * y);
+    const Velocity velocity = way(other.box, object.box);
+    if (!within(velocity, reach) || !of_similar_area(object, other)) continue;
+    const std::tuple found(other.key != object.key, velocity.x * velocity.x + velocity.y * velocity.y);
     if (best && found >= least) continue;
     if (other.key != object.key &&
         difference(shape_of_it, shape(other)) * 100 > std::max(object.area, other.area) * kDifferentPercent)
@@ -84,8 +88,8 @@ void MovingObjects::see(Screen screen) {
   for (const Region& region : regions_.all()) {
     const ShapeView shape = regions_.shape(region);
     ScreenObject& object = now_.regions.add(region.box, region.area, shape);
-    if (const ScreenObject* const earlier = before_.regions.nearest(object, shape))
-      object.velocity = {object.box.x() - earlier->box.x(), object.box.y() - earlier->box.y()};
+    if (const ScreenObject* const earlier = before_.regions.nearest(object, shape, reach_))
+      object.velocity = way(earlier->box, object.box);
   }
   join_neighbours();
 }

@@ -2,18 +2,27 @@
 // the same velocity are joined (docs/paper-notes.md, "Objects").
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "agents/features/regions.hpp"
 
 namespace racebeam {
 
-constexpr int kMostVelocity = 8;  // appendix C, "Maximum object velocity (pixels)"
+// How far an object goes in a decision of so many frames, in x and in y: 8 pixels a frame (appendix C,
+// "Maximum object velocity (pixels)").
+constexpr int reach_of(int frame_skip) { return std::min(8 * frame_skip, kFeatureHeight); }
 
 struct Velocity {
   int x, y;  // pixels a decision
   bool operator==(const Velocity&) const = default;
 };
+
+// The way from the centre of one box to that of another.
+Velocity way(const Box& from, const Box& to);
+
+// Whether an object can go so far: `reach` pixels in x and in y.
+bool within(const Velocity& way, int reach);
 
 struct ScreenObject {
   Box box;
@@ -37,10 +46,9 @@ class ObjectList {
     return ShapeView(runs_).subspan(object.first_run, object.run_count);
   }
 
-  // The nearest object that `object`, of this shape, can have been: at most 8 pixels away in x and in y, of
-  // the same shape, or else of an area within a factor of 1.2 with at most 10 % of pixels different. Null:
-  // there is none.
-  const ScreenObject* nearest(const ScreenObject& object, ShapeView shape) const;
+  // The nearest object that `object`, of this shape, can have been: within reach, of the same shape, or else
+  // of an area within a factor of 1.2 with at most 10 % of pixels different. Null: there is none.
+  const ScreenObject* nearest(const ScreenObject& object, ShapeView shape, int reach) const;
 
  private:
   std::vector<ScreenObject> objects_;
@@ -49,14 +57,19 @@ class ObjectList {
 
 class MovingObjects {
  public:
-  explicit MovingObjects(const Background& background) : regions_(background) {}
+  // No object goes further than `reach` pixels, in x or in y, from one screen to the next.
+  MovingObjects(const Background& background, int reach) : regions_(background), reach_(reach) {}
 
   void forget();  // the screen before
   void see(Screen screen);
 
   const ObjectList& objects() const { return now_.objects; }  // regions that are not joined, and joined ones
-  const ObjectList& before() const { return before_.objects; }  // those of the screen before
   const ScreenObject& part(std::uint32_t place) const { return now_.regions.all()[parts_[place]]; }
+
+  // The object of the screen before that `object` was; null: it was not there.
+  const ScreenObject* earlier(const ScreenObject& object) const {
+    return before_.objects.nearest(object, now_.objects.shape(object), reach_);
+  }
 
  private:
   struct Seen {
@@ -67,6 +80,7 @@ class MovingObjects {
   std::uint32_t root(std::uint32_t region);
 
   Regions regions_;
+  const int reach_;
   Seen now_, before_;
   std::vector<std::uint32_t> parent_;  // of each region: an earlier one of its object, or itself
   std::vector<std::uint32_t> parts_;   // regions in the order of objects

@@ -13,7 +13,6 @@ namespace racebeam {
 namespace {
 
 constexpr int kLeastScreensPercent = 20;     // appendix C, "Minimum frequency of class appearance"
-constexpr int kLeastMovedPercent = 5;        // of a class's objects; paper-notes
 constexpr int kLeastRange = 16;              // of their centres, in pixels, in x or in y; paper-notes
 constexpr std::size_t kMostShapes = 200000;  // later ones are noise
 constexpr PixelRun kNoRun{255, 255, 255};
@@ -74,7 +73,7 @@ std::uint32_t ClassDiscovery::shape_number(const ScreenObject& object) {
   if (const auto found = number_of_.find(object.key); found != number_of_.end()) return found->second;
   if (shapes_.size() == kMostShapes) return kNoShape;
   const ShapeView shape = objects_.objects().shape(object);
-  const std::uint32_t class_number = class_of_new(object, shape);
+  const std::uint32_t class_number = class_of_new(object);
   const auto number = static_cast<std::uint32_t>(shapes_.size());
   for (int mirror = 0; mirror < kMirrors; ++mirror)
     number_of_.emplace(key_of(mirrored(shape, mirror)), number);
@@ -83,8 +82,8 @@ std::uint32_t ClassDiscovery::shape_number(const ScreenObject& object) {
 }
 
 // The class of an object whose shape is new: that of the object that it was, or a class of its own.
-std::uint32_t ClassDiscovery::class_of_new(const ScreenObject& object, ShapeView shape) {
-  if (const ScreenObject* const earlier = objects_.before().nearest(object, shape))
+std::uint32_t ClassDiscovery::class_of_new(const ScreenObject& object) {
+  if (const ScreenObject* const earlier = objects_.earlier(object))
     if (const auto found = number_of_.find(earlier->key); found != number_of_.end())
       return shapes_[found->second].class_number;
   classes_.emplace_back();
@@ -98,14 +97,10 @@ void ClassDiscovery::count(const ScreenObject& object, SeenClass& seen) const {
   seen.right = std::max(seen.right, object.box.x());
   seen.top = std::min(seen.top, object.box.y());
   seen.bottom = std::max(seen.bottom, object.box.y());
-  if (!object.velocity) return;
-  ++seen.tracked;
-  seen.moved += object.velocity != Velocity{0, 0};
 }
 
 bool ClassDiscovery::is_kept(const SeenClass& seen) const {
   return std::int64_t{seen.screens} * 100 >= std::int64_t{screens_} * kLeastScreensPercent &&
-         std::int64_t{seen.moved} * 100 >= std::int64_t{seen.tracked} * kLeastMovedPercent &&
          std::max(seen.right - seen.left, seen.bottom - seen.top) >= kLeastRange;
 }
 
@@ -150,7 +145,7 @@ void ClassDiscovery::merge_nearest(std::vector<ShapeNumbers>& classes) const {
 
 ObjectClasses discover_classes(const Cartridge& cartridge, const SampleSettings& settings,
                                const Background& background) {
-  ClassDiscovery discovery(background);
+  ClassDiscovery discovery(background, reach_of(settings.play.machine.frame_skip));
   FeatureScreen screen;
   sample_screens(cartridge, settings, settings.class_screens, settings.seed,
                  [&](const Environment& machine, bool first) { discovery.add(screen.of(machine), first); });

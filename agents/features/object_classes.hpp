@@ -19,13 +19,14 @@ using ObjectClasses = std::vector<ObjectClass>;
 
 class ClassDiscovery {
  public:
-  explicit ClassDiscovery(const Background& background) : objects_(background) {}
+  // `reach`: of objects from screen to screen, in pixels.
+  ClassDiscovery(const Background& background, int reach) : objects_(background, reach) {}
 
   // `first`: of a trajectory, so that nothing has moved on the way to it.
   void add(Screen screen, bool first);
 
-  // The classes that are frequent and move, merged until there are few enough; in the order in which they
-  // were first seen.
+  // The classes that are frequent and not restricted to a small region, merged until there are few enough; in
+  // the order in which they were first seen.
   ObjectClasses classes() const;
 
  private:
@@ -38,11 +39,10 @@ class ClassDiscovery {
     int last_screen = -1;
     int screens = 0;                                                        // on which it was
     int left = kFeatureWidth, right = 0, top = kFeatureHeight, bottom = 0;  // of the centres of its objects
-    int tracked = 0, moved = 0;  // objects that were on the screen before, and those with a velocity
   };
 
   std::uint32_t shape_number(const ScreenObject& object);
-  std::uint32_t class_of_new(const ScreenObject& object, ShapeView shape);
+  std::uint32_t class_of_new(const ScreenObject& object);
   void count(const ScreenObject& object, SeenClass& seen) const;
   bool is_kept(const SeenClass& seen) const;
   void most_frequent_first(ShapeNumbers& shapes) const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <functional>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -17,17 +18,28 @@ bool approach(int distance, int velocity) {
   return (distance > 0 && velocity < 0) || (distance < 0 && velocity > 0);
 }
 
+std::uint32_t approaches(const Velocity& distance, const Velocity& velocity) {
+  return static_cast<std::uint32_t>(approach(distance.x, velocity.x)) +
+         2 * static_cast<std::uint32_t>(approach(distance.y, velocity.y));
+}
+
 }  // namespace
 
-InstanceFinder::InstanceFinder(const Background& background, const ObjectClasses& classes)
-    : objects_(background) {
+InstanceFinder::InstanceFinder(const Background& background, const ObjectClasses& classes, int reach)
+    : reach_(reach), objects_(background, reach) {
   for (std::uint32_t number = 0; number < classes.size(); ++number)
     for (const Shape& shape : classes[number])
       for (int mirror = 0; mirror < kMirrors; ++mirror)
         class_of_.emplace(key_of(mirrored(shape, mirror)), number);
 }
 
+void InstanceFinder::forget() {
+  objects_.forget();
+  instances_.clear();
+}
+
 const std::vector<Instance>& InstanceFinder::find(Screen screen) {
+  std::swap(instances_, before_);
   instances_.clear();
   objects_.see(screen);
   for (const ScreenObject& object : objects_.objects().all()) {
@@ -46,23 +58,55 @@ const std::vector<Instance>& InstanceFinder::find(Screen screen) {
 bool InstanceFinder::add(const ScreenObject& object) {
   const auto found = class_of_.find(object.key);
   if (found == class_of_.end()) return false;
-  instances_.push_back({found->second, object.area, object.box, object.velocity.value_or(Velocity{0, 0})});
+  instances_.push_back({found->second, object.area, object.box,
+                        object.velocity ? *object.velocity : velocity_by_class(found->second, object.box)});
   return true;
 }
 
-ObjectFeatures::ObjectFeatures(const Background& background, const ObjectClasses& classes, int tilings,
-                               int grid)
-    : finder_(background, classes),
-      places_(kFeatureWidth, kFeatureHeight, tilings, grid),
-      distances_(2 * kFeatureWidth - 1, 2 * kFeatureHeight - 1, tilings, grid),
+// Of an object that looks different on the screen before, as animated ones do: its way from the nearest
+// object of its class. Without one, it is at rest.
+Velocity InstanceFinder::velocity_by_class(std::uint32_t class_number, const Box& box) const {
+  Velocity velocity{0, 0};
+  int least = std::numeric_limits<int>::max();
+  for (const Instance& other : before_) {
+    const Velocity found = way(other.box, box);
+    const int square = found.x * found.x + found.y * found.y;
+    if (other.class_number != class_number || !within(found, reach_) || square >= least) continue;
+    least = square;
+    velocity = found;
+  }
+  return velocity;
+}
+
+ObjectFeatures::ObjectFeatures(const Background& background, const ObjectClasses& classes,
+                               const ObjectSettings& settings)
+    : finder_(background, classes, settings.reach),
+      velocity_(settings.velocity),
+      count_instances_(settings.count_instances),
+      places_(kFeatureWidth, kFeatureHeight, settings.tilings, settings.grid),
+      distances_(2 * kFeatureWidth - 1, 2 * kFeatureHeight - 1, settings.tilings, settings.grid),
+      velocities_(4 * settings.reach + 1, 4 * settings.reach + 1, settings.tilings, settings.grid),
+      fastest_(2 * settings.reach),
       classes_(static_cast<std::uint32_t>(classes.size())),
       first_place_(classes_),
       first_pair_(first_place_ + classes_ * places_.size()),
-      counts_(first_pair_ + pairs_of(classes_) * kApproaches * distances_.size()),
-      counted_(counts_.size() / 64 + 1) {}
+      size_(first_pair_ + pairs_of(classes_) * motions() * distances_.size()) {}
+
+// How many motions of a pair a tiling tells apart.
+std::uint32_t ObjectFeatures::motions() const {
+  return velocity_ == PairVelocity::kTiles ? velocities_.tiles() : kApproaches;
+}
+
+std::uint32_t ObjectFeatures::motion(std::uint32_t tiling, const Velocity& distance,
+                                     const Velocity& velocity) const {
+  if (velocity_ == PairVelocity::kApproach) return approaches(distance, velocity);
+  return velocities_.tile(tiling, velocity.x + fastest_, velocity.y + fastest_) -
+         tiling * velocities_.tiles();
+}
 
 void ObjectFeatures::extract(Screen screen, ActiveFeatures& active) {
   active.clear();
+  if (counts_.empty()) make_room();
   const std::vector<Instance>& instances = finder_.find(screen);
   std::array<bool, kMostClasses> present{};
   for (const Instance& instance : instances) present[instance.class_number] = true;
@@ -77,6 +121,12 @@ void ObjectFeatures::extract(Screen screen, ActiveFeatures& active) {
   take_counts(active);
 }
 
+// Late, so that a learner refuses too many features before memory is taken.
+void ObjectFeatures::make_room() {
+  counts_.resize(size_);
+  counted_.resize(size_ / 64 + 1);
+}
+
 void ObjectFeatures::add(std::uint32_t feature) {
   ++counts_[feature];
   counted_[feature / 64] |= std::uint64_t{1} << (feature % 64);
@@ -89,7 +139,8 @@ void ObjectFeatures::take_counts(ActiveFeatures& active) {
       const auto feature =
           static_cast<std::uint32_t>(word * 64) + static_cast<std::uint32_t>(std::countr_zero(left));
       active.indices.push_back(feature);
-      active.counts.push_back(std::exchange(counts_[feature], 0.0F));
+      const float count = std::exchange(counts_[feature], 0.0F);
+      if (count_instances_) active.counts.push_back(count);
     }
   }
 }
@@ -99,13 +150,13 @@ void ObjectFeatures::add_pair(const Instance& one, const Instance& other) {
   if (one.class_number == other.class_number) return;
   const auto& [from, to] =
       one.class_number < other.class_number ? std::tie(one, other) : std::tie(other, one);
-  const int x = to.box.x() - from.box.x(), y = to.box.y() - from.box.y();
-  const auto approaches = static_cast<std::uint32_t>(approach(x, to.velocity.x - from.velocity.x)) +
-                          2 * static_cast<std::uint32_t>(approach(y, to.velocity.y - from.velocity.y));
-  const std::uint32_t pair = pair_index(from.class_number, to.class_number);
-  const std::uint32_t first = first_pair_ + (pair * kApproaches + approaches) * distances_.size();
+  const Velocity distance = way(from.box, to.box);
+  const Velocity velocity{to.velocity.x - from.velocity.x, to.velocity.y - from.velocity.y};
+  const std::uint32_t first =
+      first_pair_ + pair_index(from.class_number, to.class_number) * motions() * distances_.size();
   for (std::uint32_t tiling = 0; tiling < distances_.tilings(); ++tiling)
-    add(first + distances_.tile(tiling, x + kFeatureWidth - 1, y + kFeatureHeight - 1));
+    add(first + motion(tiling, distance, velocity) * distances_.size() +
+        distances_.tile(tiling, distance.x + kFeatureWidth - 1, distance.y + kFeatureHeight - 1));
 }
 
 }  // namespace racebeam

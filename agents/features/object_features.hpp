@@ -19,44 +19,68 @@ struct Instance {
 // Finds the instances of classes on one screen after the other.
 class InstanceFinder {
  public:
-  InstanceFinder(const Background& background, const ObjectClasses& classes);
+  // `reach`: of objects from screen to screen, in pixels.
+  InstanceFinder(const Background& background, const ObjectClasses& classes, int reach);
 
-  void forget() { objects_.forget(); }  // the screen before
+  void forget();  // the screen before
 
   // The largest first; at most 50 of a class.
   const std::vector<Instance>& find(Screen screen);
 
  private:
   bool add(const ScreenObject& object);
+  Velocity velocity_by_class(std::uint32_t class_number, const Box& box) const;
 
+  const int reach_;
   MovingObjects objects_;
   std::unordered_map<ShapeKey, std::uint32_t> class_of_;  // of shapes and their mirror images
-  std::vector<Instance> instances_;
+  std::vector<Instance> instances_, before_;
+};
+
+// How a pair's features tell relative velocities apart (docs/paper-notes.md, "Objects").
+enum class PairVelocity {
+  kTiles,    // tiles of position and velocity together
+  kApproach  // tiles of the position, in four sets: the two approach in x, in y, in both, or in none
+};
+
+// Defaults: the paper, appendix C, where not said otherwise.
+struct ObjectSettings {
+  int tilings = 8, grid = 8;
+  int reach = reach_of(5);  // of objects from decision to decision, in pixels
+  PairVelocity velocity = PairVelocity::kTiles;
+  bool count_instances = true;  // paper-notes: a feature of several instances is there so often, or once
 };
 
 class ObjectFeatures final : public FeatureSet {
  public:
-  ObjectFeatures(const Background& background, const ObjectClasses& classes, int tilings, int grid);
+  ObjectFeatures(const Background& background, const ObjectClasses& classes, const ObjectSettings& settings);
 
-  std::size_t size() const override { return counts_.size(); }
+  std::size_t size() const override { return size_; }
   void begin_episode() override { finder_.forget(); }
   void extract(const Environment& machine, ActiveFeatures& active) override {
     extract(screen_.of(machine), active);
   }
 
-  // Of C classes: that a class is absent; the tiles of its instances; for each pair of classes, whether two
-  // instances approach each other in x (1) and in y (2), and the tiles of the second as seen from the first.
-  // Features that several instances have are counted.
+  // Of C classes: that a class is absent; the tiles of its instances; for each pair of classes and each
+  // motion, the tiles of where the second one's instances are, as seen from the first.
   void extract(Screen screen, ActiveFeatures& active);
 
  private:
+  void make_room();
   void add(std::uint32_t feature);
   void add_pair(const Instance& one, const Instance& other);
   void take_counts(ActiveFeatures& active);
 
+  std::uint32_t motions() const;
+  std::uint32_t motion(std::uint32_t tiling, const Velocity& distance, const Velocity& velocity) const;
+
   InstanceFinder finder_;
-  TileCoding places_, distances_;
+  const PairVelocity velocity_;
+  const bool count_instances_;
+  const TileCoding places_, distances_, velocities_;
+  const int fastest_;  // of relative velocities, in x and in y
   std::uint32_t classes_, first_place_, first_pair_;
+  std::size_t size_;
   std::vector<float> counts_;           // of each feature; 0 between calls
   std::vector<std::uint64_t> counted_;  // a bit for each feature with a count
   FeatureScreen screen_;

@@ -23,7 +23,8 @@ class TileCoding {
   }
 
   std::uint32_t tilings() const { return tilings_; }
-  std::uint32_t size() const { return tilings_ * side_ * side_; }
+  std::uint32_t tiles() const { return side_ * side_; }  // of a tiling
+  std::uint32_t size() const { return tilings_ * tiles(); }
 
   // The tile of a place in a tiling, among those of all tilings.
   std::uint32_t tile(std::uint32_t tiling, int x, int y) const {

@@ -12,8 +12,9 @@ namespace racebeam {
 namespace {
 
 constexpr auto kClassesFooter =
-    R"(Plays random actions, and finds objects: what is not the background, and moves. Objects of similar shapes are
-a class. DISCO learns from where the objects of at most ten classes are.
+    R"(Plays random actions, and finds objects: what is not the background. Objects of similar shapes are a class,
+which is left out if it is rare, or stays within a small region. DISCO learns from where the objects of at most
+ten classes are, and how they move.
 Writes to FOLDER:
   GAME.background   the background, as racebeam background finds it
   GAME.classes      for experiments: they take both from RESULTS/games if seed and numbers of screens are theirs
@@ -31,7 +32,8 @@ void write_class_files(DiscoveryOptions& options) {
   const std::string base = write_background(background, cartridge, options);
   replace_file(base + ".classes", bytes_of(classes, background, cartridge, options.samples), Durable::kLater);
   draw_classes(base + "-classes.png", classes);
-  draw_objects(base + "-objects.png", background, classes, sample_screen(cartridge, options.samples));
+  draw_objects(base + "-objects.png", background, classes, sample_screen(cartridge, options.samples),
+               reach_of(options.samples.play.machine.frame_skip));
   std::size_t shapes = 0;
   for (const ObjectClass& one : classes) shapes += one.size();
   std::printf("%s.classes and its pictures are written: %zu classes of %zu shapes\n", base.c_str(),

@@ -101,13 +101,13 @@ void draw_classes(const std::string& path, const ObjectClasses& classes) {
 }
 
 void draw_objects(const std::string& path, const Background& background, const ObjectClasses& classes,
-                  const ScreenPair& screens) {
+                  const ScreenPair& screens, int reach) {
   Picture picture;
   for (const std::uint8_t index : screens.last) {
     const auto grey = static_cast<std::uint8_t>(grey_table(Format::kNtsc)[index & ~1U] / 2);
     picture.push_back({grey, grey, grey});
   }
-  InstanceFinder finder(background, classes);
+  InstanceFinder finder(background, classes, reach);
   finder.find(screen_of(screens.before));
   for (const Instance& instance : finder.find(screen_of(screens.last))) {
     const Box& box = instance.box;

@@ -28,6 +28,6 @@ void draw_classes(const std::string& path, const ObjectClasses& classes);
 
 // The screen in grey, and the objects that are found on it in the colours of their classes.
 void draw_objects(const std::string& path, const Background& background, const ObjectClasses& classes,
-                  const ScreenPair& screens);
+                  const ScreenPair& screens, int reach);
 
 }  // namespace racebeam

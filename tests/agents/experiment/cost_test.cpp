@@ -25,7 +25,7 @@ TEST_CASE("Time and memory follow the settings that change them") {
         Case{"full_tree", "frames = 266000\n", 2, 2}, Case{"iw1", "frames = 1500000\n", 10, 10},
         Case{"basic", "grid_width = 32\n", 2, 2}, Case{"bass", "grid_width = 32\ngrid_height = 42\n", 36, 36},
         Case{"lsh", "vectors = 4000\n", 2, 2}, Case{"lsh", "buckets = 100\n", 1, 1.5},
-        Case{"disco", "tilings = 16\ngrid = 16\n", 2, 8}, Case{"ram", "alpha = 0.1\n", 1, 1}}) {
+        Case{"disco", "tilings = 16\ngrid = 16\n", 2, 32}, Case{"ram", "alpha = 0.1\n", 1, 1}}) {
     INFO(each.agent << " " << each.settings);
     const Cost usual = cost_with(each.agent, ""), cost = cost_with(each.agent, each.settings);
     CHECK(cost.core_hours / usual.core_hours == Approx(each.time));

@@ -28,7 +28,7 @@ TEST_CASE("A shape has four mirror images, and differs from others by pixels") {
 }
 
 TEST_CASE("An object has the velocity with which it came from the nearest like it") {
-  MovingObjects seen({});
+  MovingObjects seen({}, 8);
   seen.see(DrawnScreen().draw(50, 60, kBird).pixels);
   REQUIRE(seen.objects().all().size() == 1);
   CHECK(!seen.objects().all()[0].velocity);
@@ -45,7 +45,7 @@ TEST_CASE("An object has the velocity with which it came from the nearest like i
 }
 
 TEST_CASE("A shape of which a tenth has changed is the same object, of which more has is not") {
-  MovingObjects seen({});
+  MovingObjects seen({}, 8);
   const Pattern block = {"#####", "#####", "#####", "#####"};
   seen.see(DrawnScreen().draw(50, 60, block).pixels);
   seen.see(DrawnScreen().draw(52, 60, {"#### ", "#####", "#####", " ####"}).pixels);
@@ -56,7 +56,7 @@ TEST_CASE("A shape of which a tenth has changed is the same object, of which mor
 }
 
 TEST_CASE("The same shape is preferred to a nearer one that is similar") {
-  MovingObjects seen({});
+  MovingObjects seen({}, 8);
   const Pattern block = {"#####", "#####"}, dented = {"#### ", "#####"};
   seen.see(DrawnScreen().draw(50, 60, dented).draw(50, 66, block).pixels);
   seen.see(DrawnScreen().draw(50, 61, block).pixels);
@@ -67,7 +67,7 @@ TEST_CASE("Neighbours that move alike are one object, and others are not") {
   const auto screen = [](int x, int legs) {
     return DrawnScreen().draw(x, 20, {" ## ", "####"}, 3).draw(legs, 22, {"#  #", "#  #"}, 4).pixels;
   };
-  MovingObjects seen({});
+  MovingObjects seen({}, 8);
   seen.see(screen(40, 40));
   CHECK(seen.objects().all().size() == 3);  // a body and two legs, of which nothing is known yet
   seen.see(screen(41, 41));
@@ -82,7 +82,7 @@ TEST_CASE("Neighbours that move alike are one object, and others are not") {
 }
 
 TEST_CASE("Neighbours in a row are joined without a seam") {
-  MovingObjects seen({});
+  MovingObjects seen({}, 8);
   for (const int x : {10, 11}) seen.see(DrawnScreen().draw(x, 5, {"##"}, 3).draw(x + 2, 5, {"##"}, 4).pixels);
   REQUIRE(seen.objects().all().size() == 1);
   CHECK(seen.objects().all()[0].key == key_of(shape_of({"####"})));

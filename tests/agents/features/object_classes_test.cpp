@@ -16,6 +16,7 @@ const Pattern kFish = {" ###  #", "#######", " ###  #"};
 const Pattern kFishTurned = {"#  ### ", "#######", "#  ### "};
 const Pattern kDiver = {" # ", "###", " # ", "# #", "# #"};
 const Pattern kRare = {"#####", "#   #", "#####"};
+const Pattern kBow = {"#   #", " # # ", "  #  ", "  #  "};
 const Pattern kStill = {"####", "####"};
 
 // A place on a way of so many pixels, to and fro.
@@ -29,7 +30,7 @@ bool goes_right(int step, int range) { return step % (2 * range) < range; }
 }  // namespace
 
 TEST_CASE("A drawn world has the right classes: mirrored, not rare, not still") {
-  ClassDiscovery discovery({});
+  ClassDiscovery discovery({}, 8);
   for (int step = 0; step < 1000; ++step) {
     DrawnScreen screen;
     screen.draw(20 + to_and_fro(step, 100), 50, goes_right(step, 100) ? kFishTurned : kFish);
@@ -41,8 +42,24 @@ TEST_CASE("A drawn world has the right classes: mirrored, not rare, not still") 
   CHECK(discovery.classes() == ObjectClasses{{shape_of(kFishTurned)}, {shape_of(kDiver)}});
 }
 
+// Heroes and invaders: where they stand, they look as on the screen before; where they go, they do not.
+TEST_CASE("What is fast, or looks different at each step, is a class") {
+  ClassDiscovery discovery({}, 40);
+  for (int step = 0; step < 1000; ++step) {
+    DrawnScreen screen;
+    const int steps = step - step % 10 / 9;  // each tenth screen shows the one before
+    screen.draw(20 + to_and_fro(12 * steps, 96), 50, steps % 2 == 0 ? kFish : kDiver);
+    screen.draw(20 + to_and_fro(steps, 100), 100, steps % 2 == 0 ? kRare : kBow);
+    screen.draw(140, 20, kStill);
+    discovery.add(screen.pixels, step == 0);
+  }
+  ObjectClasses classes = discovery.classes();
+  const ObjectClasses wanted{{shape_of(kFish)}, {shape_of(kRare)}, {shape_of(kDiver)}, {shape_of(kBow)}};
+  CHECK(classes == wanted);
+}
+
 TEST_CASE("What moves within a small region is no class") {
-  ClassDiscovery near({}), far({});
+  ClassDiscovery near({}, 8), far({}, 8);
   for (int step = 0; step < 100; ++step) {
     near.add(DrawnScreen().draw(20 + to_and_fro(step, 15), 50, kFish).pixels, step == 0);
     far.add(DrawnScreen().draw(20 + to_and_fro(step, 16), 50, kFish).pixels, step == 0);
@@ -53,7 +70,7 @@ TEST_CASE("What moves within a small region is no class") {
 
 TEST_CASE("A shape that another one turned into is of its class") {
   const Pattern open = {"######", "####  ", "######"}, shut = {"######", "##### ", "######"};
-  ClassDiscovery discovery({}), leaps({});
+  ClassDiscovery discovery({}, 8), leaps({}, 8);
   for (int step = 0; step < 100; ++step) {
     const DrawnScreen screen = DrawnScreen().draw(20 + step, 50, step % 3 == 0 ? open : shut);
     discovery.add(screen.pixels, step == 0);
@@ -64,7 +81,7 @@ TEST_CASE("A shape that another one turned into is of its class") {
 }
 
 TEST_CASE("Of more than ten classes, those of the most similar shapes are merged") {
-  ClassDiscovery discovery({});
+  ClassDiscovery discovery({}, 8);
   for (int step = 0; step < 60; ++step) {
     DrawnScreen screen;
     for (int number = 0; number < 11; ++number) {  // bars of 3, 6, ... pixels, and one of 31

@@ -13,6 +13,10 @@ namespace {
 const Pattern kArrow = {"## ", " ##"}, kArrowTurned = {" ##", "## "};
 const Pattern kBlock = {"###", "###", "###"};
 
+ObjectSettings settings(PairVelocity velocity, int tilings, int grid, int reach = 8) {
+  return {.tilings = tilings, .grid = grid, .reach = reach, .velocity = velocity, .count_instances = true};
+}
+
 ObjectClasses two_classes() { return {{shape_of(kArrow)}, {shape_of(kBlock)}}; }
 
 std::map<std::uint32_t, float> features(ObjectFeatures& set, const DrawnScreen& screen) {
@@ -40,17 +44,21 @@ TEST_CASE("Tiles are as long as the side divided by the grid, and each tiling is
   CHECK(coding.tile(7, 159, 209) == 7 * 81 + 8 * 9 + 8);
 }
 
-TEST_CASE("DISCO has a feature for each absent class, tile of a class, and tile of a pair") {
+TEST_CASE("DISCO has a feature for each absent class, tile of a class, and motion and tile of a pair") {
   constexpr std::size_t tiles = 8 * 9 * 9;
-  CHECK(ObjectFeatures({}, two_classes(), 8, 8).size() == 2 + 2 * tiles + 4 * tiles);
-  CHECK(ObjectFeatures({}, ObjectClasses(10, {shape_of(kBlock)}), 8, 8).size() ==
-        10 + 10 * tiles + 45 * 4 * tiles);
-  CHECK(ObjectFeatures({}, {}, 8, 8).size() == 0);
+  const auto size = [](const ObjectClasses& classes, PairVelocity velocity) {
+    return ObjectFeatures({}, classes, settings(velocity, 8, 8)).size();
+  };
+  const ObjectClasses ten(10, {shape_of(kBlock)});
+  CHECK(size(two_classes(), PairVelocity::kApproach) == 2 + 2 * tiles + 4 * tiles);
+  CHECK(size(ten, PairVelocity::kApproach) == 10 + 10 * tiles + 45 * 4 * tiles);
+  CHECK(size(ten, PairVelocity::kTiles) == 10 + 10 * tiles + 45 * 9 * 9 * tiles);
+  CHECK(size({}, PairVelocity::kTiles) == 0);
 }
 
 TEST_CASE("Every feature of a screen, with one tiling of 2 x 2") {
   // 0 and 1: absent; 2 to 10 and 11 to 19: tiles of both classes; 20 to 55: tiles of the pair
-  ObjectFeatures set({}, two_classes(), 1, 2);
+  ObjectFeatures set({}, two_classes(), settings(PairVelocity::kApproach, 1, 2));
   REQUIRE(set.size() == 2 + 2 * 9 + 4 * 9);
   using Features = std::map<std::uint32_t, float>;
   CHECK(features(set, DrawnScreen()) == Features{{0, 1}, {1, 1}});
@@ -71,7 +79,8 @@ TEST_CASE("Every feature of a screen, with one tiling of 2 x 2") {
 }
 
 TEST_CASE("Objects approach in x, in y, or in both") {
-  ObjectFeatures set({}, two_classes(), 1, 1);  // 2 and 2 x 4 features, then 4 x 4 of the pair
+  // 2 and 2 x 4 features, then 4 x 4 of the pair
+  ObjectFeatures set({}, two_classes(), settings(PairVelocity::kApproach, 1, 1));
   const auto approaches = [&](int right, int down) {
     set.begin_episode();
     features(set, DrawnScreen().draw(10, 10, kArrow).draw(60, 60, kBlock));
@@ -87,7 +96,7 @@ TEST_CASE("Objects approach in x, in y, or in both") {
 }
 
 TEST_CASE("At most 50 objects of a class count, the largest first") {
-  InstanceFinder finder({}, {{shape_of(kArrow), shape_of(kBlock)}});
+  InstanceFinder finder({}, {{shape_of(kArrow), shape_of(kBlock)}}, 8);
   DrawnScreen screen;
   for (int number = 0; number < 60; ++number)
     screen.draw(number % 20 * 8, number / 20 * 8, number < 20 ? kArrow : kBlock);
@@ -99,7 +108,7 @@ TEST_CASE("At most 50 objects of a class count, the largest first") {
 }
 
 TEST_CASE("Regions are instances where the object that they are joined to is none") {
-  InstanceFinder finder({}, two_classes());
+  InstanceFinder finder({}, two_classes(), 8);
   const auto screen = [](int x) {
     return DrawnScreen().draw(x, 5, kBlock, 3).draw(x + 3, 5, {"##"}, 4).pixels;
   };
@@ -107,4 +116,53 @@ TEST_CASE("Regions are instances where the object that they are joined to is non
   const auto& joined = finder.find(screen(11));
   REQUIRE(joined.size() == 1);
   CHECK((joined[0].class_number == 1 && joined[0].velocity == Velocity{1, 0}));
+}
+
+TEST_CASE("An object that looks different has the velocity with which one of its class came") {
+  InstanceFinder finder({}, {{shape_of(kArrow), shape_of(kBlock)}}, 40);
+  const auto velocity = [&](int x, int y, Pattern pattern) {
+    return finder.find(DrawnScreen().draw(x, y, pattern).pixels)[0].velocity;
+  };
+  CHECK(velocity(10, 10, kArrow) == Velocity{0, 0});
+  CHECK(velocity(30, 5, kBlock) == Velocity{20, -5});  // both centres are a pixel to the right, and below
+  CHECK(velocity(20, 5, kArrow) == Velocity{-10, 0});
+  CHECK(velocity(61, 5, kBlock) == Velocity{0, 0});  // out of reach
+  finder.forget();
+  CHECK(velocity(60, 5, kArrow) == Velocity{0, 0});
+}
+
+TEST_CASE("The tiles of a pair's velocity select those of its position") {
+  // 2 and 2 x 9 features, then 9 x 9 of the pair. Relative velocities from -80 to 80 have tiles of 80.5.
+  ObjectFeatures set({}, two_classes(), settings(PairVelocity::kTiles, 1, 2, 40));
+  REQUIRE(set.size() == 2 + 2 * 9 + 9 * 9);
+  const auto motion = [&](int right, int down, int left) {
+    set.begin_episode();
+    features(set, DrawnScreen().draw(50, 100, kArrow).draw(100, 100, kBlock));
+    const auto active =
+        features(set, DrawnScreen().draw(50 - left, 100, kArrow).draw(100 + right, 100 + down, kBlock));
+    return (active.rbegin()->first - 20) / 9;
+  };
+  CHECK(motion(0, 0, 0) == 0);
+  CHECK(motion(1, 0, 0) == 1);  // to the right
+  CHECK(motion(0, 1, 0) == 3);  // down
+  CHECK(motion(40, 40, 40) == 4);
+  CHECK(motion(-40, 0, -40) == 0);
+  CHECK(motion(0, 0, 1) == 1);  // the arrow goes to the left
+}
+
+TEST_CASE("A feature of two instances is there once, or twice with counts") {
+  for (const bool counted : {false, true}) {
+    ObjectSettings one_tile = settings(PairVelocity::kTiles, 1, 1);
+    one_tile.count_instances = counted;
+    ObjectFeatures set({}, two_classes(), one_tile);
+    ActiveFeatures active;
+    set.extract(DrawnScreen().draw(10, 10, kBlock).draw(30, 10, kBlock).pixels, active);
+    CHECK(active.indices == std::vector<std::uint32_t>{0, 2 + 4});
+    CHECK(active.counts == (counted ? std::vector<float>{1, 2} : std::vector<float>{}));
+  }
+}
+
+TEST_CASE("Too many features are refused before they take memory") {
+  const ObjectClasses ten(10, {shape_of(kBlock)});
+  CHECK(ObjectFeatures({}, ten, settings(PairVelocity::kTiles, 64, 64)).size() > std::size_t{40} << 30);
 }
