@@ -57,6 +57,12 @@ trials = 1
 training_frames = 10000000
 evaluation_episodes = 30
 )"},
+    ShippedPlan{"disco", "DISCO as long as in the paper, three trials in each of two games",
+                R"(name = "disco"
+games = ["asterix", "space_invaders"]
+agents = ["disco"]
+trials = 3
+)"},
     ShippedPlan{"uct", "UCT with 500 simulations, an episode in each of three games", R"(name = "uct"
 games = ["boxing", "asterix", "seaquest"]
 agents = ["uct"]

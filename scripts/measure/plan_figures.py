@@ -123,8 +123,7 @@ class Results:
         return {
             "machine": self.machine(),
             "games": self.plan["games"],
-            "settings": {agent: {name: self.settings(agent).get(name) for name in
-                                 ("frame_skip", "trials", "training_frames", "evaluation_episodes")} for agent in self.plan["agents"]},
+            "settings": {agent: self.settings(agent) for agent in self.plan["agents"]},
             "units": len(self.times),
             "episodes": {agent: dict(collections.Counter(row["game"] for row in self.rows if row["agent"] == agent))
                          for agent in self.agents},

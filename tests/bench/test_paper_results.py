@@ -92,6 +92,24 @@ class PaperResults(unittest.TestCase):
         write(self.folder / "bench/asterix-none-5.json", ['{"frames_per_second": 25000}'])
         self.assertIn("| `iw1` | 1 | 0 | 0 | 20,000 | 0.80 | 2.0% | 1 | 0 |", self.text())
 
+    def test_figures_of_agents_that_have_changed_are_named(self):
+        results(self.folder / "baselines", ["random", "const", "perturb"],
+                {"random": [[100]], "const_noop": [[10]], "perturb_up": [[33]]})
+        results(self.folder / "iw1", ["iw1"], {"iw1": [[500]]})
+        text = self.text()
+        self.assertIn("| `baselines` | perturb | an action for 5 frames; now for each frame |", text)
+        self.assertIn("| `iw1` | iw1 | built its tree anew", text)
+        self.assertNotIn("| `hour` | disco |", text)
+        for name in ("baselines", "iw1"):
+            plan = self.folder / name / "plan.toml"
+            settings = plan.read_text().replace("[agent.perturb]\nframe_skip = 5", "[agent.perturb]\nframe_skip = 1")
+            plan.write_text(settings.replace("[agent.iw1]", "[agent.iw1]\nreuse_tree = 1"))
+        self.assertNotIn("Agents that have changed", self.text())
+
+    def test_disco_stands_beside_the_paper(self):
+        results(self.folder / "disco", ["disco"], {"disco": [[700, 800]]})
+        self.assertIn("| asterix | 750.0 | 754.6 | 2 |", self.text())
+
     def test_the_document_is_laid_out_as_all_are(self):
         results(self.folder / "uct", ["uct"], {"uct": [[5]]})
         write(self.folder / "machine.txt", ["processor: one", "version: 0.1.0"])
