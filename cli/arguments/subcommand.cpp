@@ -44,7 +44,8 @@ std::optional<std::uint64_t> size_of(std::string_view text) {
 Check whole_number(std::int64_t least, std::int64_t most) {
   const auto refusal = [least, most](const std::string& text) {
     const auto number = parse_number<std::int64_t>(text);
-    if (number && *number >= least && *number <= most) return std::string{};
+    const bool is_minus_zero = number == 0 && text.starts_with('-');
+    if (number && !is_minus_zero && *number >= least && *number <= most) return std::string{};
     return "'" + text + "' is not a whole number from " + std::to_string(least) + " to " +
            std::to_string(most);
   };

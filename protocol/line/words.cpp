@@ -37,7 +37,8 @@ void split(std::string_view line, std::vector<std::string_view>& words) {
 std::int64_t number_within(std::string_view text, std::string_view what, std::int64_t least,
                            std::int64_t most) {
   const auto number = parse_number<std::int64_t>(text);
-  if (number && *number >= least && *number <= most) return *number;
+  const bool is_minus_zero = number == 0 && text.starts_with('-');  // most likely the client's mistake
+  if (number && !is_minus_zero && *number >= least && *number <= most) return *number;
   throw RequestError(ErrorCode::kBadValue, std::string(what) + " is " + quote(text) +
                                                "; it takes a whole number from " + std::to_string(least) +
                                                " to " + std::to_string(most));

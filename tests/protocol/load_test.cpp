@@ -20,6 +20,8 @@ TEST_CASE("A load that is refused leaves the game before it running") {
                                   "beamfall sticky=2",
                                   "beamfall sticky=nan",
                                   "beamfall seed=-1",
+                                  "beamfall seed=-0",
+                                  "beamfall frame_skip=-00",
                                   "beamfall seed=4294967296",
                                   "beamfall frame_skip=0",
                                   "beamfall frame_skip=4-2",
