@@ -17,8 +17,8 @@ std::shared_ptr<const Snapshot> Share::newest() {
 }
 
 std::unique_ptr<Share::Place> Share::place(const std::shared_ptr<Share>& share) {
-  if (share->watchers_++ < share->most_watchers_) return std::make_unique<Place>(share);
-  --share->watchers_;
+  auto taken = std::make_unique<Place>(share);  // its end gives back what the next line takes
+  if (share->watchers_++ < share->most_watchers_) return taken;
   return nullptr;
 }
 
@@ -42,10 +42,9 @@ void Share::publish(Snapshot snapshot, std::int64_t frames) {
 }
 
 std::shared_ptr<Share> Shares::open(const std::string& name, int most_watchers) {
+  auto share = std::make_shared<Share>(name, most_watchers);
   const std::lock_guard lock(mutex_);
-  const auto [found, is_new] = by_name_.try_emplace(name);
-  if (!is_new) return nullptr;
-  return found->second = std::make_shared<Share>(name, most_watchers);
+  return by_name_.try_emplace(name, share).second ? share : nullptr;
 }
 
 std::shared_ptr<Share> Shares::open_next(int most_watchers) {

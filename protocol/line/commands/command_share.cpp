@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <optional>
 #include <span>
 
@@ -97,7 +98,12 @@ void run_share(Session& session, Words arguments) {
   if (session.sharing && session.sharing->share().name() == name) session.sharing.reset();
   const auto share = session.service.shares->open(name, most);
   if (!share) throw RequestError(ErrorCode::kBadValue, "the name " + quote(name) + " is taken");
-  session.sharing = std::make_unique<Sharing>(session.service.shares, share);
+  try {
+    session.sharing = std::make_unique<Sharing>(session.service.shares, share);
+  } catch (const std::bad_alloc&) {
+    session.service.shares->close(*share);
+    throw;
+  }
   session.out += "ok";
   append_pair(session.out, "share", name);
   append_pair(session.out, "watchers", most);
