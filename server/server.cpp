@@ -3,33 +3,33 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <limits>
 #include <list>
 #include <memory>
+#include <stdexcept>
 
 #include "recording/recorder.hpp"
+#include "server/connections/access_control.hpp"
 #include "server/connections/connection_acceptor.hpp"
 #include "server/connections/idle_monitor.hpp"
 #include "server/connections/streams.hpp"
 #include "server/operation/announcement.hpp"
 #include "server/operation/log.hpp"
 #include "server/operation/published_file.hpp"
+#include "server/scheduling/keep_running.hpp"
 #include "server/web/http.hpp"
+#include "system/resources.hpp"
 
 namespace racebeam {
 namespace {
 
 namespace net = boost::asio;
-using net::use_awaitable;
 using namespace std::chrono_literals;
 
 // Times after the grace period: to say farewell, to send pending bytes, to finish recordings. With the
 // Recorder's own limit, no more than a second in total.
+constexpr auto kBetweenSteps = 5ms;  // of the end
 constexpr auto kFarewell = 700ms, kLastBytes = 100ms, kLastFrames = 50ms;
-
-net::awaitable<void> pause() {
-  net::steady_timer timer(co_await net::this_coro::executor, 5ms);
-  co_await timer.async_wait(use_awaitable);
-}
 
 std::shared_ptr<Recorder> recorder_of(const Services& services) {
   return services.line ? std::get<LineService>(*services.line).recorder : nullptr;
@@ -43,14 +43,16 @@ class Server {
  private:
   void start();
   void open_http();
-  void tell_limits() const;  // to the log
-  void publish();            // the ready file and the announce file
+  void tell_limits() const;       // to the log
+  int files_for_clients() const;  // throws std::runtime_error if there are none
+  void publish();                 // the ready file and the announce file
   std::string announcement() const;
-  net::awaitable<void> obey();  // handles signals
-  net::awaitable<void> stop_when_idle();
-  void stop(std::string reason);                       // for the log
-  net::awaitable<void> wind_down(std::string reason);  // waits for the grace period, then ends all
-  net::awaitable<void> end_with_recordings();
+  Task<> obey();  // handles signals
+  Task<> stop_when_idle();
+  void stop(const std::string& reason);  // for the log
+  Task<> wind_down();                    // waits for the grace period, then ends all
+  Task<> look_again();
+  Task<> end_with_recordings();
   bool sessions_ended() const;
   bool all_ended() const;
   void stop_streams(bool at_once);
@@ -61,6 +63,7 @@ class Server {
   const Services& services_;
   const std::string token_;  // for the announce file; empty: none
   Metrics metrics_;
+  AccessControl access_;
   Loops loops_;
   net::io_context& first_;
   net::signal_set signals_;
@@ -71,6 +74,8 @@ class Server {
   std::list<StreamSession> streams_;
   std::unique_ptr<Http> http_;
   bool told_to_stop_ = false, patient_ = true;
+  std::string reason_;              // to stop; empty once it is logged
+  Clock::time_point grace_;         // the end of the grace period, once the server is told to stop
   std::atomic<bool> ready_ = true;  // for /readyz
 };
 
@@ -78,11 +83,12 @@ Server::Server(const ServerSettings& settings, const Services& services)
     : settings_(settings),
       services_(services),
       token_(settings.announce.empty() ? std::string() : random_token()),
+      access_(settings, services, token_),
       loops_(static_cast<unsigned>(settings.threads), settings.busy_poll, metrics_),
       first_(loops_.first().context),
       signals_(first_, SIGTERM, SIGINT, SIGHUP),
       idle_monitor_(settings, loops_, metrics_),
-      acceptor_(settings, services, loops_, metrics_, token_),
+      acceptor_(settings, services, access_, loops_, metrics_),
       recorder_(recorder_of(services)) {
   for (const Endpoint& endpoint : settings.endpoints) {
     if (!is_stream(endpoint.address)) continue;
@@ -106,6 +112,18 @@ void Server::tell_limits() const {
   log("caches: " + settings_.caches, {{"event", "caches"}});
 }
 
+// Of few files, those that are not open yet, except some: a client that is refused takes one, too, and so do
+// --http and the token file. The settings have accounted for many.
+int Server::files_for_clients() const {
+  constexpr std::uint64_t kMany = 1024, kOthers = 4;
+  const std::uint64_t files = usable_files();
+  if (files >= kMany) return std::numeric_limits<int>::max();
+  const std::uint64_t needed = open_files(files) + kOthers;
+  if (files > needed) return static_cast<int>(files - needed);
+  throw std::runtime_error("the server may open " + std::to_string(files) +
+                           " files (ulimit -n); with these settings it needs " + std::to_string(needed + 1));
+}
+
 std::string Server::announcement() const {
   const auto& line = std::get<LineService>(*services_.line);
   const auto games = line.images->names();
@@ -125,22 +143,22 @@ void Server::publish() {
 
 void Server::start() {
   if (!acceptor_.empty()) tell_limits();
-  acceptor_.open();
+  if (!acceptor_.empty() || http_) acceptor_.open(files_for_clients());
   if (http_) open_http();
-  publish();  // may be refused
+  idle_monitor_.start();
   for (StreamSession& stream : streams_) {
     stream.start([this] {
-      net::post(first_, [this] {
-        if (sessions_ended() && !told_to_stop_) net::co_spawn(first_, end_with_recordings(), net::detached);
-      });
+      insist([this] { keep_running(first_, "the end", [this] { return end_with_recordings(); }); });
     });
   }
+  publish();  // may be refused
+  for (StreamSession& stream : streams_) stream.begin();
   notify_manager("READY=1");
 }
 
 void Server::open_http() {
   const OperatorPages pages{[this] { return ready_.load(); }, [this] { return metrics_.text(); }};
-  http_->open({pages, acceptor_.session_rules(http_->is_loopback())},
+  http_->open({pages, access_.session_rules(http_->is_loopback())},
               [this](int descriptor, HttpRequest request) {
                 acceptor_.admit_over_http(descriptor, std::move(request), http_->name());
               });
@@ -148,19 +166,20 @@ void Server::open_http() {
 }
 
 int Server::run() {
-  net::co_spawn(first_, obey(), net::detached);
-  if (settings_.until_idle_seconds > 0) net::co_spawn(first_, stop_when_idle(), net::detached);
+  loops_.start();  // the first: whoever reads that the server is ready finds a thread
+  keep_running(first_, "handling signals", [this] { return obey(); });
+  if (settings_.until_idle_seconds > 0)
+    keep_running(first_, "looking for sessions", [this] { return stop_when_idle(); });
   start();
-  idle_monitor_.start();
   loops_.run();
   return status();
 }
 
-net::awaitable<void> Server::obey() {
+Task<> Server::obey() {
   for (;;) {
-    const int number = co_await signals_.async_wait(use_awaitable);
+    const int number = co_await signals_.async_wait(use_task);
     if (number == SIGHUP) {
-      acceptor_.read_again();
+      access_.read_again();
     } else if (told_to_stop_) {
       patient_ = false;
     } else {
@@ -171,13 +190,13 @@ net::awaitable<void> Server::obey() {
 
 // Only admitted sessions count as use: strangers who knock keep no server alive. Sessions that come and go
 // between two looks are seen in the number of all.
-net::awaitable<void> Server::stop_when_idle() {
+Task<> Server::stop_when_idle() {
   const auto limit = std::chrono::seconds(settings_.until_idle_seconds);
   net::steady_timer timer(first_);
   std::int64_t counted = 0;
   for (auto used = Clock::now(); Clock::now() - used < limit;) {
     timer.expires_after(100ms);
-    co_await timer.async_wait(use_awaitable);
+    co_await timer.async_wait(use_task);
     const std::int64_t admitted = metrics_.admitted;
     if (metrics_.admitted_open > 0 || !streams_ended() || admitted != counted) used = Clock::now();
     counted = admitted;
@@ -185,34 +204,44 @@ net::awaitable<void> Server::stop_when_idle() {
   if (!told_to_stop_) stop("no session for " + std::to_string(settings_.until_idle_seconds) + " seconds");
 }
 
-void Server::stop(std::string reason) {
+// The signal has come, and comes only once.
+void Server::stop(const std::string& reason) {
+  grace_ = Clock::now() + std::chrono::seconds(settings_.grace_seconds);
+  insist([&] {
+    reason_ = reason;
+    keep_running(first_, "the end", [this] { return wind_down(); });
+  });
   told_to_stop_ = true;
-  net::co_spawn(first_, wind_down(std::move(reason)), net::detached);
 }
 
-// Unless the server is told to stop, recordings take as long as they need.
-net::awaitable<void> Server::end_with_recordings() {
-  while (!all_ended()) co_await pause();
+Task<> Server::look_again() { return pause(first_, kBetweenSteps); }
+
+// After the last session. Unless the server is told to stop, recordings take as long as they need.
+Task<> Server::end_with_recordings() {
+  if (!sessions_ended()) co_return;
+  while (!all_ended()) co_await look_again();
   if (!told_to_stop_) loops_.stop();
 }
 
 // Sessions on streams have no grace period: their client is the one that stops the server.
-net::awaitable<void> Server::wind_down(std::string reason) {
+Task<> Server::wind_down() {
   ready_ = false;
   published_.clear();  // the addresses are no longer valid
   notify_manager("STOPPING=1");
   acceptor_.close();
-  log(reason + ": " + std::to_string(metrics_.sessions_open) + " sessions have " +
-          std::to_string(settings_.grace_seconds) + " seconds to end",
-      {{"event", "stopping"}});
-  const auto grace = Clock::now() + std::chrono::seconds(settings_.grace_seconds);
-  for (; !all_ended() && patient_ && Clock::now() < grace; co_await pause()) stop_streams(false);
+  if (!reason_.empty()) {
+    log(reason_ + ": " + std::to_string(metrics_.sessions_open) + " sessions have " +
+            std::to_string(settings_.grace_seconds) + " seconds to end",
+        {{"event", "stopping"}});
+    reason_.clear();
+  }
+  for (; !all_ended() && patient_ && Clock::now() < grace_; co_await look_again()) stop_streams(false);
   idle_monitor_.end_all();
   const auto farewell = Clock::now() + kFarewell;
-  for (; !all_ended() && Clock::now() < farewell; co_await pause()) stop_streams(true);
+  for (; !all_ended() && Clock::now() < farewell; co_await look_again()) stop_streams(true);
   // Waits for connections that are being closed while their last bytes are sent.
   const auto last = Clock::now() + kLastBytes;
-  while (loops_.sessions() > 0 && Clock::now() < last) co_await pause();
+  while (loops_.sessions() > 0 && Clock::now() < last) co_await look_again();
   loops_.stop();
 }
 
@@ -240,9 +269,23 @@ int Server::status() const {
 
 }  // namespace
 
+namespace {
+
+int run(const ServerSettings& settings, const Services& services) {
+  try {
+    return Server(settings, services).run();
+  } catch (const boost::system::system_error& error) {
+    if (error.code() != boost::system::errc::too_many_files_open) throw;
+    throw std::runtime_error("the server needs more files than the " + std::to_string(usable_files()) +
+                             " that it may open (ulimit -n)");
+  }
+}
+
+}  // namespace
+
 int serve(const ServerSettings& settings, const Services& services) {
   std::signal(SIGPIPE, SIG_IGN);
-  const int status = Server(settings, services).run();
+  const int status = run(settings, services);
   // Sessions that did not end in time are gone. Their recordings are finished here.
   if (const auto recorder = recorder_of(services)) recorder->end(kLastFrames);
   return status;

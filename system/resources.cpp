@@ -1,5 +1,7 @@
 #include "system/resources.hpp"
 
+#include <fcntl.h>
+#include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -158,6 +160,21 @@ std::uint64_t usable_files() {
   if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return system_value(_SC_OPEN_MAX);
   const rlimit highest{limit.rlim_max, limit.rlim_max};
   return ::setrlimit(RLIMIT_NOFILE, &highest) == 0 ? highest.rlim_cur : limit.rlim_cur;
+}
+
+void set_thread_stacks() {
+  constexpr std::size_t kStack = std::size_t{2} << 20;
+  pthread_attr_t attributes;
+  ::pthread_attr_init(&attributes);
+  ::pthread_attr_setstacksize(&attributes, kStack);
+  ::pthread_setattr_default_np(&attributes);
+  ::pthread_attr_destroy(&attributes);
+}
+
+std::uint64_t open_files(std::uint64_t most) {
+  std::uint64_t open = 0;
+  for (std::uint64_t file = 0; file < most; ++file) open += ::fcntl(static_cast<int>(file), F_GETFD) != -1;
+  return open;
 }
 
 std::uint64_t resident_memory() {

@@ -5,6 +5,7 @@
 #endif
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -195,6 +196,8 @@ Images offered_images(const ServeOptions& options) {
 }
 
 int run_server(ServeOptions& options, const std::vector<Setting>& settings) {
+  std::signal(SIGHUP, SIG_IGN);  // until the server reads its files, which happens after this
+  set_thread_stacks();
   return_large_blocks();
   // Before anything slow, and before anything that may fail.
   remove_stale(kReadyFile, options.server.ready_file);

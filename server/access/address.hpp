@@ -30,7 +30,8 @@ struct InheritedAddress {
 
 struct StandardStreams {};
 
-// PREFIX_out for replies and PREFIX_in for requests. Missing pipes are created; the pipes remain at the end.
+// PREFIX_out for replies and PREFIX_in for requests. The server makes missing pipes, and removes them at its
+// end.
 struct Pipes {
   std::string prefix;
 };

@@ -28,26 +28,14 @@ WrongTokens::Delay WrongTokens::pause(int wrong) const {
   return std::min<Delay>(longest_, kFirstDelay * (1 << std::min(wrong - 1, kMostDoublings)));
 }
 
-WrongTokens::Delay WrongTokens::wait(const std::string& source) {
-  const std::lock_guard lock(mutex_);
-  const auto found = rows_.find(source);
-  const auto now = Clock::now();
-  if (found == rows_.end() || now - found->second.latest > kMemory) return 0ms;
-  Row& row = found->second;
-  if (now < row.next) return std::chrono::ceil<Delay>(row.next - now);
-  row.next = now + pause(row.wrong);
-  return 0ms;
-}
-
-int WrongTokens::count(const std::string& source) {
+WrongTokens::Verdict WrongTokens::count(const std::string& source) {
   const std::lock_guard lock(mutex_);
   if (!rows_.contains(source)) make_room();
   Row& row = rows_[source];
   const auto now = Clock::now();
   row.wrong = now - row.latest > kMemory ? 1 : row.wrong + 1;
   row.latest = now;
-  row.next = now + pause(row.wrong);
-  return row.wrong;
+  return {row.wrong, pause(row.wrong)};
 }
 
 void WrongTokens::forgive(const std::string& source) {
@@ -61,11 +49,14 @@ void WrongTokens::make_room() {
   rows_.erase(std::ranges::min_element(rows_, earlier));
 }
 
-std::pair<int, int> Guesser::heard(int wrong) {
-  int in_a_row = 0;
-  const int more = wrong - wrong_;
-  for (; wrong_ < wrong; ++wrong_) in_a_row = all_->count(source_);
-  return {more, in_a_row};
+Guesser::Heard Guesser::heard(int wrong) {
+  Heard all{wrong - wrong_};
+  for (; wrong_ < wrong; ++wrong_) {
+    const auto [in_a_row, delay] = all_->count(source_);
+    all.in_a_row = in_a_row;
+    all.delay += delay;
+  }
+  return all;
 }
 
 }  // namespace racebeam

@@ -1,7 +1,6 @@
-// Slows down clients that guess tokens. After a wrong token, tokens from the same address are checked one at
-// a time, whatever their connection. Before each there is a delay: 100 ms, doubled with each wrong token in a
-// row. Right tokens are delayed, too: an earlier answer would tell which are wrong. Other addresses are never
-// delayed, and a delay holds no thread.
+// Slows down clients that guess tokens. The answer to a wrong token is delayed by 100 ms, doubled with each
+// wrong token in a row from the same address, whatever their connection. Right tokens are answered at once:
+// those who share the address of a guesser are not locked out. A delay holds no thread.
 #pragma once
 
 #include <chrono>
@@ -27,17 +26,17 @@ class WrongTokens {
   // usually has all of these.
   static std::string source_of(const boost::asio::ip::address& address);
 
-  // The delay of a token from there before the next call of wait(). 0: it may be checked now, and the next
-  // one is delayed.
-  Delay wait(const std::string& source);
-  int count(const std::string& source);     // reports a wrong token; returns how many in a row
-  void forgive(const std::string& source);  // reports a right token
+  struct Verdict {
+    int in_a_row = 0;  // wrong tokens from there
+    Delay delay{};     // of the answer
+  };
+  Verdict count(const std::string& source);  // reports a wrong token
+  void forgive(const std::string& source);   // reports a right token
 
  private:
   struct Row {
     int wrong = 0;
     Clock::time_point latest;  // of the last wrong token
-    Clock::time_point next;    // when the next token may be checked
   };
   Delay pause(int wrong) const;
   void make_room();
@@ -53,11 +52,14 @@ class Guesser {
   Guesser(WrongTokens& all, std::string source) : all_(&all), source_(std::move(source)) {}
 
   const std::string& source() const { return source_; }
-  WrongTokens::Delay wait() { return all_->wait(source_); }
+  int wrong() const { return wrong_; }  // tokens
 
-  // wrong: how many of its tokens have been wrong. Returns how many of them are new, and how many there were
-  // in a row.
-  std::pair<int, int> heard(int wrong);
+  struct Heard {
+    int more = 0;  // wrong tokens than before
+    int in_a_row = 0;
+    WrongTokens::Delay delay{};
+  };
+  Heard heard(int wrong);  // how many of its tokens have been wrong
   void admitted() { all_->forgive(source_); }
 
  private:

@@ -39,10 +39,12 @@ void Client::end(ErrorCode code, const std::string& sentence) {
     if (Clock::now() - ended_ > 2s) socket.close(ignored);
     return;
   }
+  std::string farewell = "error ";
+  (((farewell += name_of(code)) += ' ') += sentence) += '\n';
+  reason_ = sentence;
   ended_ = Clock::now();
   code_ = code;
-  reason_ = sentence;
-  ((((farewell_ = "error ") += name_of(code)) += ' ') += sentence) += '\n';
+  farewell_ = std::move(farewell);
   socket.cancel(ignored);
 }
 

@@ -60,13 +60,13 @@ class Client {
   Socket socket;
   Loop& loop;
   const std::string name;
-  std::optional<Guesser> guesser;     // while a token is required
-  std::optional<Lobby::Place> place;  // while a token is required
-  bool greeted = false;               // the handshakes of TLS and HTTP are done
-  bool admitted = false;              // it has given its token, or needs none
-  bool held_back = false;             // its token is delayed, because of wrong ones from the same address
-  bool working = false;               // a slice of its requests is done, and the next is pending
-  Usage usage{};                      // of the event loop
+  std::optional<Counted> open, admitted_open;  // in the metrics, while the session is
+  std::optional<Guesser> guesser;              // while a token is required
+  std::optional<Lobby::Place> place;           // while a token is required
+  bool greeted = false;                        // the handshakes of TLS and HTTP are done
+  bool admitted = false;                       // it has given its token, or needs none
+  bool working = false;                        // a slice of its requests is done, and the next is pending
+  Usage usage{};                               // of the event loop
 
  private:
   MemoryShare memory_;

@@ -13,6 +13,7 @@
 #include "server/connections/departure.hpp"
 #include "server/connections/session_loop.hpp"
 #include "server/operation/log.hpp"
+#include "server/scheduling/keep_running.hpp"
 #include "server/web/exchange.hpp"
 #include "server/web/web_socket.hpp"
 
@@ -21,7 +22,6 @@ namespace {
 
 namespace net = boost::asio;
 using boost::system::error_code;
-using net::use_awaitable;
 using namespace std::chrono_literals;
 using TlsStream = net::ssl::stream<Socket&>;
 
@@ -36,33 +36,33 @@ std::size_t send_at_once(WebSocket&, std::string_view) { return 0; }
 
 // Sends in pieces. Each piece that is accepted shows that the client still reads.
 template <typename Stream>
-net::awaitable<void> send_rest(Stream& stream, Client& client, std::string_view text) {
+Task<> send_rest(Stream& stream, Client& client, std::string_view text) {
   constexpr std::size_t kPiece = 1 << 16;
   error_code error;
   for (; !text.empty(); text.remove_prefix(std::min(kPiece, text.size()))) {
     const auto piece = net::buffer(text.data(), std::min(kPiece, text.size()));
-    co_await net::async_write(stream, piece, net::redirect_error(use_awaitable, error));
+    co_await net::async_write(stream, piece, net::redirect_error(use_task, error));
     if (client.ending()) throw std::runtime_error("closed, it did not read: " + client.reason());
     if (error) throw std::runtime_error("the client stopped reading");
     client.sent(piece.size());
   }
 }
 
-net::awaitable<void> send_rest(WebSocket& stream, Client& client, std::string_view text) {
+Task<> send_rest(WebSocket& stream, Client& client, std::string_view text) {
   co_await stream.write(text, [&client](std::size_t count) { client.sent(count); });
 }
 
 // Receives bytes. Returns their number; 0: there will be no more.
 template <typename Stream>
-net::awaitable<std::size_t> receive(Stream& stream, Client& client, std::span<char> space) {
+Task<std::size_t> receive(Stream& stream, Client& client, std::span<char> space) {
   error_code error;
   const std::size_t count = co_await stream.async_read_some(net::buffer(space.data(), space.size()),
-                                                            net::redirect_error(use_awaitable, error));
+                                                            net::redirect_error(use_task, error));
   client.received(count);
   co_return count;
 }
 
-net::awaitable<std::size_t> receive(WebSocket& stream, Client& client, std::span<char> space) {
+Task<std::size_t> receive(WebSocket& stream, Client& client, std::span<char> space) {
   const std::size_t count = co_await stream.read(space);
   client.received(count);
   co_return count;
@@ -70,10 +70,9 @@ net::awaitable<std::size_t> receive(WebSocket& stream, Client& client, std::span
 
 // Sends the last error, if the server ends the session.
 template <typename Stream>
-net::awaitable<void> take_leave(Stream& stream, Client& client) {
+Task<> take_leave(Stream& stream, Client& client) {
   error_code ignored;
-  co_await net::async_write(stream, net::buffer(client.farewell()),
-                            net::redirect_error(use_awaitable, ignored));
+  co_await net::async_write(stream, net::buffer(client.farewell()), net::redirect_error(use_task, ignored));
   throw std::runtime_error("closed: " + client.reason());
 }
 
@@ -82,7 +81,7 @@ CloseCode close_code(ErrorCode why) {
   return why == ErrorCode::kBusy ? CloseCode::kTryAgainLater : CloseCode::kPolicyViolation;
 }
 
-net::awaitable<void> take_leave(WebSocket& stream, Client& client) {
+Task<> take_leave(WebSocket& stream, Client& client) {
   std::string_view line = client.farewell();
   line.remove_suffix(1);  // LF
   co_await stream.leave(line, close_code(client.code()));
@@ -103,48 +102,46 @@ void acknowledge(Socket& socket) {
   socket.set_option(net::detail::socket_option::boolean<IPPROTO_TCP, TCP_QUICKACK>(true), is_unix);
 }
 
-// Delays the check of a token. Returns early if the session is to end, or if a right token from the same
-// address has ended the delay.
-net::awaitable<void> hold_back(Client& client) {
+// Delays the answer to a wrong token, and what the client has sent after it. Returns early if the session is
+// to end.
+Task<> hold_back(Client& client, WrongTokens::Delay delay) {
   constexpr WrongTokens::Delay kBetweenLooks = 100ms;
-  net::steady_timer timer(client.socket.get_executor());
-  for (auto wait = client.guesser->wait(); wait > 0ms && !client.ending(); wait = client.guesser->wait()) {
-    client.held_back = true;
-    timer.expires_after(std::min(wait, kBetweenLooks));
-    co_await timer.async_wait(use_awaitable);
-  }
-  if (!client.ending()) client.held_back = false;
+  for (const auto end = Clock::now() + delay; Clock::now() < end && !client.ending();)
+    co_await pause(client.loop.context, std::min(delay, kBetweenLooks));
 }
 
-void judge(Client& client, const LineSession& session, Metrics& metrics) {
-  const auto [more, in_a_row] = client.guesser->heard(session.wrong_tokens());
+// Returns for how long the answer is delayed.
+WrongTokens::Delay judge(Client& client, const LineSession& session, Metrics& metrics) {
+  const auto [more, in_a_row, delay] = client.guesser->heard(session.wrong_tokens());
   metrics.wrong_tokens += more;
   if (more > 0) {
     log_warning(client.name + ": a wrong token from " + client.guesser->source() + ", number " +
                     std::to_string(in_a_row) + " in a row",
                 {{"client", client.name}, {"event", "wrong-token"}, {"address", client.guesser->source()}});
   }
-  if (!session.admitted()) return;
-  client.guesser->admitted();
-  client.guesser.reset();
-  client.place.reset();
+  if (session.admitted()) {
+    client.guesser->admitted();
+    client.guesser.reset();
+    client.place.reset();
+  }
+  return delay;
 }
 
 void count_admission(Client& client, Metrics& metrics) {
   if (std::exchange(client.admitted, true)) return;
-  ++metrics.admitted_open;
+  client.admitted_open.emplace(metrics.admitted_open);
   ++metrics.admitted;
 }
 
 // Waits for the session's turn on its loop.
-net::awaitable<void> take_turn(Client& client) {
+Task<> take_turn(Client& client) {
   client.working = true;
-  co_await client.loop.turns.wait(client.usage);
+  co_await client.loop.turns.wait(client.loop.context, client.usage);
   client.working = false;
 }
 
 // Works until the session has a reply or needs input.
-net::awaitable<void> work(Client& client, PacedClassic& session) {
+Task<> work(Client& client, PacedClassic& session) {
   Turns& turns = client.loop.turns;
   Departure departure;
   for (bool done = false; !done;) {
@@ -158,13 +155,13 @@ net::awaitable<void> work(Client& client, PacedClassic& session) {
 }
 
 template <typename Stream>
-net::awaitable<void> serve_connection(Stream& stream, Client& client, PacedClassic& session, Metrics&) {
+Task<> serve_connection(Stream& stream, Client& client, PacedClassic& session, Metrics&) {
   error_code error;
   bool piece = false;  // part of a line
   while (!session.ended()) {
     co_await work(client, session);
     if (const auto text = session.reply()) {
-      co_await net::async_write(stream, net::buffer(*text), net::redirect_error(use_awaitable, error));
+      co_await net::async_write(stream, net::buffer(*text), net::redirect_error(use_task, error));
       client.sent(text->size());
       client.loop.meter.frames.add(session.take_frames());
       piece = false;
@@ -179,28 +176,25 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, PacedClass
 }
 
 // Waits as long as a recording needs for a few frames; its queue has room for more.
-net::awaitable<void> await_recording(Client& client) {
-  net::steady_timer timer(client.socket.get_executor(), 1ms);
+Task<> await_recording(Client& client) {
   client.working = true;
-  co_await timer.async_wait(use_awaitable);
+  co_await pause(client.loop.context, 1ms);
   client.working = false;
 }
 
 // `piece`: everything that was received last is part of a line.
 template <typename Stream>
-net::awaitable<void> read(Stream& stream, Client& client, LineSession& session, bool piece) {
+Task<> read(Stream& stream, Client& client, LineSession& session, bool piece) {
   if (piece) acknowledge(client.socket);
   limit_message(stream, session);
   const std::size_t count = co_await receive(stream, client, session.space());
   if (count > 0 || !client.ending()) session.received(count);
-  if (client.guesser) co_await hold_back(client);
 }
 
 // Between two slices of a long request, or of many that were sent ahead, other sessions of the loop have
 // their turn. Requests that were sent ahead are split further: each part ends by sending its replies.
 template <typename Stream>
-net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSession& session,
-                                      Metrics& metrics) {
+Task<> serve_connection(Stream& stream, Client& client, LineSession& session, Metrics& metrics) {
   using Next = SessionLoop::Next;
   Departure departure;
   Turns& turns = client.loop.turns;
@@ -216,7 +210,7 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
     if (client.ending()) co_await take_leave(stream, client);
     Next next = loop.work(run);
     if (session.admitted()) count_admission(client, metrics);
-    if (client.guesser) judge(client, session, metrics);
+    if (client.guesser) co_await hold_back(client, judge(client, session, metrics));
     const bool sends = next == Next::kSend;
     if (sends) {
       const std::string_view text = loop.output();
@@ -233,8 +227,6 @@ net::awaitable<void> serve_connection(Stream& stream, Client& client, LineSessio
       throw std::runtime_error("the client left in the middle of a request");
     } else if (next == Next::kPause) {
       co_await await_recording(client);
-    } else if (client.guesser) {
-      co_await hold_back(client);  // before the next token that was sent ahead
     }
   }
 }
@@ -254,13 +246,13 @@ class Patience {
 };
 
 // Closing a socket with unread input would make the system discard output that the client has not read yet.
-net::awaitable<void> close_gently(std::shared_ptr<Client> client) {
+Task<> close_gently(std::shared_ptr<Client> client) {
   error_code error;
   client->socket.shutdown(Socket::shutdown_send, error);
   const Patience patience(client);
   std::array<char, 4096> rest;
   while (!error) {
-    co_await client->socket.async_read_some(net::buffer(rest), net::redirect_error(use_awaitable, error));
+    co_await client->socket.async_read_some(net::buffer(rest), net::redirect_error(use_task, error));
   }
 }
 
@@ -297,7 +289,7 @@ class ClassicPlace {
 };
 
 template <typename Stream>
-net::awaitable<void> play(Stream& stream, Client& client, const ClassicService& service, Metrics& metrics) {
+Task<> play(Stream& stream, Client& client, const ClassicService& service, Metrics& metrics) {
   count_admission(client, metrics);
   ClassicPlace place(service);
   PacedClassic& session = place.session();
@@ -309,7 +301,7 @@ net::awaitable<void> play(Stream& stream, Client& client, const ClassicService& 
 }
 
 template <typename Stream>
-net::awaitable<void> play(Stream& stream, Client& client, const LineService& service, Metrics& metrics) {
+Task<> play(Stream& stream, Client& client, const LineService& service, Metrics& metrics) {
   LineSession session(service, &client.loop.meter);
   log(client.name + ": came", {{"client", client.name}, {"event", "came"}});
   const Resting resting(client, [&session] { session.rest(); });
@@ -318,13 +310,13 @@ net::awaitable<void> play(Stream& stream, Client& client, const LineService& ser
 }
 
 template <typename Stream>
-net::awaitable<void> play(Stream& stream, Client& client, const Service& service, Metrics& metrics) {
+Task<> play(Stream& stream, Client& client, const Service& service, Metrics& metrics) {
   return std::visit([&](const auto& kind) { return play(stream, client, kind, metrics); }, service);
 }
 
 // Answers the request of a client of the site. If that opens a session, plays it over a WebSocket.
-net::awaitable<void> play_over_http(ByteStream stream, Client& client, const Service& service,
-                                    Carrier& carrier, Metrics& metrics) {
+Task<> play_over_http(ByteStream stream, Client& client, const Service& service, Carrier& carrier,
+                      Metrics& metrics) {
   if (!carrier.request) {
     boost::beast::flat_buffer buffer;
     carrier.request = (co_await exchange(stream, buffer, *carrier.site)).session;
@@ -342,33 +334,51 @@ net::awaitable<void> play_over_http(ByteStream stream, Client& client, const Ser
 }
 
 template <typename Stream>
-net::awaitable<void> play_over(Stream& stream, Client& client, const Service& service, Carrier& carrier,
-                               Metrics& metrics) {
+Task<> play_over(Stream& stream, Client& client, const Service& service, Carrier& carrier, Metrics& metrics) {
   if (carrier.site != nullptr) return play_over_http(ByteStream(stream), client, service, carrier, metrics);
   client.greeted = true;
   return play(stream, client, service, metrics);
 }
 
-net::awaitable<void> play_over_tls(std::shared_ptr<Client> client, const Service& service, Carrier& carrier,
-                                   Metrics& metrics) {
+Task<> play_over_tls(std::shared_ptr<Client> client, const Service& service, Carrier& carrier,
+                     Metrics& metrics) {
   TlsStream stream(client->socket, *carrier.tls);
   error_code error;
-  co_await stream.async_handshake(TlsStream::server, net::redirect_error(use_awaitable, error));
+  co_await stream.async_handshake(TlsStream::server, net::redirect_error(use_task, error));
   if (error) {
     ++metrics.refused_tls;
     throw std::runtime_error("TLS handshake failed: " + error.message());
   }
-  co_await play_over(stream, *client, service, carrier, metrics);
+  std::exception_ptr reason;  // why the session ended, if not by itself
+  try {
+    co_await play_over(stream, *client, service, carrier, metrics);
+  } catch (const std::exception&) {
+    reason = std::current_exception();
+  }
   const Patience patience(client);
-  co_await stream.async_shutdown(net::redirect_error(use_awaitable, error));
+  co_await stream.async_shutdown(
+      net::redirect_error(use_task, error));  // tells the client that nothing is cut off
+  if (reason) std::rethrow_exception(reason);
 }
+
+// During a session.
+class Presence {
+ public:
+  explicit Presence(Client& client) : client_(client) { client.came_in(); }
+  ~Presence() { client_.left(); }
+  Presence(const Presence&) = delete;
+  Presence& operator=(const Presence&) = delete;
+
+ private:
+  Client& client_;
+};
 
 }  // namespace
 
-net::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
-                                      Metrics& metrics) {
-  client->came_in();
+Task<> serve_connection(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
+                        Metrics& metrics) {
   try {
+    const Presence presence(*client);
     if (carrier.tls) {
       co_await play_over_tls(client, service, carrier, metrics);
     } else {
@@ -377,13 +387,12 @@ net::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Serv
   } catch (const std::exception& error) {
     log(client->name + ": " + error.what(), {{"client", client->name}, {"event", "left"}});
   }
-  client->left();
-  --metrics.sessions_open;
-  if (client->admitted) --metrics.admitted_open;
+  client->open.reset();
+  client->admitted_open.reset();
   co_await close_gently(client);
 }
 
-net::awaitable<void> turn_away(std::shared_ptr<Client> client, std::string text, bool gently) {
+Task<> turn_away(std::shared_ptr<Client> client, std::string text, bool gently) {
   error_code ignored;
   if (!text.empty()) client->socket.write_some(net::buffer(text), ignored);
   if (gently) co_await close_gently(client);

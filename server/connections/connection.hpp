@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>  // needed by Asio 1.74
 
-#include <boost/asio/awaitable.hpp>
 #include <boost/asio/ssl/context.hpp>
 
 #include "server/connections/client.hpp"
@@ -23,12 +22,13 @@ struct Carrier {
   std::optional<HttpRequest> request;              // over HTTP: opens the session, if it has come already
 };
 
-// Serves the whole session on the client's loop. `service` and the site must outlive it. Never throws.
-boost::asio::awaitable<void> serve_connection(std::shared_ptr<Client> client, const Service& service,
-                                              Carrier carrier, Metrics& metrics);
+// Serves the whole session on the client's loop. `service` and the site must outlive it. Throws nothing but
+// std::bad_alloc.
+Task<> serve_connection(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
+                        Metrics& metrics);
 
 // Closes the connection, after a last text, which may be empty. `gently`: waits for the client's end, so that
 // the text is certain to arrive.
-boost::asio::awaitable<void> turn_away(std::shared_ptr<Client> client, std::string text, bool gently);
+Task<> turn_away(std::shared_ptr<Client> client, std::string text, bool gently);
 
 }  // namespace racebeam

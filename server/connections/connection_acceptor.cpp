@@ -1,17 +1,19 @@
 #include "server/connections/connection_acceptor.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
 #include "server/operation/log.hpp"
+#include "server/scheduling/keep_running.hpp"
 
 namespace racebeam {
 namespace {
 
 namespace net = boost::asio;
 using boost::system::error_code;
-using net::use_awaitable;
 using namespace std::chrono_literals;
 
 // The system does not let the buffer of a Unix socket grow, as that of TCP does. A buffer that is smaller
@@ -25,9 +27,17 @@ void set_options(Socket& socket) {
   socket.non_blocking(true, ignored);
 }
 
-net::awaitable<void> pause() {
-  net::steady_timer timer(co_await net::this_coro::executor, 100ms);
-  co_await timer.async_wait(use_awaitable);
+// Gives the descriptor to the socket, or closes it.
+void take_over(Socket& socket, int descriptor) {
+  sockaddr_storage here{};
+  socklen_t size = sizeof here;
+  ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&here), &size);
+  try {
+    socket.assign(Protocol(here.ss_family, SOCK_STREAM), descriptor);
+  } catch (const std::exception&) {
+    ::close(descriptor);
+    throw;
+  }
 }
 
 bool has_memory_for_one_more(const Service& service) {
@@ -42,11 +52,6 @@ std::size_t carrier_bytes(const Endpoint& endpoint) {
   constexpr std::size_t kSocket = std::size_t{4} << 10, kTls = std::size_t{96} << 10,
                         kHttp = std::size_t{16} << 10;
   return kSocket + (endpoint.tls ? kTls : 0) + (endpoint.web ? kHttp : 0);
-}
-
-// The longest delay of a token: it must be checked before the handshake's timeout.
-WrongTokens::Delay longest_delay(const ServerSettings& settings) {
-  return std::min<WrongTokens::Delay>(5s, 500ms * settings.handshake_seconds);
 }
 
 // What a client gets that is refused: an error that it understands. Over TLS there has been no handshake.
@@ -64,35 +69,11 @@ std::string source_of(const Socket& socket) {
   return WrongTokens::source_of(address.address());
 }
 
-template <typename Part>
-void read_again(std::optional<Part>& part, const std::string& what) {
-  if (!part) return;
-  try {
-    part->read_again();
-    log("read the " + what + " again");
-  } catch (const std::exception& error) {
-    log_warning(std::string(error.what()) + "; the old " + what + " stays in use");
-  }
-}
-
 }  // namespace
 
-ConnectionAcceptor::ConnectionAcceptor(const ServerSettings& settings, const Services& services, Loops& loops,
-                                       Metrics& metrics, const std::string& own_token)
-    : settings_(settings),
-      services_(services),
-      loops_(loops),
-      metrics_(metrics),
-      wrong_tokens_(longest_delay(settings)) {
-  if (!settings.token_file.empty() || !own_token.empty()) tokens_.emplace(settings.token_file, own_token);
-  if (!settings.tls_certificate.empty()) tls_.emplace(settings.tls_certificate, settings.tls_key);
-  if (tokens_ && services.line) {
-    guarded_ = services.line;
-    std::get<LineService>(*guarded_).admission = [this](std::string_view token) {
-      return tokens_->admits(token);
-    };
-  }
-  site_.sessions = session_rules(true);  // an address beyond loopback is refused without tokens
+ConnectionAcceptor::ConnectionAcceptor(const ServerSettings& settings, const Services& services,
+                                       AccessControl& access, Loops& loops, Metrics& metrics)
+    : settings_(settings), services_(services), access_(access), loops_(loops), metrics_(metrics) {
   for (const Endpoint& endpoint : settings.endpoints) {
     if (const auto* inherited = std::get_if<InheritedAddress>(&endpoint.address)) {
       listen_inherited(endpoint, inherited->name);
@@ -123,14 +104,15 @@ void ConnectionAcceptor::listen_inherited(const Endpoint& endpoint, const std::s
 
 void ConnectionAcceptor::check(const Listener& listener) const {
   const std::string& name = listener.name();
-  if (listener.endpoint().tls && !tls_) throw std::runtime_error(name + " needs --tls-cert and --tls-key");
+  if (listener.endpoint().tls && !access_.tls())
+    throw std::runtime_error(name + " needs --tls-cert and --tls-key");
   if (listener.is_loopback()) return;
   if (listener.endpoint().classic) {
     throw std::runtime_error(name +
                              " can be reached from other machines, but the classic protocol has no "
                              "tokens; use 127.0.0.1, or the line protocol");
   }
-  if (!tokens_) {
+  if (!access_.requires_token()) {
     throw std::runtime_error(name +
                              " can be reached from other machines: give --token-file or --announce, so that "
                              "not everyone can use this one, or listen on 127.0.0.1");
@@ -145,12 +127,7 @@ void ConnectionAcceptor::check(const Listener& listener) const {
 // Permissions of the file system protect a Unix socket.
 const Service& ConnectionAcceptor::service_of(const Listener& listener) const {
   if (listener.endpoint().classic) return *services_.classic;
-  return listener.is_local() ? *services_.line : guarded_service();
-}
-
-std::optional<OriginRules> ConnectionAcceptor::session_rules(bool is_loopback) const {
-  if (!services_.line || !(is_loopback || tokens_)) return std::nullopt;
-  return OriginRules{settings_.allowed_origins, tokens_.has_value()};
+  return listener.is_local() ? *services_.line : access_.guarded();
 }
 
 std::vector<std::string> ConnectionAcceptor::names() const {
@@ -167,9 +144,11 @@ std::vector<std::string> ConnectionAcceptor::announced(const std::string& host) 
   return all;
 }
 
-void ConnectionAcceptor::open() {
+void ConnectionAcceptor::open(int most_connections) {
+  max_connections_ = std::min(most_connections, settings_.max_connections);
   for (Listener& listener : listeners_) {
-    net::co_spawn(loops_.first().context, welcome(listener), net::detached);
+    keep_running(loops_.first().context, "accepting clients on " + listener.name(),
+                 [this, &listener] { return welcome(listener); });
     log("listening on " + listener.described(), {{"event", "listening"}, {"address", listener.full_name()}});
   }
 }
@@ -179,28 +158,23 @@ void ConnectionAcceptor::close() {
   for (Listener& listener : listeners_) listener.close();
 }
 
-void ConnectionAcceptor::read_again() {
-  racebeam::read_again(tokens_, "token file");
-  racebeam::read_again(tls_, "certificate");
-}
-
-net::awaitable<void> ConnectionAcceptor::welcome(Listener& listener) {
+Task<> ConnectionAcceptor::welcome(Listener& listener) {
   bool failed = false;  // and the log says so
-  for (int number = 1; !closed_; ++number) {
+  while (!closed_) {
     Loop& loop = loops_.idlest();
     error_code error;
     Socket socket =
-        co_await listener.acceptor().async_accept(loop.context, net::redirect_error(use_awaitable, error));
+        co_await listener.acceptor().async_accept(loop.context, net::redirect_error(use_task, error));
     if (closed_) break;
     if (error) {  // most likely out of descriptors, which may pass
       if (!std::exchange(failed, true))
         log_warning("cannot take a client on " + listener.name() + ": " + error.message());
-      co_await pause();
+      co_await pause(loops_.first().context, 100ms);
       continue;
     }
     failed = false;
     set_options(socket);
-    admit(std::move(socket), loop, listener, number);
+    admit(std::move(socket), loop, listener);
   }
 }
 
@@ -208,7 +182,7 @@ net::awaitable<void> ConnectionAcceptor::welcome(Listener& listener) {
 // handles that.
 std::optional<std::string> ConnectionAcceptor::obstacle(const Service& service) {
   if (!has_memory_for_one_more(service)) return "the server's sessions hold all the memory that they may";
-  if (loops_.sessions() > settings_.max_connections) return "the server may open no more files";
+  if (loops_.sessions() > max_connections_) return "the server may open no more files";
   if (metrics_.sessions_open < settings_.max_sessions) return std::nullopt;
   const std::string full =
       "there are " + std::to_string(settings_.max_sessions) + " sessions, the limit of this server";
@@ -217,12 +191,12 @@ std::optional<std::string> ConnectionAcceptor::obstacle(const Service& service) 
   return std::nullopt;
 }
 
-void ConnectionAcceptor::admit(Socket socket, Loop& loop, const Listener& listener, int number) {
+void ConnectionAcceptor::admit(Socket socket, Loop& loop, Listener& listener) {
   const Endpoint& endpoint = listener.endpoint();
-  std::string name = listener.name() + " client " + std::to_string(number);
+  std::string name = listener.name() + " client " + std::to_string(listener.count_client());
   Carrier carrier;
-  if (endpoint.tls) carrier.tls = tls_->context();
-  if (endpoint.web) carrier.site = &site_;
+  if (endpoint.tls) carrier.tls = access_.tls()->context();
+  if (endpoint.web) carrier.site = &access_.site();
   const Service& service = service_of(listener);
   admit(std::make_shared<Client>(std::move(socket), loop, std::move(name), memory_of(service),
                                  carrier_bytes(endpoint)),
@@ -231,19 +205,15 @@ void ConnectionAcceptor::admit(Socket socket, Loop& loop, const Listener& listen
 
 void ConnectionAcceptor::admit_over_http(int descriptor, HttpRequest request, const std::string& address) {
   Loop& loop = loops_.idlest();
-  error_code error;
   Socket socket(loop.context);
-  sockaddr_storage here{};
-  socklen_t size = sizeof here;
-  ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&here), &size);
-  socket.assign(Protocol(here.ss_family, SOCK_STREAM), descriptor, error);
+  take_over(socket, descriptor);
   set_options(socket);
   std::string name = address + " client " + std::to_string(++from_http_);
   const Endpoint endpoint{TcpAddress(), false, false, true};
-  const Service& service = guarded_service();
+  const Service& service = access_.guarded();
   admit(std::make_shared<Client>(std::move(socket), loop, std::move(name), memory_of(service),
                                  carrier_bytes(endpoint)),
-        service, Carrier{nullptr, &site_, std::move(request)}, endpoint);
+        service, Carrier{nullptr, &access_.site(), std::move(request)}, endpoint);
 }
 
 void ConnectionAcceptor::admit(std::shared_ptr<Client> client, const Service& service, Carrier carrier,
@@ -254,19 +224,18 @@ void ConnectionAcceptor::admit(std::shared_ptr<Client> client, const Service& se
     log_warning(client->name + ": refused, " + *why);
     client->end(ErrorCode::kBusy, *why + "; try again later");
     std::string text = refusal(endpoint, *client);
-    const bool gently = loops_.sessions() <= settings_.max_connections;
-    net::co_spawn(context, turn_away(std::move(client), std::move(text), gently), net::detached);
+    const bool gently = loops_.sessions() <= max_connections_;
+    spawn(context, turn_away(std::move(client), std::move(text), gently));
     return;
   }
-  ++metrics_.sessions_open;
+  client->open.emplace(metrics_.sessions_open);
   if (endpoint.classic) ++metrics_.sessions_classic;
   if (!endpoint.classic && !endpoint.web) ++metrics_.sessions_line;  // over HTTP, a session begins later
-  if (guarded_ && &service == &*guarded_) {
-    client->guesser.emplace(wrong_tokens_, source_of(client->socket));
+  if (access_.guards(service)) {
+    client->guesser.emplace(access_.wrong_tokens(), source_of(client->socket));
     lobby_->enter(client);
   }
-  net::co_spawn(context, serve_connection(std::move(client), service, std::move(carrier), metrics_),
-                net::detached);
+  spawn(context, serve_connection(std::move(client), service, std::move(carrier), metrics_));
 }
 
 }  // namespace racebeam

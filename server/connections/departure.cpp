@@ -1,20 +1,23 @@
 #include "server/connections/departure.hpp"
 
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
+
+#include "server/connections/peer_socket.hpp"
 
 namespace racebeam {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kBetweenProbes = 200ms;
+constexpr auto kBetweenQuestions = 200ms;
+constexpr int kBetweenProbes = 5;  // seconds
 
-bool is_unix(int descriptor) {
-  sockaddr_storage address{};
-  socklen_t size = sizeof address;
-  return ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
-         address.ss_family == AF_UNIX;
+// Fails on a Unix socket, whose other end is seen directly.
+void probe_often(int descriptor) {
+  for (const int option : {TCP_KEEPIDLE, TCP_KEEPINTVL})
+    ::setsockopt(descriptor, IPPROTO_TCP, option, &kBetweenProbes, sizeof kBetweenProbes);
 }
 
 }  // namespace
@@ -26,11 +29,10 @@ bool Departure::has_gone(Socket& socket) {
   if (::poll(&state, 1, 0) <= 0) return false;
   if ((state.revents & (POLLHUP | POLLERR)) != 0) return true;
   const auto now = Clock::now();
-  if ((state.revents & POLLRDHUP) != 0 && now - probed_ > kBetweenProbes && !is_unix(descriptor)) {
-    probed_ = now;
-    ::send(descriptor, " ", 1, MSG_OOB | MSG_DONTWAIT | MSG_NOSIGNAL);
-  }
-  return false;
+  if ((state.revents & POLLRDHUP) == 0 || now - looked_ < kBetweenQuestions) return false;
+  looked_ = now;
+  if (!std::exchange(half_closed_, true)) probe_often(descriptor);
+  return peer_has_closed(descriptor);
 }
 
 }  // namespace racebeam

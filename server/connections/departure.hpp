@@ -7,15 +7,16 @@ namespace racebeam {
 
 class Departure {
  public:
-  // Does not block. A client that has only closed its sending end has not gone: it may read the reply. On
-  // TCP, that looks like a client that has closed everything, until the server sends something. The server
-  // therefore sends a byte of urgent data now and then. Receivers leave it out of the stream, unless they
-  // request it (SO_OOBINLINE). The system of a client that has gone answers with a reset, which the next call
-  // detects.
+  // Does not block, and sends nothing. A client that has only closed its sending end has not gone: it may
+  // read the reply. On TCP, that looks like a client that has closed everything. The system knows the
+  // difference if the client runs on this machine (peer_socket.hpp). The system of another machine forgets a
+  // connection that its client has closed after a minute or so, and answers the next keep-alive probe, which
+  // has no data, with a reset.
   bool has_gone(Socket& socket);
 
  private:
-  Clock::time_point probed_{};
+  bool half_closed_ = false;
+  Clock::time_point looked_{};
 };
 
 }  // namespace racebeam

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "server/operation/log.hpp"
+#include "server/scheduling/keep_running.hpp"
 
 namespace racebeam {
 namespace {
@@ -18,15 +19,15 @@ constexpr auto kPause = 2s;  // of a client, after which its session releases it
 std::string why_not_admitted(const Client& client, int handshake_seconds) {
   const std::string time = std::to_string(handshake_seconds) + " seconds";
   if (!client.greeted) return "no handshake came within " + time;
-  if (!client.held_back) return "no token came within " + time;
-  return "wrong tokens from " + client.guesser->source() + " held this one back for " + time +
-         "; try again later";
+  const bool tried = client.guesser && client.guesser->wrong() > 0;
+  return (tried ? "no right token came within " : "no token came within ") + time;
 }
 
 }  // namespace
 
 void IdleMonitor::start() {
-  for (Loop& loop : loops_.all()) net::co_spawn(loop.context, look_after(loop), net::detached);
+  for (Loop& loop : loops_.all())
+    keep_running(loop.context, "looking after sessions", [this, &loop] { return look_after(loop); });
 }
 
 void IdleMonitor::end_all() {
@@ -40,11 +41,11 @@ void IdleMonitor::end_all() {
   }
 }
 
-net::awaitable<void> IdleMonitor::look_after(Loop& loop) {
+Task<> IdleMonitor::look_after(Loop& loop) {
   net::steady_timer timer(loop.context);
   for (;;) {
     timer.expires_after(kBetweenLooks);
-    co_await timer.async_wait(net::use_awaitable);
+    co_await timer.async_wait(use_task);
     for (Client* client : loop.clients) look_at(*client);
     write_log();
   }

@@ -2,10 +2,6 @@
 // that have not given a token in time.
 #pragma once
 
-#include <utility>  // needed by Asio 1.74
-
-#include <boost/asio/awaitable.hpp>
-
 #include "server/connections/client.hpp"
 #include "server/connections/settings.hpp"
 
@@ -21,7 +17,7 @@ class IdleMonitor {
   void end_all();  // the server stops
 
  private:
-  boost::asio::awaitable<void> look_after(Loop& loop);
+  Task<> look_after(Loop& loop);
   void look_at(Client& client);
 
   const ServerSettings& settings_;

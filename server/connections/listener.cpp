@@ -1,11 +1,17 @@
 #include "server/connections/listener.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/un.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <thread>
 
 #include "server/access/resolve.hpp"
 
@@ -29,6 +35,31 @@ void remove_stale(const std::string& path) {
   probe.connect(Unix::endpoint(path), error);
   if (error == net::error::connection_refused) std::filesystem::remove(path);
 }
+
+// A lock on the folder of a socket. A server that has bound its socket and does not listen yet looks dead;
+// others that hold the lock do not take its file.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder)
+      : folder_(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK &&
+           std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(kBetweenTries);
+  }
+  ~FolderLock() {
+    if (folder_ >= 0) ::close(folder_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  // Something else may hold it for long, and a folder may have none: the server then goes on without.
+  static constexpr std::chrono::seconds kPatience{2};
+  static constexpr std::chrono::milliseconds kBetweenTries{5};
+
+  const int folder_;
+};
 
 }  // namespace
 
@@ -82,6 +113,7 @@ void Listener::listen(const UnixAddress& address) {
     throw AddressError(name_ + " is too long; a socket's path has at most " + std::to_string(kLongestPath) +
                        " bytes");
   }
+  const FolderLock lock(std::filesystem::path(address.path).parent_path());
   remove_stale(address.path);
   bind(Unix::endpoint(address.path));
   file_ = UnlinkOnExit(address.path);

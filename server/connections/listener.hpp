@@ -38,6 +38,8 @@ class Listener {
   bool is_local() const { return local_; }  // a Unix socket, protected by the file system
   bool is_loopback() const;                 // only this machine can reach it
 
+  int count_client() { return ++clients_; }  // returns how many have come
+
   void close();  // from now on, the system refuses connections
 
  private:
@@ -50,6 +52,7 @@ class Listener {
   Endpoint bound_;  // the actual address, without classic+
   Acceptor acceptor_;
   std::string name_, host_;
+  int clients_ = 0;
   bool local_ = true;
   UnlinkOnExit file_;  // of a Unix socket
 };

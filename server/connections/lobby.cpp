@@ -16,8 +16,13 @@ bool Lobby::make_room(const std::string& sentence) {
   auto client = take_first();
   if (!client) return false;
   auto& context = client->loop.context;
-  boost::asio::post(context,
-                    [client = std::move(client), sentence] { client->end(ErrorCode::kBusy, sentence); });
+  boost::asio::post(context, [lobby = shared_from_this(), client = std::move(client), sentence] {
+    if (client->admitted) {
+      lobby->make_room(sentence);
+    } else {
+      client->end(ErrorCode::kBusy, sentence);
+    }
+  });
   return true;
 }
 

@@ -33,7 +33,8 @@ class Lobby : public std::enable_shared_from_this<Lobby> {
   void enter(const std::shared_ptr<Client>& client);  // on the thread that has made `client`
 
   // Ends the session that has been without a token for longest, with this sentence. Returns false if all
-  // sessions have given one.
+  // sessions have given one. A session that gives its token meanwhile stays, and the next one is ended; if it
+  // was the last, the server has a session more than its limit for a while.
   bool make_room(const std::string& sentence);
 
  private:

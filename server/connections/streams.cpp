@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "server/connections/session_loop.hpp"
@@ -46,11 +47,16 @@ bool refuse_other_file(const std::string& path) {
   return true;
 }
 
-void make_if_missing(const std::string& path) {
-  if (::mkfifo(path.c_str(), 0600) == 0) return log("made the pipe " + path);
+// Returns the pipe if it was missing, to be removed at the end.
+UnlinkOnExit make_if_missing(const std::string& path) {
+  if (::mkfifo(path.c_str(), 0600) == 0) {
+    log("made the pipe " + path);
+    return UnlinkOnExit(path);
+  }
   const int error = errno;
   if (!refuse_other_file(path))
     throw AddressError("cannot make the pipe " + path + ": " + std::generic_category().message(error));
+  return {};
 }
 
 }  // namespace
@@ -160,18 +166,28 @@ StreamSession::StreamSession(const Endpoint& endpoint, const Service& service,
   if (const auto* pipes = std::get_if<Pipes>(&address_)) {
     const std::array<std::string, 2> paths = {pipes->prefix + "_out", pipes->prefix + "_in"};
     for (const std::string& path : paths) refuse_other_file(path);  // of both, before one is made
-    for (const std::string& path : paths) make_if_missing(path);
+    for (const std::string& path : paths) made_.push_back(make_if_missing(path));
   }
 }
 
 StreamSession::~StreamSession() {
+  if (!begun_.test()) halt_.reading = halt_.all = true;
+  begin();
   if (thread_.joinable()) thread_.join();
 }
 
 void StreamSession::start(std::function<void()> ended) {
   on_end_ = std::move(ended);
   Halt::prepare();
-  thread_ = std::thread([this] { run(); });
+  thread_ = std::jthread([this] {
+    begun_.wait(false);
+    run();
+  });
+}
+
+void StreamSession::begin() {
+  begun_.test_and_set();
+  begun_.notify_all();
 }
 
 void StreamSession::stop(bool at_once) {
@@ -180,16 +196,19 @@ void StreamSession::stop(bool at_once) {
   if (thread_.joinable() && !ended_) Halt::wake(thread_.native_handle());
 }
 
-void StreamSession::run() {
-  ++metrics_.sessions_open;
+void StreamSession::serve() {
+  const Counted open(metrics_.sessions_open);
   try {
-    if (connect()) status_ = conversation_->hold(streams_, halt_);
+    if (!halt_.all && connect()) status_ = conversation_->hold(streams_, halt_);
   } catch (const std::exception& error) {
     log(LogLevel::kError, error.what());
     status_ = 1;
   }
   conversation_.reset();  // commits its recordings before the end is reported
-  --metrics_.sessions_open;
+}
+
+void StreamSession::run() {
+  serve();
   ended_ = true;
   on_end_();
 }

@@ -8,11 +8,13 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "server/access/address.hpp"
 #include "server/connections/blocking_pair.hpp"
 #include "server/connections/service.hpp"
 #include "server/operation/metrics.hpp"
+#include "server/operation/unlink_on_exit.hpp"
 
 namespace racebeam {
 
@@ -28,8 +30,10 @@ class StreamSession {
 
   const std::string& name() const { return name_; }
 
-  // Serves on a thread of its own; calls `ended` there at the end.
+  // Starts a thread that waits for begin(), then serves, and calls `ended` at the end. Throws
+  // std::system_error if the system gives no thread.
   void start(std::function<void()> ended);
+  void begin();
 
   bool ended() const { return ended_; }
   int status() const { return status_; }  // of the process, at the end: see the help of racebeam serve
@@ -44,6 +48,7 @@ class StreamSession {
   class ClassicConversation;
 
   void run();
+  void serve();
   bool connect();
 
   Address address_;
@@ -51,11 +56,13 @@ class StreamSession {
   Metrics& metrics_;
   Halt halt_;
   BlockingPair streams_;
+  std::vector<UnlinkOnExit> made_;  // the pipes that the server has made
   std::unique_ptr<Conversation> conversation_;
   std::atomic<bool> ended_ = false;
   std::atomic<int> status_ = 0;
   std::function<void()> on_end_;
-  std::thread thread_;
+  std::atomic_flag begun_;
+  std::jthread thread_;
 };
 
 }  // namespace racebeam

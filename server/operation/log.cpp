@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "server/operation/log_sink.hpp"
@@ -19,6 +20,7 @@ constexpr std::array kLevels = {spdlog::level::debug, spdlog::level::info, spdlo
 constexpr std::array kNames = {"debug", "info", "warning", "error", "off"};
 
 std::atomic<LogFormat> format = LogFormat::kText;
+std::atomic<std::int64_t> without_memory = 0;  // lines that are lost because there was no memory for them
 
 // Makes text safe that may contain bytes of a client. A line must fit into a page, which a pipe accepts as a
 // whole or not at all.
@@ -65,6 +67,7 @@ spdlog::logger& logger() {
     spdlog::logger standard_error("racebeam", sink());
     standard_error.set_pattern("racebeam: %v");
     standard_error.flush_on(spdlog::level::trace);
+    standard_error.set_error_handler([](const std::string&) { ++without_memory; });
     return standard_error;
   }();
   return made;
@@ -84,11 +87,15 @@ void set_up_log(LogLevel least, LogFormat wanted) {
 void log(LogLevel level, const std::string& sentence, std::initializer_list<LogField> fields) {
   const auto importance = kLevels[static_cast<std::size_t>(level)];
   if (!logger().should_log(importance)) return;
-  logger().log(importance, "{}", payload(level, sentence, fields));
+  try {
+    logger().log(importance, "{}", payload(level, sentence, fields));
+  } catch (const std::bad_alloc&) {
+    ++without_memory;
+  }
 }
 
 void write_log() { sink()->flush(); }
 
-std::int64_t log_lines_lost() { return sink()->lost(); }
+std::int64_t log_lines_lost() { return sink()->lost() + without_memory; }
 
 }  // namespace racebeam

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <new>
 #include <thread>
 #include <utility>
 
@@ -76,10 +77,15 @@ void LogSink::lose_oldest() {
   ++lost_;
 }
 
-// Reports lost lines at their place, before the remaining ones.
+// Reports lost lines at their place, before the remaining ones. Without memory for that, it does so later.
 void LogSink::tell_of_lost() {
-  const std::string sentence = tell_(std::exchange(untold_, 0));
-  add({{}, "racebeam", spdlog::level::warn, sentence});
+  try {
+    const std::string sentence = tell_(untold_);
+    add({{}, "racebeam", spdlog::level::warn, sentence});
+  } catch (const std::bad_alloc&) {
+    return;
+  }
+  untold_ = 0;
   std::rotate(waiting_.begin() + (begun_ ? 1 : 0), waiting_.end() - 1, waiting_.end());
 }
 

@@ -10,6 +10,18 @@
 
 namespace racebeam {
 
+// Counts something during its lifetime.
+class Counted {
+ public:
+  explicit Counted(std::atomic<std::int64_t>& count) : count_(count) { ++count_; }
+  ~Counted() { --count_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+ private:
+  std::atomic<std::int64_t>& count_;
+};
+
 class Metrics {
  public:
   Meter& add_meter();  // for a thread that serves; before other threads read

@@ -1,12 +1,19 @@
 #include "server/scheduling/loops.hpp"
 
 #include <algorithm>
-#include <thread>
-#include <vector>
+#include <exception>
 
 #include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include "protocol/running/fiber_stack.hpp"
 
 namespace racebeam {
+
+// A first timer opens the files that the context needs, now rather than with the first client.
+Loop::Loop(Meter& counting, std::chrono::microseconds busy_poll) : meter(counting), busy(busy_poll) {
+  const boost::asio::steady_timer first(context);
+}
 
 // Some clients send so much that an event is always ready. The sessions that wait for their turn do not wait
 // for the end of that. The work of sessions does not count: few events would be handled while it is long.
@@ -19,17 +26,30 @@ void Loop::handle_events() {
 }
 
 // While a loop polls, all its sessions get their turn, not only the one that it polls for.
+void Loop::go_on() {
+  if (!turns.empty()) {
+    turns.wake_next();
+    handle_events();
+  } else if (busy.again()) {
+    handle_events();
+  } else {
+    context.run_one();
+  }
+}
+
+// An exception leaves a handler if memory is out. It ends one session, not the loop.
 void Loop::run() {
   const auto stay = boost::asio::make_work_guard(context);
   while (!context.stopped()) {
-    if (!turns.empty()) {
-      turns.wake_next();
-      handle_events();
-    } else if (busy.again()) {
-      handle_events();
-    } else {
-      context.run_one();
+    std::exception_ptr failure;
+    try {
+      go_on();
+    } catch (...) {
+      failure = std::current_exception();
     }
+    if (!failure) continue;
+    report_failure(failure);
+    Operation::fail_abandoned(failure);
   }
 }
 
@@ -49,9 +69,28 @@ int Loops::sessions() const {
   return all;
 }
 
-void Loops::run() {
-  std::vector<std::jthread> threads;
-  for (Loop& loop : loops_) threads.emplace_back([&loop] { loop.run(); });
+Loops::~Loops() {
+  stop();
+  let_go();
+}
+
+void Loops::start() {
+  for (Loop& loop : loops_) {
+    threads_.emplace_back([this, &loop] {
+      const FiberStack
+          first;  // the C library aborts if it cannot note at a later time what a thread's end frees
+      running_.wait(false);
+      loop.run();
+    });
+  }
+}
+
+void Loops::run() { let_go(); }
+
+void Loops::let_go() {
+  running_.test_and_set();
+  running_.notify_all();
+  threads_.clear();
 }
 
 void Loops::stop() {

@@ -5,8 +5,10 @@
 
 #include <atomic>
 #include <list>
+#include <thread>
 #include <unordered_set>
 #include <utility>  // Asio 1.74 forgets it
+#include <vector>
 
 #include <boost/asio/io_context.hpp>
 
@@ -19,7 +21,7 @@ namespace racebeam {
 class Client;
 
 struct Loop {
-  Loop(Meter& counting, std::chrono::microseconds busy_poll) : meter(counting), busy(busy_poll) {}
+  Loop(Meter& counting, std::chrono::microseconds busy_poll);
 
   void run();            // until its context is stopped
   void handle_events();  // what is ready, or as much of it as takes a few milliseconds
@@ -30,12 +32,20 @@ struct Loop {
   Turns turns;                          // the same
   std::unordered_set<Client*> clients;  // those in a session; only touched on the loop's thread
   boost::asio::io_context context{1};   // the last, so that what waits in it goes first
+
+ private:
+  void go_on();  // with the next turn or event
 };
 
 class Loops {
  public:
   Loops(unsigned threads, std::chrono::microseconds busy_poll, Metrics& metrics);
+  ~Loops();
+  Loops(const Loops&) = delete;
+  Loops& operator=(const Loops&) = delete;
 
+  // Starts a thread for each loop, which waits for run(). Throws std::system_error if the system gives fewer.
+  void start();
   Loop& first() { return loops_.front(); }
   Loop& idlest();  // with the fewest sessions
   std::list<Loop>& all() { return loops_; }
@@ -44,7 +54,11 @@ class Loops {
   void stop();
 
  private:
+  void let_go();
+
   std::list<Loop> loops_;
+  std::atomic_flag running_;
+  std::vector<std::jthread> threads_;
 };
 
 }  // namespace racebeam

@@ -3,19 +3,32 @@
 #include <algorithm>
 
 #include <boost/asio/redirect_error.hpp>
-#include <boost/asio/this_coro.hpp>
-#include <boost/asio/use_awaitable.hpp>
 
 namespace racebeam {
 
 namespace net = boost::asio;
 
+// Among those that wait, at the latest until the wait has ended or failed.
+class Turns::Place {
+ public:
+  Place(std::vector<Waiting>& all, Waiting one) : all_(all), timer_(one.timer) { all_.push_back(one); }
+  ~Place() {
+    std::erase_if(all_, [this](const Waiting& one) { return one.timer == timer_; });
+  }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+
+ private:
+  std::vector<Waiting>& all_;
+  const net::steady_timer* timer_;
+};
+
 // The timer never expires. It is cancelled to wake the session.
-net::awaitable<void> Turns::wait(const Usage& usage) {
-  net::steady_timer timer(co_await net::this_coro::executor, net::steady_timer::time_point::max());
-  waiting_.push_back({&usage, &timer});
+Task<> Turns::wait(net::io_context& loop, const Usage& usage) {
+  net::steady_timer timer(loop, net::steady_timer::time_point::max());
+  const Place place(waiting_, {&usage, &timer});
   boost::system::error_code cancelled;
-  co_await timer.async_wait(net::redirect_error(net::use_awaitable, cancelled));
+  co_await timer.async_wait(net::redirect_error(use_task, cancelled));
 }
 
 std::chrono::microseconds Turns::slice() const {

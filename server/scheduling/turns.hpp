@@ -11,9 +11,10 @@
 #include <utility>  // needed by Asio 1.74
 #include <vector>
 
-#include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
+
+#include "server/scheduling/task.hpp"
 
 namespace racebeam {
 
@@ -31,8 +32,8 @@ class Turns {
            std::ranges::all_of(waiting_, [usage](const Waiting& other) { return usage <= *other.usage; });
   }
 
-  // Returns when it is the session's turn, for one slice. Meanwhile, the loop handles other events.
-  boost::asio::awaitable<void> wait(const Usage& usage);
+  // Returns when it is the session's turn, for one slice. Meanwhile, `loop` handles other events.
+  Task<> wait(boost::asio::io_context& loop, const Usage& usage);
 
   // For how long a session works before it asks again. If many wait, each waits for many slices.
   std::chrono::microseconds slice() const;
@@ -56,6 +57,7 @@ class Turns {
     const Usage* usage;
     boost::asio::steady_timer* timer;
   };
+  class Place;
 
   std::vector<Waiting> waiting_;
   Usage now_{};  // that of the session that worked last, before it did

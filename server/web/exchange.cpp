@@ -8,28 +8,65 @@ namespace {
 
 namespace net = boost::asio;
 namespace http = boost::beast::http;
-using net::use_awaitable;
+using boost::system::error_code;
+using http::status;
+
+using Parser = http::request_parser<http::string_body>;
 
 constexpr std::uint64_t kLargestBody = 1024;
+constexpr std::uint32_t kLongestHeader = 8192;
+
+// A client that waits for this before it sends the body of its request (RFC 9110, 10.1.1).
+bool expects_continue(const HttpRequest& request) {
+  return boost::beast::iequals(request[http::field::expect], "100-continue");
+}
+
+Task<> send(ByteStream& stream, const HttpResponse& response, error_code& error) {
+  http::response_serializer<http::string_body> serializer(response);
+  co_await http::async_write(stream, serializer, net::redirect_error(use_task, error));
+}
+
+Task<> receive(ByteStream& stream, boost::beast::flat_buffer& buffer, Parser& parser, error_code& error) {
+  parser.body_limit(kLargestBody);
+  parser.header_limit(kLongestHeader);
+  co_await http::async_read_header(stream, buffer, parser, net::redirect_error(use_task, error));
+  if (!error && expects_continue(parser.get()))
+    co_await send(stream, HttpResponse{status::continue_, parser.get().version()}, error);
+  if (!error) co_await http::async_read(stream, buffer, parser, net::redirect_error(use_task, error));
+}
+
+// What a request gets that cannot be read; nothing: the client has gone.
+std::optional<HttpResponse> refusal(const error_code& error) {
+  if (error == http::error::header_limit)
+    return refuse(status::request_header_fields_too_large,
+                  "the header is longer than " + std::to_string(kLongestHeader) + " bytes");
+  if (error == http::error::body_limit)
+    return refuse(status::payload_too_large,
+                  "the body is longer than " + std::to_string(kLargestBody) + " bytes");
+  const bool is_end = error == http::error::end_of_stream || error == http::error::partial_message;
+  if (is_end || error.category() != make_error_code(http::error::end_of_stream).category())
+    return std::nullopt;
+  return refuse(status::bad_request, "this is not HTTP: " + error.message());
+}
 
 }  // namespace
 
-net::awaitable<Exchange> exchange(ByteStream& stream, boost::beast::flat_buffer& buffer, const Site& site) {
-  boost::system::error_code error;
+Task<Exchange> exchange(ByteStream& stream, boost::beast::flat_buffer& buffer, const Site& site) {
+  error_code error;
   Exchange done;
-  http::request_parser<http::string_body> parser;
-  parser.body_limit(kLargestBody);
-  co_await http::async_read(stream, buffer, parser, net::redirect_error(use_awaitable, error));
-  if (error) co_return done;
-  auto response = answer(parser.get(), site);
+  Parser parser;
+  co_await receive(stream, buffer, parser, error);
+  auto response = error ? refusal(error) : answer(parser.get(), site);
+  if (error && !response) co_return done;
   if (!response) {
     // A client speaks first again after the server has accepted.
     if (buffer.size() == 0) done.session = parser.release();
     co_return done;
   }
-  http::response_serializer<http::string_body> serializer(*response);
-  co_await http::async_write(stream, serializer, net::redirect_error(use_awaitable, error));
-  done.open = !error && response->keep_alive();
+  const bool stays = !error && response->keep_alive();
+  error = {};
+  co_await send(stream, *response, error);
+  done.open = stays && !error;
   co_return done;
 }
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <utility>  // needed by Asio 1.74
 
-#include <boost/asio/awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 
+#include "server/scheduling/task.hpp"
 #include "server/web/byte_stream.hpp"
 #include "server/web/site.hpp"
 
@@ -19,7 +19,6 @@ struct Exchange {
 
 // Receives a request, and answers it unless it opens a session. Neither is open after bytes that are not
 // HTTP, and when the client has closed the connection. `buffer` keeps what follows the request.
-boost::asio::awaitable<Exchange> exchange(ByteStream& stream, boost::beast::flat_buffer& buffer,
-                                          const Site& site);
+Task<Exchange> exchange(ByteStream& stream, boost::beast::flat_buffer& buffer, const Site& site);
 
 }  // namespace racebeam

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "server/access/resolve.hpp"
 #include "server/operation/log.hpp"
+#include "server/scheduling/keep_running.hpp"
 #include "server/web/exchange.hpp"
 
 namespace racebeam {
@@ -19,18 +21,19 @@ namespace {
 
 namespace net = boost::asio;
 using boost::system::error_code;
-using net::use_awaitable;
 using net::ip::tcp;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMostConnections = 64;
 constexpr auto kTimeout = 30s;  // for a request and its response
+constexpr auto kFarewell = 2s;  // for a client to close its end
 
 int open_spare() { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
 }  // namespace
 
-Http::Http(net::io_context& loop, const TcpAddress& address) : acceptor_(loop), spare_(open_spare()) {
+Http::Http(net::io_context& loop, const TcpAddress& address)
+    : loop_(loop), acceptor_(loop), spare_(open_spare()) {
   const tcp::endpoint endpoint = resolve(address);
   error_code error;
   acceptor_.open(endpoint.protocol());
@@ -53,24 +56,28 @@ bool Http::is_loopback() const { return acceptor_.local_endpoint().address().is_
 void Http::open(Site site, OnSession on_session) {
   site_ = std::move(site);
   on_session_ = std::move(on_session);
-  net::co_spawn(acceptor_.get_executor(), welcome(), net::detached);
+  keep_running(loop_, "accepting clients on " + name_, [this] { return welcome(); });
 }
 
-net::awaitable<void> Http::welcome() {
+Task<> Http::welcome() {
   for (;;) {
     error_code error;
-    tcp::socket socket = co_await acceptor_.async_accept(net::redirect_error(use_awaitable, error));
+    tcp::socket socket = co_await acceptor_.async_accept(net::redirect_error(use_task, error));
     if (error == net::error::no_descriptors && make_file_room()) continue;
     if (error) {
-      net::steady_timer pause(acceptor_.get_executor(), 100ms);
-      co_await pause.async_wait(use_awaitable);
+      co_await pause(loop_, 100ms);
       continue;
     }
     make_room();
     const auto connection = std::make_shared<OpenConnection>(std::move(socket));
+    Task<> serving = serve(connection);
     connections_.push_back(connection);
-    net::co_spawn(acceptor_.get_executor(), serve(connection),
-                  [this, connection](const std::exception_ptr&) { ended(connection); });
+    try {
+      spawn(loop_, std::move(serving));
+    } catch (...) {
+      ended(connection);
+      throw;
+    }
   }
 }
 
@@ -113,8 +120,17 @@ void Http::close_after(std::chrono::seconds limit, const Connection& connection)
   });
 }
 
+Task<> Http::serve(Connection connection) {
+  try {
+    co_await converse(connection);
+  } catch (const std::exception& error) {
+    log_warning("a client of " + name_ + " was left: " + error.what());
+  }
+  ended(connection);
+}
+
 // Answers requests until the client closes, times out, sends no valid HTTP, or opens a session.
-net::awaitable<void> Http::serve(Connection connection) {
+Task<> Http::converse(Connection connection) {
   ByteStream::Socket& socket = connection->socket;
   ByteStream stream(socket);
   boost::beast::flat_buffer buffer;
@@ -132,8 +148,17 @@ net::awaitable<void> Http::serve(Connection connection) {
     on_session_(socket.release(), std::move(*done.session));
     co_return;
   }
-  error_code ignored;
-  socket.shutdown(net::socket_base::shutdown_both, ignored);
+  co_await await_end(connection);
+}
+
+// Closing a socket with unread input would make the system discard a reply that the client has not read yet.
+Task<> Http::await_end(Connection connection) {
+  ByteStream::Socket& socket = connection->socket;
+  error_code error;
+  socket.shutdown(net::socket_base::shutdown_send, error);
+  close_after(kFarewell, connection);
+  std::array<char, 4096> rest;
+  while (!error) co_await socket.async_read_some(net::buffer(rest), net::redirect_error(use_task, error));
 }
 
 }  // namespace racebeam

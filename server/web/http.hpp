@@ -8,12 +8,12 @@
 #include <string>
 #include <utility>  // needed by Asio 1.74
 
-#include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 
 #include "server/access/address.hpp"
+#include "server/scheduling/task.hpp"
 #include "server/web/byte_stream.hpp"
 #include "server/web/site.hpp"
 
@@ -46,14 +46,17 @@ class Http {
   };
   using Connection = std::shared_ptr<OpenConnection>;
 
-  boost::asio::awaitable<void> welcome();
+  Task<> welcome();
   void make_room();       // for one more connection
   bool make_file_room();  // for the file of one more connection; returns false if that is impossible
   void close_oldest();
   void ended(const Connection& connection);
   static void close_after(std::chrono::seconds limit, const Connection& connection);
-  boost::asio::awaitable<void> serve(Connection connection);
+  Task<> serve(Connection connection);
+  Task<> converse(Connection connection);
+  Task<> await_end(Connection connection);
 
+  boost::asio::io_context& loop_;
   boost::asio::ip::tcp::acceptor acceptor_;
   Site site_;
   OnSession on_session_;

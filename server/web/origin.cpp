@@ -1,6 +1,7 @@
 #include "server/web/origin.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include "server/access/address.hpp"
 
@@ -15,9 +16,22 @@ std::string_view place_of(std::string_view origin) {
   return {};
 }
 
-std::string_view without_port(std::string_view place) {
-  if (place.starts_with('[')) return place.substr(1, place.find(']') - 1);  // IPv6
-  return place.substr(0, place.find(':'));
+bool is_port(std::string_view text) {
+  unsigned number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size() && number <= 65535;
+}
+
+// The host of HOST[:PORT]; an address of IPv6 is in brackets there. Empty if the text is not that as a whole,
+// as in USER@HOST.
+std::string_view host_of(std::string_view place) {
+  const bool six = place.starts_with('[');
+  const std::size_t end = std::min(place.find(six ? ']' : ':'), place.size());
+  const std::string_view host = place.substr(six ? 1 : 0, six ? end - 1 : end);
+  const std::string_view port = place.substr(six ? std::min(end + 1, place.size()) : end);
+  if (!port.empty() && !(port.front() == ':' && is_port(port.substr(1)))) return {};
+  if (six) return is_ip_address(std::string(host)) && host.find(':') != std::string_view::npos ? host : "";
+  return host.find_first_of("@/\\?#[] ") == std::string_view::npos ? host : "";
 }
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -31,12 +45,13 @@ bool is_name(std::string_view host) { return !equal(host, "localhost") && !is_ip
 bool admits(const OriginRules& rules, std::string_view origin, std::string_view host) {
   if (std::ranges::find(rules.allowed, origin) != rules.allowed.end()) return true;
   const std::string_view place = place_of(origin);
-  return !place.empty() && equal(place, host) && (rules.any_name || !is_name(without_port(place)));
+  const std::string_view own = host_of(place);
+  return !own.empty() && equal(place, host) && (rules.any_name || !is_name(own));
 }
 
 bool is_origin(std::string_view text) {
   const std::string_view place = place_of(text);
-  return !place.empty() && place.find_first_of("/*?# ") == std::string_view::npos;
+  return !host_of(place).empty() && place.find('*') == std::string_view::npos;
 }
 
 }  // namespace racebeam

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -32,6 +33,7 @@ std::string_view type_of(std::string_view path) {
 std::string gzip(std::string_view bytes) {
   constexpr int kGzip = 16 + MAX_WBITS, kMostMemory = 9;
   z_stream stream{};
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> ended(&stream, deflateEnd);
   if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMostMemory, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::runtime_error("zlib cannot compress the page");
   std::string out(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
@@ -41,7 +43,6 @@ std::string gzip(std::string_view bytes) {
   stream.avail_out = static_cast<uInt>(out.size());
   deflate(&stream, Z_FINISH);
   out.resize(stream.total_out);
-  deflateEnd(&stream);
   return out;
 }
 

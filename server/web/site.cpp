@@ -106,11 +106,15 @@ std::optional<HttpResponse> answer(const HttpRequest& request, const Site& site)
   return respond(request, status::not_found, "accepted are / and /session\n");
 }
 
+HttpResponse refuse(status code, const std::string& sentence) {
+  HttpResponse response = respond({}, code, sentence + "\n");
+  response.keep_alive(false);
+  return response;
+}
+
 std::string http_refusal(const std::string& sentence) {
   std::ostringstream text;
-  HttpResponse response = respond({}, status::service_unavailable, sentence + "\n");
-  response.keep_alive(false);
-  text << response;
+  text << refuse(status::service_unavailable, sentence);
   return text.str();
 }
 

@@ -7,6 +7,7 @@
 #include <utility>  // needed by Asio 1.74
 
 #include <boost/beast/http/message.hpp>
+#include <boost/beast/http/status.hpp>
 #include <boost/beast/http/string_body.hpp>
 
 #include "server/web/origin.hpp"
@@ -33,7 +34,8 @@ struct Site {
 // the site are.
 std::optional<HttpResponse> answer(const HttpRequest& request, const Site& site);
 
-// The response 503, for a client whose request the server does not read.
-std::string http_refusal(const std::string& sentence);
+// For a client whose request the server does not read.
+HttpResponse refuse(boost::beast::http::status code, const std::string& sentence);
+std::string http_refusal(const std::string& sentence);  // as text: with the status 503
 
 }  // namespace racebeam

@@ -17,7 +17,6 @@ namespace net = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = boost::beast::websocket;
 using boost::system::error_code;
-using net::use_awaitable;
 
 // What Beast asks of a stream besides reading and writing. The connection stays open: its owner closes it.
 template <typename Handler>
@@ -64,9 +63,9 @@ WebSocket::WebSocket(ByteStream stream) : impl_(std::make_unique<Impl>(stream)) 
 
 WebSocket::~WebSocket() = default;
 
-net::awaitable<void> WebSocket::accept(const HttpRequest& request) {
+Task<> WebSocket::accept(const HttpRequest& request) {
   error_code error;
-  co_await impl_->stream.async_accept(request, net::redirect_error(use_awaitable, error));
+  co_await impl_->stream.async_accept(request, net::redirect_error(use_task, error));
   if (error) throw std::runtime_error("WebSocket handshake failed: " + error.message());
 }
 
@@ -77,13 +76,13 @@ void WebSocket::on_control(std::function<void()> heard) {
       [heard = std::move(heard)](websocket::frame_type, beast::string_view) { heard(); });
 }
 
-net::awaitable<std::size_t> WebSocket::read(std::span<char> space) {
+Task<std::size_t> WebSocket::read(std::span<char> space) {
   Impl& impl = *impl_;
   error_code error;
   std::size_t count = complete_line(space, 0);
   while (count == 0) {
     count = co_await impl.stream.async_read_some(net::buffer(space.data(), space.size()),
-                                                 net::redirect_error(use_awaitable, error));
+                                                 net::redirect_error(use_task, error));
     if (error) break;
     if (impl.stream.got_binary()) {
       co_await leave({}, CloseCode::kUnsupportedData);
@@ -112,8 +111,7 @@ std::size_t WebSocket::complete_line(std::span<char> space, std::size_t count) {
   return count + 1;
 }
 
-net::awaitable<void> WebSocket::write(std::string_view replies,
-                                      const std::function<void(std::size_t)>& sent) {
+Task<> WebSocket::write(std::string_view replies, const std::function<void(std::size_t)>& sent) {
   while (!replies.empty()) {
     const Reply reply = cut_reply(replies);
     co_await send(reply.line, false, sent);
@@ -122,8 +120,7 @@ net::awaitable<void> WebSocket::write(std::string_view replies,
 }
 
 // Sends a message, a frame for each piece.
-net::awaitable<void> WebSocket::send(std::string_view bytes, bool binary,
-                                     const std::function<void(std::size_t)>& sent) {
+Task<> WebSocket::send(std::string_view bytes, bool binary, const std::function<void(std::size_t)>& sent) {
   constexpr std::size_t kPiece = 1 << 16;
   impl_->stream.binary(binary);
   for (bool last = false; !last; bytes.remove_prefix(std::min(kPiece, bytes.size()))) {
@@ -131,20 +128,20 @@ net::awaitable<void> WebSocket::send(std::string_view bytes, bool binary,
     last = piece.size() == bytes.size();
     error_code error;
     co_await impl_->stream.async_write_some(last, net::buffer(piece.data(), piece.size()),
-                                            net::redirect_error(use_awaitable, error));
+                                            net::redirect_error(use_task, error));
     if (error) throw std::runtime_error("the client stopped reading");
     sent(piece.size());
   }
 }
 
 // Beast sends nothing after a read was cancelled, so that these frames are written without it.
-net::awaitable<void> WebSocket::leave(std::string_view line, CloseCode code) {
+Task<> WebSocket::leave(std::string_view line, CloseCode code) {
   constexpr unsigned char kText = 1, kClose = 8;
   if (std::exchange(impl_->closed, true)) co_return;
   const std::string text =
       (line.empty() ? std::string() : frame(kText, line)) + frame(kClose, close_payload(code));
   error_code ignored;
-  co_await net::async_write(impl_->lower, net::buffer(text), net::redirect_error(use_awaitable, ignored));
+  co_await net::async_write(impl_->lower, net::buffer(text), net::redirect_error(use_task, ignored));
 }
 
 }  // namespace racebeam

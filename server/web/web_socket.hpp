@@ -10,8 +10,7 @@
 #include <string_view>
 #include <utility>  // needed by Asio 1.74
 
-#include <boost/asio/awaitable.hpp>
-
+#include "server/scheduling/task.hpp"
 #include "server/web/byte_stream.hpp"
 #include "server/web/site.hpp"
 
@@ -34,7 +33,7 @@ class WebSocket {
   WebSocket& operator=(const WebSocket&) = delete;
 
   // Answers the request that opens the WebSocket. Throws std::runtime_error if it is not a valid one.
-  boost::asio::awaitable<void> accept(const HttpRequest& request);
+  Task<> accept(const HttpRequest& request);
 
   void limit_message(std::size_t bytes);  // a longer one ends the connection
 
@@ -44,19 +43,18 @@ class WebSocket {
   // Receives bytes of request lines; a message that does not end with LF gets one. Returns their number; 0:
   // the client has closed, or what waits was cancelled. Throws std::runtime_error if the client violates the
   // protocol, or sends a binary message.
-  boost::asio::awaitable<std::size_t> read(std::span<char> space);
+  Task<std::size_t> read(std::span<char> space);
 
   // Sends whole replies, in pieces; calls `sent` after each that was accepted. Throws std::runtime_error if
   // the client has stopped reading.
-  boost::asio::awaitable<void> write(std::string_view replies, const std::function<void(std::size_t)>& sent);
+  Task<> write(std::string_view replies, const std::function<void(std::size_t)>& sent);
 
   // Sends a last line, unless it is empty, and closes. Possible after a cancelled read(). Ignores errors.
-  boost::asio::awaitable<void> leave(std::string_view line, CloseCode code);
+  Task<> leave(std::string_view line, CloseCode code);
 
  private:
   struct Impl;
-  boost::asio::awaitable<void> send(std::string_view bytes, bool binary,
-                                    const std::function<void(std::size_t)>& sent);
+  Task<> send(std::string_view bytes, bool binary, const std::function<void(std::size_t)>& sent);
   std::size_t complete_line(std::span<char> space, std::size_t count);
 
   const std::unique_ptr<Impl> impl_;

@@ -194,6 +194,39 @@ class Departure(Case):
         self.assertEqual(replies[1], replies[0])
 
 
+class HalfClosed(Case):
+    """A client closes its sending end, and reads its replies late. Nothing else comes before them."""
+
+    REQUESTS = ENDLESS + b"\nact NOOP*%d\nlook\nquit\n"
+
+    def replies(self, connection, requests, shut):
+        connection.sendall(requests)
+        shut(connection)
+        time.sleep(4)
+        heard = b""
+        while piece := connection.recv(65536):
+            heard += piece
+        return heard
+
+    def frames(self):
+        """So many that they take more than the four seconds on this machine."""
+        wire = self.connect()
+        ask(wire, ENDLESS)
+        begun = time.monotonic()
+        ask(wire, b"act NOOP*20000")
+        return int(20000 * 5 / (time.monotonic() - begun))
+
+    def test_replies_over_tcp_come_alone(self):
+        self.start(serve("--grace", "0", "--max-request-frames", "100000000"))
+        requests = self.REQUESTS % self.frames()
+        found = []
+        for shut in (lambda connection: None, lambda connection: connection.shutdown(socket.SHUT_WR)):
+            with socket.create_connection(("127.0.0.1", self.server.port()), timeout=PATIENCE) as connection:
+                found.append(self.replies(connection, requests, shut))
+        self.assertTrue(found[0].endswith(b"\nok\n"), found[0])
+        self.assertEqual(found[1], found[0])
+
+
 class End(unittest.TestCase):
     """SIGTERM in the middle of a request that would take an hour, or of a mode that takes long."""
 

@@ -1,14 +1,16 @@
 """Sockets: addresses that are in use, stale or invalid, several at once, signals, and independent clients."""
 
 import contextlib
+import fcntl
 import os
 import resource
 import signal
 import socket
 import tempfile
+import threading
 import unittest
 
-from harness import GAME, Server, connect_tcp, connect_unix, main, run, sanitized
+from harness import GAME, Server, connect_tcp, connect_unix, main, open_pipes, run, sanitized
 
 SERVE = ("serve", "--classic", "--rom", GAME, "--seed", "1", "--sticky", "0", "--grace", "0")
 WHOLE = b"0,1,0,1\n" + b"1,18\n" * 20
@@ -72,6 +74,19 @@ class Addresses(unittest.TestCase):
                     client.setblocking(False)
                     client.connect(path)
             self.refuse("unix:" + path, 3, "in use")
+
+    def test_a_server_that_has_bound_its_socket_and_does_not_listen_yet_keeps_it(self):
+        folder = self.folder()
+        path = os.path.join(folder, "s")
+        lock = os.open(folder, os.O_RDONLY)
+        self.addCleanup(os.close, lock)
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        with socket.socket(socket.AF_UNIX) as listener, Server(*SERVE, "--listen", "unix:" + path) as server:
+            listener.bind(path)
+            threading.Timer(0.5, lambda: (listener.listen(), fcntl.flock(lock, fcntl.LOCK_UN))).start()
+            self.assertEqual(server.wait(), 3)
+            self.assertIn("in use", server.log()[-1])
+            self.assertTrue(os.path.exists(path))
 
     def test_one_address_cannot_be_given_twice(self):
         ended, _, errors = run(*SERVE, "--listen", "unix:s", "--listen", "unix:s", cwd=self.folder())
@@ -185,6 +200,38 @@ class Signals(unittest.TestCase):
                 for wire in wires:
                     self.assertEqual(wire.rest(), b"")
                     wire.close()
+
+    def test_pipes_that_the_server_has_made_are_removed_at_its_end(self):
+        for own, end in ((True, "signal"), (True, "client"), (False, "signal")):
+            with self.subTest(own=own, end=end), Server(*SERVE, "--pipes", "p", before=None if own else self.make_pipes) as server:
+                server.wait_for("for a client that opens")
+                if end == "client":
+                    wire = open_pipes(server, "p")
+                    play(wire)
+                    self.assertEqual(server.wait(), 0)
+                else:
+                    self.assertEqual(server.stop(), 0)
+                self.assertEqual(os.path.exists(server.path("p_out")), not own)
+                self.assertEqual(os.path.exists(server.path("p_in")), not own)
+
+    def make_pipes(self):
+        for name in ("p_out", "p_in"):
+            os.mkfifo(name)
+
+    def test_a_hangup_early_in_the_start_does_no_harm(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for number in range(300):  # the server reads them all before it handles signals
+                with open(os.path.join(folder, f"{number}.bin"), "wb") as image:
+                    image.write(number.to_bytes(4, "big") * (1 << 16))
+            with Server("serve", "--listen", "unix:s", "--roms", folder) as server:
+                files, early = f"/proc/{server.process.pid}/fd", False
+                while not early and server.alive():
+                    with contextlib.suppress(OSError):
+                        early = any(os.readlink(os.path.join(files, file)).startswith(folder) for file in os.listdir(files))
+                for _ in range(3):
+                    server.process.send_signal(signal.SIGHUP)
+                server.wait_for("listening on unix:s")
+                self.assertEqual(server.stop(), 0)
 
     def test_the_socket_of_a_successor_is_left_alone(self):
         with listening("unix:s") as server:

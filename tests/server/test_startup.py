@@ -120,6 +120,12 @@ class CommandLine(Refusals):
             with self.subTest(flag=words[0]):
                 self.check(["serve", "--stdio", "--rom", GAME, *words], 2, f"{words[0]}: requires --classic")
 
+    def test_minus_zero_is_no_whole_number(self):
+        self.check([*SERVE, "--seed=-0"], 2, "'-0' is not a whole number from 0 to 4294967295")
+        lines = run("serve", "--stdio", data=b"load beamfall seed=-0\nload beamfall seed=0\n")[1].splitlines()
+        self.assertTrue(lines[0].startswith(b"error bad-value seed is '-0'; it takes a whole number from 0 to "), lines)
+        self.assertTrue(lines[1].startswith(b"ok game=beamfall "), lines)
+
     def test_folders_have_to_be_there(self):
         self.check(["serve", "--stdio", "--roms", "nowhere"], 4, "--roms nowhere is not a folder")
         self.check(["serve", "--stdio", "--record-dir", "nowhere"], 4, "--record-dir nowhere is not a folder")
@@ -144,7 +150,7 @@ class CommandLine(Refusals):
     @unittest.skipIf(sanitized(), "a sanitizer needs more address space")
     def test_a_thread_that_the_system_does_not_give_has_the_same_status(self):
         reason = "the system gives no more memory for a thread, or allows no more threads"
-        for kibibytes in (20000, 30000):  # without room for the stack of the log's thread; of that of an event loop
+        for kibibytes in (20000, 26000):  # without room for the stack of a thread
             def limit():
                 resource.setrlimit(resource.RLIMIT_AS, (kibibytes << 10, kibibytes << 10))
             for form in ("text", "json"):

@@ -8,8 +8,6 @@
 #include <thread>
 #include <vector>
 
-#include <boost/asio/co_spawn.hpp>
-#include <boost/asio/detached.hpp>
 #include <boost/asio/post.hpp>
 #include <catch2/catch.hpp>
 
@@ -24,16 +22,16 @@ namespace {
 // A loop of sessions that work without a pause, as in the server.
 struct Busy {
   // Notes its name at each slice, which takes `work`.
-  net::awaitable<void> session(char name, Usage& usage, int slices, Turns::Duration work) {
+  Task<> session(char name, Usage& usage, int slices, Turns::Duration work) {
     for (; slices > 0; --slices) {
-      if (!turns.may_work(usage)) co_await turns.wait(usage);
+      if (!turns.may_work(usage)) co_await turns.wait(context, usage);
       turns.worked(usage, work);
       worked += name;
     }
   }
 
   void begin(char name, Usage& usage, int slices, Turns::Duration work = 2ms) {
-    net::co_spawn(context, session(name, usage, slices, work), net::detached);
+    spawn(context, session(name, usage, slices, work));
     context.poll();
   }
 
@@ -119,13 +117,11 @@ TEST_CASE("a session gets its turn though events are always ready") {
   net::post(loop.context, again);
   Usage usage{};
   std::promise<void> turn;
-  net::co_spawn(
-      loop.context,
-      [&]() -> net::awaitable<void> {
-        co_await loop.turns.wait(usage);
-        turn.set_value();
-      },
-      net::detached);
+  const auto session = [&]() -> Task<> {
+    co_await loop.turns.wait(loop.context, usage);
+    turn.set_value();
+  };
+  spawn(loop.context, session());
   std::jthread thread([&] { loop.run(); });
   CHECK(turn.get_future().wait_for(10s) == std::future_status::ready);
   loop.context.stop();

@@ -194,6 +194,41 @@ class Page(Case):
                 self.assertEqual(self.get("/" + name, **{"If-None-Match": fields["ETag"]})[::2], (304, b""))
                 self.assertEqual(self.get("/" + name, **{"If-None-Match": '"other"'})[0], 200)
 
+    def answers(self, *pieces):
+        """What the server says after each piece of a request, and then until it closes."""
+        connection, heard = self.raw(), []
+        for piece in pieces:
+            connection.sendall(piece)
+            heard.append(connection.recv(65536))
+        while piece := connection.recv(65536):
+            heard[-1] += piece
+        return heard
+
+    def test_who_waits_before_the_body_is_told_to_go_on(self):
+        for method, status in ((b"GET", b"HTTP/1.1 200 OK\r\n"), (b"POST", b"HTTP/1.1 405 ")):
+            self.start()
+            first, second = self.answers(method + b" / HTTP/1.1\r\nHost: x\r\nConnection: close\r\nContent-Length: 4\r\n"
+                                         b"Expect: 100-continue\r\n\r\n", b"body")
+            self.assertEqual(first, b"HTTP/1.1 100 Continue\r\n\r\n")
+            self.assertTrue(second.startswith(status), second)
+        self.assertTrue(self.answers(b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 4000\r\nExpect: 100-continue\r\n\r\n")[0]
+                        .startswith(b"HTTP/1.1 413 "))
+
+    def test_a_request_that_cannot_be_read_is_told_so(self):
+        self.start("--http", "127.0.0.1:0")
+        health = int(self.server.wait_for(r"health and metrics on http://127\.0\.0\.1:(\d+)").group(1))
+        cases = ((b"GET / HTTP/1.1\r\nHost: x\r\nX: " + b"x" * 30000 + b"\r\n\r\n", b"HTTP/1.1 431 "),
+                 (b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 9999\r\n\r\n" + b"x" * 9999, b"HTTP/1.1 413 "),
+                 (b"GET / HTTP/1.1\r\nHost\r\n\r\n", b"HTTP/1.1 400 "), (b"load beamfall\n\r\n\r\n", b"HTTP/1.1 400 "))
+        for port in (port_of(self.server), health):
+            for request_text, status in cases:
+                with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE) as connection:
+                    connection.sendall(request_text)
+                    heard = b""
+                    while piece := connection.recv(65536):
+                        heard += piece
+                    self.assertTrue(heard.startswith(status), (status, heard))
+
     def test_other_paths_are_not(self):
         self.start()
         for path, status in (("/nothing", 404), ("/../CMakeLists.txt", 404), ("/healthz", 404), ("/metrics", 404), ("/session", 426)):
@@ -214,6 +249,9 @@ class Origins(Case):
         for origin in ("http://evil.example", "http://" + host + "0", "http://127.0.0.1", "null", "", "file://", host,
                        "https://lab.example.evil.example", "https://lab.example:444", "http://lab.example"):
             self.assertEqual(self.refusal(Origin=origin).status, 403, origin)
+        for place in ("[::1].evil.example", "127.0.0.1:80@evil.example", "127.0.0.1:80.evil.example", "localhost@evil.example",
+                      "[::1]evil", "[127.0.0.1]", "127.0.0.1:99999"):
+            self.assertEqual(self.refusal(Origin="http://" + place, Host=place).status, 403, place)
         # The name of another site that stands for this machine.
         self.assertEqual(self.refusal(Origin="http://evil.example:80", Host="evil.example:80").status, 403)
 

@@ -1,0 +1,94 @@
+#include "server/connections/peer_socket.hpp"
+
+#include <linux/inet_diag.h>
+#include <linux/netlink.h>
+#include <linux/sock_diag.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+
+namespace racebeam {
+namespace {
+
+struct Place {
+  std::array<std::uint32_t, 4> address{};
+  std::uint16_t port = 0;
+  int family = AF_UNSPEC;
+};
+
+// `ask` is getsockname or getpeername. Numbers are in the order of the network.
+template <typename Ask>
+std::optional<Place> place_of(int descriptor, Ask ask) {
+  sockaddr_storage found{};
+  socklen_t size = sizeof found;
+  if (ask(descriptor, reinterpret_cast<sockaddr*>(&found), &size) != 0) return std::nullopt;
+  Place place;
+  place.family = found.ss_family;
+  if (place.family == AF_INET) {
+    const auto& four = reinterpret_cast<const sockaddr_in&>(found);
+    place.port = four.sin_port;
+    place.address[0] = four.sin_addr.s_addr;
+    return place;
+  }
+  if (place.family != AF_INET6) return std::nullopt;
+  const auto& six = reinterpret_cast<const sockaddr_in6&>(found);
+  place.port = six.sin6_port;
+  std::memcpy(place.address.data(), &six.sin6_addr, sizeof six.sin6_addr);
+  return place;
+}
+
+struct Question {
+  nlmsghdr header{};
+  inet_diag_req_v2 socket{};
+};
+
+// About the socket from `from` to `to`.
+Question question(const Place& from, const Place& to) {
+  Question asked;
+  asked.header.nlmsg_len = sizeof asked;
+  asked.header.nlmsg_type = SOCK_DIAG_BY_FAMILY;
+  asked.header.nlmsg_flags = NLM_F_REQUEST;
+  asked.socket.sdiag_family = static_cast<__u8>(from.family);
+  asked.socket.sdiag_protocol = IPPROTO_TCP;
+  asked.socket.idiag_states = ~0U;
+  inet_diag_sockid& id = asked.socket.id;
+  id.idiag_sport = from.port;
+  id.idiag_dport = to.port;
+  std::memcpy(id.idiag_src, from.address.data(), sizeof id.idiag_src);
+  std::memcpy(id.idiag_dst, to.address.data(), sizeof id.idiag_dst);
+  for (__u32& part : id.idiag_cookie) part = INET_DIAG_NOCOOKIE;
+  return asked;
+}
+
+struct Answer {
+  nlmsghdr header{};
+  inet_diag_msg socket{};
+  std::array<char, 4096> more{};
+};
+
+// The inode of the socket: 0 if no process has it. Nothing: there is no such socket.
+std::optional<std::uint32_t> inode(const Question& asked) {
+  const int link = ::socket(AF_NETLINK, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_SOCK_DIAG);
+  if (link < 0) return std::nullopt;
+  Answer found;
+  const bool answered = ::send(link, &asked, sizeof asked, 0) == static_cast<ssize_t>(sizeof asked) &&
+                        ::recv(link, &found, sizeof found, 0) >=
+                            static_cast<ssize_t>(sizeof found.header + sizeof found.socket);
+  ::close(link);
+  if (!answered || found.header.nlmsg_type != SOCK_DIAG_BY_FAMILY) return std::nullopt;
+  return found.socket.idiag_inode;
+}
+
+}  // namespace
+
+bool peer_has_closed(int descriptor) {
+  const auto here = place_of(descriptor, ::getsockname), there = place_of(descriptor, ::getpeername);
+  return here && there && inode(question(*there, *here)) == 0U;
+}
+
+}  // namespace racebeam

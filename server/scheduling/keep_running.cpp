@@ -1,0 +1,63 @@
+#include "server/scheduling/keep_running.hpp"
+
+#include <new>
+#include <thread>
+
+#include <boost/asio/steady_timer.hpp>
+
+#include "server/operation/log.hpp"
+
+namespace racebeam {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kAfterFailure = 100ms, kShortSleep = 10ms;
+constexpr auto kBetweenLines = 10s;  // of the log
+
+void tell(const std::string& what, const std::exception& failure) noexcept {
+  try {
+    log(LogLevel::kError, what + " failed, and begins again: " + failure.what());
+  } catch (const std::exception&) {
+    log(LogLevel::kError, what);
+  }
+}
+
+// Without memory for a pause, the thread sleeps.
+Task<> repeat(boost::asio::io_context& loop, std::string what, std::function<Task<>()> body) {
+  Clock::time_point told{};
+  for (bool failed = false;; failed = true) {
+    try {
+      if (failed) co_await pause(loop, kAfterFailure);
+      co_await body();
+      co_return;
+    } catch (const std::exception& failure) {
+      if (Clock::now() - std::exchange(told, Clock::now()) > kBetweenLines) tell(what, failure);
+    }
+    if (failed) std::this_thread::sleep_for(kShortSleep);
+  }
+}
+
+}  // namespace
+
+Task<> pause(boost::asio::io_context& loop, std::chrono::milliseconds time) {
+  boost::asio::steady_timer timer(loop, time);
+  co_await timer.async_wait(use_task);
+}
+
+void keep_running(boost::asio::io_context& loop, std::string what, std::function<Task<>()> body) {
+  spawn(loop, repeat(loop, std::move(what), std::move(body)));
+}
+
+void insist(const std::function<void()>& step) {
+  for (;;) {
+    try {
+      return step();
+    } catch (const std::bad_alloc&) {
+      std::this_thread::sleep_for(kShortSleep);
+    }
+  }
+}
+
+}  // namespace racebeam
