@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "emulator/translator/code_owner.hpp"
 #include "emulator/translator/translator.hpp"
 #include "environment/reset/reset_cache.hpp"
 
@@ -11,18 +12,19 @@ SharedCaches shared_caches_for(std::uint64_t memory) {
   constexpr std::uint64_t kMost = 24 << 20, kReset = 72 << 10;
   constexpr std::uint64_t kLeastCode = 128 << 10, kMostCode = 4 << 20;
   const std::uint64_t bytes = memory == 0 ? kMost : std::min(memory / 16, kMost);
-  return {bytes, std::clamp<std::uint64_t>(bytes / 2 / kReset, 1, ResetCache::kMost),
-          std::clamp(bytes / 6, kLeastCode, kMostCode)};
+  const std::uint64_t resets = std::clamp<std::uint64_t>(bytes / 2 / kReset, 1, ResetCache::kMost);
+  return {bytes, resets, std::clamp(bytes / 6, kLeastCode, kMostCode), bytes - resets * kReset};
 }
 
 void use(const SharedCaches& caches) {
   reset_cache().set_capacity(caches.resets);
   Translator::set_code_capacity(caches.code_of_image);
+  limit_shared_code(caches.code);
 }
 
 std::string text_of(const SharedCaches& caches) {
   return std::to_string(caches.resets) + " resets, " + std::to_string(caches.code_of_image) +
-         " bytes of code for an image";
+         " bytes of code for an image, " + std::to_string(caches.code) + " for all";
 }
 
 }  // namespace racebeam

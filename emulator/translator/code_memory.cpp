@@ -28,11 +28,12 @@ CodeMemory::CodeMemory(std::size_t size) : size_(whole_pages(size)) {
 
 CodeMemory::~CodeMemory() { munmap(base_, size_); }
 
-void CodeMemory::seal(std::size_t size) {
+std::size_t CodeMemory::seal(std::size_t size) {
   size = whole_pages(size);
   if (mprotect(base_ + used_, size, PROT_READ | PROT_EXEC) != 0)
     refuse("the system refuses executable memory");
   used_ += size;
+  return size;
 }
 
 }  // namespace racebeam::translator

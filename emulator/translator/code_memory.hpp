@@ -17,9 +17,11 @@ class CodeMemory {
   // Where to write next, and how many bytes. Null when the memory is full.
   void* writable() const { return left() == 0 ? nullptr : base_ + used_; }
   std::size_t left() const { return open_ - used_; }
+  std::size_t size() const { return size_; }
 
-  // Makes the first `size` written bytes executable. Throws std::system_error if the system refuses that.
-  void seal(std::size_t size);
+  // Makes the first `size` written bytes executable, and the rest of their last page. Returns how many these
+  // are. Throws std::system_error if the system refuses that.
+  std::size_t seal(std::size_t size);
 
  private:
   char* base_ = nullptr;

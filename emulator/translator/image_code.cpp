@@ -1,48 +1,112 @@
 #include "emulator/translator/image_code.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <limits>
+#include <string_view>
+#include <utility>
 
 #include "emulator/board/board.hpp"
 #include "emulator/translator/block_discovery.hpp"
 #include "emulator/translator/block_emitter.hpp"
+#include "emulator/translator/code_owner.hpp"
 
 namespace racebeam::translator {
 namespace {
 
 std::atomic<std::size_t> code_capacity = 4U << 20;
+std::atomic<std::size_t> most_shared = std::numeric_limits<std::size_t>::max(), bytes_shared = 0;
 
 constexpr std::size_t kBatchCapacity = 1U << 16;  // a batch is begun only with this much memory left
+constexpr std::size_t kViewCapacity = 4U << 20;   // of an image
+
+// All code, and the images that have owners.
+struct Registry {
+  std::mutex mutex;
+  std::vector<std::weak_ptr<ImageCode>> codes;
+  std::vector<const Rom*> owned;  // an image is there once for each of its owners
+
+  bool is_owned(const Rom& rom) const { return std::ranges::find(owned, &rom) != owned.end(); }
+};
+
+Registry& registry() {
+  static Registry all;
+  return all;
+}
+
+// Compared first: an image of many may differ from others in its last byte.
+std::size_t hash_of(const Rom& rom) {
+  return std::hash<std::string_view>()({reinterpret_cast<const char*>(rom.data()), rom.size()});
+}
+
+bool is_room_for(std::size_t bytes) { return bytes_shared + bytes <= most_shared; }
 
 }  // namespace
 
 void set_code_capacity(std::size_t bytes) { code_capacity = bytes; }
 
 std::shared_ptr<ImageCode> ImageCode::of(const Rom& rom, const Wiring& wiring, bool make) {
-  static std::mutex mutex;
-  static std::vector<std::weak_ptr<ImageCode>> all;
-  const std::lock_guard lock(mutex);
-  std::erase_if(all, [](const auto& one) { return one.expired(); });
-  for (const auto& one : all) {
+  Registry& all = registry();
+  const std::size_t hash = hash_of(rom);
+  const std::lock_guard lock(all.mutex);
+  std::erase_if(all.codes, [](const auto& one) { return one.expired(); });
+  for (const auto& one : all.codes) {
     const auto code = one.lock();
-    if (code && !code->is_full() && code->wiring_ == wiring && std::ranges::equal(code->rom_, rom))
-      return code;
+    if (code && !code->is_full() && code->wiring_ == wiring && code->is_of(rom, hash)) return code;
   }
-  if (!make) return nullptr;
-  auto code = std::make_shared<ImageCode>(rom, wiring, code_capacity);
-  all.push_back(code);
+  const bool shared = !all.is_owned(rom);
+  if (!make || (shared && !is_room_for(rom.size() + kBatchCapacity))) return nullptr;
+  auto code = std::make_shared<ImageCode>(rom, wiring, code_capacity, shared);
+  all.codes.push_back(code);
   return code;
 }
 
-ImageCode::ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity)
-    : rom_(rom), wiring_(wiring), memory_(std::max(capacity, 2 * kBatchCapacity)) {}
+std::size_t ImageCode::bytes_of_owned(const Rom& rom, std::size_t hash) {
+  Registry& all = registry();
+  const std::lock_guard lock(all.mutex);
+  std::size_t bytes = 0;
+  for (const auto& one : all.codes) {
+    const auto code = one.lock();
+    if (code && !code->shared_ && code->is_of(rom, hash)) bytes += code->bytes_;
+  }
+  return bytes;
+}
+
+bool ImageCode::is_of(const Rom& rom, std::size_t hash) const { return hash_ == hash && rom_ == rom; }
+
+ImageCode::ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity, bool shared)
+    : rom_(rom),
+      hash_(hash_of(rom)),
+      wiring_(wiring),
+      memory_(std::max(capacity, 2 * kBatchCapacity)),
+      shared_(shared) {
+  count(sizeof *this + rom_.size());
+}
+
+ImageCode::~ImageCode() {
+  if (shared_) bytes_shared -= bytes_;
+}
+
+// Machines on several threads look before they count, so that the capacity may be exceeded by a batch of
+// each.
+bool ImageCode::has_room(std::size_t bytes) const { return !shared_ || is_room_for(bytes); }
+
+void ImageCode::count(std::size_t bytes) {
+  bytes_ += bytes;
+  if (shared_) bytes_shared += bytes;
+}
 
 View* ImageCode::view(const CodeWindow& window, const Rom& rom, bool make) {
   const auto rom_offset = static_cast<std::size_t>(window.memory - rom.data());
+  const std::tuple place(rom_offset, window.first, window.span);
   const std::lock_guard lock(mutex_);
-  std::unique_ptr<View>& view = views_[{rom_offset, window.first, window.span}];
-  if (view == nullptr && make)
-    view = std::make_unique<View>(CodeWindow{rom_.data() + rom_offset, window.first, window.span});
-  return view.get();
+  if (const auto found = views_.find(place); found != views_.end()) return found->second.get();
+  const std::size_t bytes = View::bytes_of(window);
+  if (!make || bytes_of_views_ + bytes > kViewCapacity || !has_room(bytes)) return nullptr;
+  auto view = std::make_unique<View>(CodeWindow{rom_.data() + rom_offset, window.first, window.span});
+  bytes_of_views_ += bytes;
+  count(bytes);
+  return views_.emplace(place, std::move(view)).first->second.get();
 }
 
 // The entry stub saves the host's registers, loads the 6507's and jumps to a block. The exit stub does the
@@ -71,7 +135,7 @@ void ImageCode::emit_stubs(const Layout& layout) {
   as.add(rsp, 24);
   std::for_each(std::rbegin(saved), std::rend(saved), [&](const auto& reg) { as.pop(reg); });
   as.ret();
-  memory_.seal(as.getSize());
+  count(memory_.seal(as.getSize()));
   enter_ =
       reinterpret_cast<Enter>(reinterpret_cast<std::uintptr_t>(enter));  // NOLINT(performance-no-int-to-ptr)
 }
@@ -80,7 +144,7 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
   const std::lock_guard lock(mutex_);
   if (const void* entry = view.entry(pc)) return entry;
   if (memory_.left() < kBatchCapacity) full_ = true;
-  if (full_) return nullptr;
+  if (full_ || !has_room(kBatchCapacity)) return nullptr;
   if (enter_ == nullptr) emit_stubs(layout);
   const Window window{wiring_, view.code, view.entries.data()};
   Assembler assembler(memory_.writable(), memory_.left(), layout, window, exit_stub_);
@@ -92,7 +156,7 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
     full_ = true;
     return nullptr;
   }
-  memory_.seal(assembler.getSize());
+  count(memory_.seal(assembler.getSize()));
   for (const Block& block : blocks) {
     const auto offset = static_cast<std::uint16_t>(block.pc - view.code.first);
     view.known[offset] = true;
@@ -104,3 +168,25 @@ const void* ImageCode::translate(View& view, std::uint16_t pc, const Layout& lay
 }
 
 }  // namespace racebeam::translator
+
+namespace racebeam {
+
+CodeOwner::CodeOwner(std::shared_ptr<const Rom> image)
+    : image_(std::move(image)), hash_(translator::hash_of(*image_)) {
+  auto& all = translator::registry();
+  const std::lock_guard lock(all.mutex);
+  all.owned.push_back(image_.get());
+}
+
+CodeOwner::~CodeOwner() {
+  auto& all = translator::registry();
+  const std::lock_guard lock(all.mutex);
+  all.owned.erase(std::ranges::find(all.owned, image_.get()));
+}
+
+std::size_t CodeOwner::bytes() const { return translator::ImageCode::bytes_of_owned(*image_, hash_); }
+
+void limit_shared_code(std::size_t bytes) { translator::most_shared = bytes; }
+std::size_t shared_code() { return translator::bytes_shared; }
+
+}  // namespace racebeam

@@ -32,6 +32,10 @@ struct View {
   std::vector<Profitability> profitability;  // by offset: of the block that starts there
   std::vector<bool> known;                   // by offset: whether a block starts there; guarded by the lock
 
+  static std::size_t bytes_of(const CodeWindow& window) {
+    return sizeof(View) + window.span * (sizeof(const void*) + sizeof(Profitability)) + window.span / 8;
+  }
+
   const void* entry(std::uint16_t pc) {
     const auto offset = static_cast<std::uint16_t>(pc - code.first);
     return offset < code.span ? std::atomic_ref(entries[offset]).load(std::memory_order_acquire) : nullptr;
@@ -42,29 +46,42 @@ class ImageCode {
  public:
   // The code of this image with room for more. Null if there is none and `make` is false. Images are compared
   // by their bytes. wiring: of the cartridge scheme, since two machines can run one image under different
-  // schemes. Throws std::system_error if the system refuses executable memory.
+  // schemes. Null, too, if the capacity of all code is used up. Throws std::system_error if the system
+  // refuses executable memory.
   static std::shared_ptr<ImageCode> of(const Rom& rom, const Wiring& wiring, bool make);
 
-  ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity);
+  ImageCode(const Rom& rom, const Wiring& wiring, std::size_t capacity, bool shared);
+  ~ImageCode();
+  ImageCode(const ImageCode&) = delete;
+  ImageCode& operator=(const ImageCode&) = delete;
 
   // The view through this window of a machine's `rom`. Null if there is no view yet and `make` is false:
-  // making one takes as long as some thousand instructions.
+  // making one takes as long as some thousand instructions. Null, too, if there is no room for it.
   View* view(const CodeWindow& window, const Rom& rom, bool make);
 
-  // Translates code near `pc`, which must be in the view. Returns the block at `pc`, or null if the code
-  // memory is full.
+  // Translates code near `pc`, which must be in the view. Returns the block at `pc`, or null if there is no
+  // room for it.
   const void* translate(View& view, std::uint16_t pc, const Layout& layout);
 
   // Runs code from `entry` on. Returns the new PC, combined with kInterpretNext where that applies.
   using Enter = std::uint32_t (*)(const void* entry, Board* board, WriteLog* log);
   Enter enter() const { return enter_; }
 
+  // Bytes of the code of an image that has owners, with what belongs to it.
+  static std::size_t bytes_of_owned(const Rom& rom, std::size_t hash);
+
+  // Whether translation starts again with new memory.
   bool is_full() const { return full_.load(std::memory_order_relaxed); }
+  std::size_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
 
  private:
+  bool is_of(const Rom& rom, std::size_t hash) const;
   void emit_stubs(const Layout& layout);
+  bool has_room(std::size_t bytes) const;
+  void count(std::size_t bytes);
 
   const Rom rom_;
+  const std::size_t hash_;
   const Wiring wiring_;
   std::mutex mutex_;
   CodeMemory memory_;
@@ -73,6 +90,9 @@ class ImageCode {
   Enter enter_ = nullptr;
   const void* exit_stub_ = nullptr;
   std::atomic<bool> full_ = false;
+  const bool shared_;                   // false: its image has an owner, and its memory counts as the owner's
+  std::atomic<std::size_t> bytes_ = 0;  // of code, views, and the copy of the image
+  std::size_t bytes_of_views_ = 0;
 };
 
 // See Translator::set_code_capacity.

@@ -156,8 +156,10 @@ bool Translator::Impl::has_code(Board& board) {
   if (is_useful || !budget.covers_batch()) return code != nullptr;
   const translator::TranslationBudget::Charge charge(budget);
   try {
-    code = code_of(board, true);
-    views = {};
+    if (auto made = code_of(board, true)) {
+      code = std::move(made);
+      views = {};
+    }
   } catch (const std::system_error&) {
     // The system has no memory for code now. A later step tries again.
   }

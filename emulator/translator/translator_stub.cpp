@@ -1,6 +1,8 @@
 // Replaces translator.cpp in builds without the translator.
 #include <system_error>
+#include <utility>
 
+#include "emulator/translator/code_owner.hpp"
 #include "emulator/translator/translator.hpp"
 
 namespace racebeam {
@@ -21,5 +23,12 @@ bool Translator::run(Board&, std::int32_t) { return false; }
 void Translator::end_step() {}
 void Translator::set_code_capacity(std::size_t) {}
 const char* Translator::obstacle() { return "this build has no translator (RACEBEAM_TRANSLATOR=OFF)"; }
+
+CodeOwner::CodeOwner(std::shared_ptr<const std::vector<std::uint8_t>> image)
+    : image_(std::move(image)), hash_(0) {}
+CodeOwner::~CodeOwner() = default;
+std::size_t CodeOwner::bytes() const { return 0; }
+void limit_shared_code(std::size_t) {}
+std::size_t shared_code() { return 0; }
 
 }  // namespace racebeam
