@@ -4,8 +4,9 @@
 #include "protocol/line/session.hpp"
 
 namespace racebeam {
-LineSession::LineSession(const LineService& service, Meter* meter)
-    : session_(std::make_unique<Session>(service, command_table(), meter)) {}
+LineSession::LineSession(const LineService& service, Meter* meter,
+                         const std::shared_ptr<MemoryBudget>& memory)
+    : session_(std::make_unique<Session>(service, command_table(), meter, memory)) {}
 
 LineSession::~LineSession() {
   session_->leave();
@@ -16,7 +17,7 @@ LineSession::~LineSession() {
 
 void LineSession::set_columns(int columns) { session_->columns = columns; }
 std::size_t LineSession::longest_line() const { return session_->input.longest(); }
-std::span<char> LineSession::space() { return session_->space(); }
+std::span<char> LineSession::space() { return session_->input.space(); }
 
 void LineSession::received(std::size_t count) {
   session_->input.added(count);

@@ -19,9 +19,10 @@ class Session;
 
 class LineSession {
  public:
-  // Both parameters must outlive the session. It counts into `meter`, if that is not null, on the thread that
-  // calls run().
-  explicit LineSession(const LineService& service, Meter* meter = nullptr);
+  // The first two parameters must outlive the session. It counts into `meter`, if that is not null, on the
+  // thread that calls run(). memory: its budget; null: the service's.
+  explicit LineSession(const LineService& service, Meter* meter = nullptr,
+                       const std::shared_ptr<MemoryBudget>& memory = nullptr);
   ~LineSession();
   LineSession(const LineSession&) = delete;
   LineSession& operator=(const LineSession&) = delete;

@@ -90,6 +90,7 @@ Server::Server(const ServerSettings& settings, const Services& services)
       idle_monitor_(settings, loops_, metrics_),
       acceptor_(settings, services, access_, loops_, metrics_),
       recorder_(recorder_of(services)) {
+  metrics_.memory = memory_of(services.line ? *services.line : *services.classic);
   for (const Endpoint& endpoint : settings.endpoints) {
     if (!is_stream(endpoint.address)) continue;
     streams_.emplace_back(endpoint, endpoint.classic ? *services.classic : *services.line, settings.busy_poll,

@@ -1,11 +1,12 @@
 #include "protocol/classic/paced_classic.hpp"
 
-#include "protocol/line/loaded_machine.hpp"
+#include "protocol/line/machine_memory.hpp"
 
 namespace racebeam {
 
-PacedClassic::PacedClassic(const ClassicService& service) : service_(service), memory_(service.memory) {
-  memory_.set(LoadedMachine::footprint({}));
+PacedClassic::PacedClassic(const ClassicService& service, const std::shared_ptr<MemoryBudget>& memory)
+    : service_(service), memory_(memory ? memory : service.memory) {
+  memory_.set(MachineMemory::kMost);
 }
 
 PacedClassic::~PacedClassic() { pacer_.cancel(); }
@@ -32,13 +33,28 @@ void PacedClassic::answer() {
 // If the saved states exceed the memory budget, the oldest one is dropped, because the protocol has no
 // errors.
 void PacedClassic::account() {
-  constexpr std::size_t kState = std::size_t{96} << 10;
-  const std::size_t bytes = LoadedMachine::footprint({}) + session_->saved_states() * kState;
+  rests_ = memory_.is_short();
+  if (rests_) machine_->rest();
+  const std::size_t bytes = footprint();
   if (bytes <= memory_.bytes()) {
     memory_.set(bytes);
   } else if (!memory_.grow(bytes - memory_.bytes())) {
     session_->forget_oldest_state();
   }
+}
+
+std::size_t PacedClassic::footprint() const {
+  constexpr std::size_t kSession = std::size_t{64} << 10, kState = std::size_t{96} << 10;
+  constexpr std::size_t kResting = std::size_t{100} << 10;
+  const std::size_t machine = rests_ ? kResting : MachineMemory::kMost;
+  return kSession + machine + session_->saved_states() * kState;
+}
+
+void PacedClassic::rest() {
+  if (!machine_ || !session_) return;
+  machine_->rest();
+  rests_ = true;
+  memory_.set(footprint());
 }
 
 std::optional<std::string_view> PacedClassic::reply() {

@@ -26,7 +26,8 @@ struct ClassicService {
 
 class PacedClassic {
  public:
-  explicit PacedClassic(const ClassicService& service);  // `service` must outlive the session
+  // `service` must outlive the session. memory: its budget; null: the service's.
+  explicit PacedClassic(const ClassicService& service, const std::shared_ptr<MemoryBudget>& memory = nullptr);
   ~PacedClassic();
   PacedClassic(const PacedClassic&) = delete;
   PacedClassic& operator=(const PacedClassic&) = delete;
@@ -46,20 +47,20 @@ class PacedClassic {
   void received(std::size_t count) { session_->received(count); }
   int take_frames() { return session_ ? session_->take_frames() : 0; }
   const Environment& machine() const { return *machine_; }  // after check_machine()
-  void rest() {  // releases caches; called when no request has come for a while
-    if (machine_) machine_->rest();
-  }
+  void rest();                       // releases caches; called when no request has come for a while
   void leave() { pacer_.cancel(); }  // the destructor, on any thread, only frees memory then
   std::size_t bytes() const { return memory_.bytes(); }
 
  private:
   void answer();
   void account();
+  std::size_t footprint() const;
 
   const ClassicService& service_;
   MemoryShare memory_;
   std::optional<Environment> machine_;  // powered on by the first slices
   std::optional<ClassicSession> session_;
+  bool rests_ = false;     // the machine has released its caches
   bool is_ready_ = false;  // reply() has a result
   std::optional<std::string_view> reply_;
   std::exception_ptr failure_;

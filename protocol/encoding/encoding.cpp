@@ -172,6 +172,9 @@ class Encoder::Deflater {
   Deflater(const Deflater&) = delete;
   Deflater& operator=(const Deflater&) = delete;
 
+  // zlib's memory for a window of 32 KiB and its usual tables (zconf.h), and the result's.
+  std::size_t footprint() const { return (std::size_t{268} << 10) + packed_.capacity(); }
+
   Bytes deflated(Bytes bytes, const BetweenPieces& pause) {
     deflateReset(&stream_);
     packed_.resize(deflateBound(&stream_, bytes.size()));
@@ -194,6 +197,12 @@ Encoder::Encoder(Encoding encoding) : encoding_(encoding) {}
 Encoder::~Encoder() = default;
 Encoder::Encoder(Encoder&&) noexcept = default;
 Encoder& Encoder::operator=(Encoder&&) noexcept = default;
+
+std::size_t Encoder::footprint() const {
+  return before_.capacity() + (deflater_ ? deflater_->footprint() : 0);
+}
+
+void Encoder::rest() { deflater_.reset(); }
 
 void Encoder::append(std::string& out, Bytes bytes, std::string& raw, const BetweenPieces& pause) {
   switch (encoding_) {

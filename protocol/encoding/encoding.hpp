@@ -34,7 +34,7 @@ void append_delta(std::string& out, std::span<const std::uint8_t> bytes, std::sp
                   const BetweenPieces& pause = {});
 
 // Writes one field of reply after reply, and holds what its encodings must remember. After each encoding has
-// been used once, it allocates nothing.
+// been used once, it allocates nothing before rest().
 class Encoder {
  public:
   explicit Encoder(Encoding encoding);
@@ -43,6 +43,8 @@ class Encoder {
   Encoder& operator=(Encoder&&) noexcept;
 
   Encoding encoding() const { return encoding_; }
+  std::size_t footprint() const;  // bytes of memory
+  void rest();                    // releases what the next value needs, but not from the last one
   // Writes a value into the line `out`. `raw` gets the bytes that follow the line, with kRaw. Only a stack of
   // screens is so long that it is written in several pieces.
   void append(std::string& out, std::span<const std::uint8_t> bytes, std::string& raw,

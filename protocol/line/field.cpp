@@ -225,7 +225,7 @@ View::View(std::vector<Field> fields, BetweenPieces pause)
   for (const Field& field : fields_) encoders_.emplace_back(field.encoding);
 }
 
-std::size_t View::footprint(const std::vector<Field>& fields) {
+std::size_t View::most_held(const std::vector<Field>& fields) {
   constexpr std::size_t kDeflater = std::size_t{300} << 10;
   std::size_t bytes = 0;
   for (const Field& field : fields) {
@@ -237,6 +237,17 @@ std::size_t View::footprint(const std::vector<Field>& fields) {
     if (field.encoding == Encoding::kDelta) bytes += most_bytes(field);
   }
   return bytes;
+}
+
+std::size_t View::footprint() const {
+  std::size_t bytes = scratch_.capacity() + fields_.capacity() * sizeof(Field);
+  for (const Encoder& encoder : encoders_) bytes += sizeof encoder + encoder.footprint();
+  return bytes;
+}
+
+void View::rest() {
+  for (Encoder& encoder : encoders_) encoder.rest();
+  std::vector<std::uint8_t>().swap(scratch_);
 }
 
 std::size_t View::longest_text(const std::vector<Field>& fields) {

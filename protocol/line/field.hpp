@@ -55,7 +55,9 @@ class View {
   // `pause` is called in the middle of long values.
   explicit View(std::vector<Field> fields, BetweenPieces pause = {});
 
-  static std::size_t footprint(const std::vector<Field>& fields);  // estimated bytes of memory
+  static std::size_t most_held(const std::vector<Field>& fields);  // bytes of memory that it may come to hold
+  std::size_t footprint() const;                                   // bytes that it holds
+  void rest();  // releases what the next reply needs, but not from the last one
   // Bytes of memory for the fields in the longest reply, about whatever machine.
   static std::size_t longest_text(const std::vector<Field>& fields);
 

@@ -46,6 +46,12 @@ const Cartridge* Images::find(std::string_view name) const {
   return nullptr;
 }
 
+std::shared_ptr<const Image> Images::same(const Image& image) const {
+  const auto found = by_md5_.find(image.md5);
+  const bool is_same = found != by_md5_.end() && *found->second.cartridge.image->bytes == *image.bytes;
+  return is_same ? found->second.cartridge.image : nullptr;
+}
+
 std::vector<std::string_view> Images::names() const {
   std::vector<std::string_view> all;
   for (const auto& [name, entry] : by_name_) all.push_back(name);

@@ -25,6 +25,9 @@ class Images {
   // name: a game of the catalogue, the stem of an unknown image's file, or an MD5. Returns null if there is
   // no such image.
   const Cartridge* find(std::string_view name) const;
+  // The image of these bytes. Null if there is none.
+  std::shared_ptr<const Image> same(const Image& image) const;
+  bool contains(const Image& image) const { return same(image).get() == &image; }
   std::vector<std::string_view> names() const;  // without the MD5s
 
  private:

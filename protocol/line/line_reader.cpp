@@ -11,6 +11,8 @@ constexpr std::size_t kUsual = 4096;  // the size for an idle session
 
 }  // namespace
 
+LineReader::LineReader(std::size_t longest) : longest_(longest), buffer_(kUsual, '\0') {}
+
 std::span<char> LineReader::space() {
   if (begin_ > 0) {
     std::memmove(buffer_.data(), buffer_.data() + begin_, unread());
@@ -18,9 +20,10 @@ std::span<char> LineReader::space() {
     begin_ = 0;
   }
   if (end_ == 0) shrink();
-  if (end_ == buffer_.size() && !cut_) buffer_.resize(grown_size());
   return std::span(buffer_).subspan(end_);
 }
+
+void LineReader::grow() { buffer_.resize(grown_size()); }
 
 std::size_t LineReader::grown_size() const {
   return std::min(std::max(kUsual, 2 * unread()), longest_ + kUsual);
@@ -30,8 +33,6 @@ std::size_t LineReader::growth() const {
   const bool is_full = unread() == buffer_.size();
   return is_full && grown_size() > buffer_.size() ? grown_size() - buffer_.size() : 0;
 }
-
-void LineReader::cut_line() { cut_ = true; }
 
 void LineReader::shrink() {
   if (buffer_.size() <= kUsual) return;
@@ -54,11 +55,12 @@ std::optional<LineReader::Line> LineReader::next() {
     return too_long ? Line{Kind::kTooLong, {}} : Line{Kind::kLine, line};
   }
   searched_ = rest.size();
-  if (skipping_ || rest.size() > longest_ || std::exchange(cut_, false)) {
+  const bool cut = std::exchange(cut_, false);
+  if (skipping_ || cut || rest.size() > longest_) {
     begin_ = end_;
     searched_ = 0;
     if (std::exchange(skipping_, true)) return std::nullopt;
-    return Line{Kind::kTooLong, {}};
+    return Line{cut ? Kind::kCut : Kind::kTooLong, {}};
   }
   if (!ended_ || rest.empty()) return std::nullopt;
   begin_ = end_;

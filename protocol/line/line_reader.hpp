@@ -1,5 +1,5 @@
 // Splits a client's input of the line protocol into lines. The buffer grows with the incoming line, up to a
-// limit. A longer line is reported once and skipped.
+// limit. A longer line is reported once and skipped, and so is a line for which there is no memory.
 #pragma once
 
 #include <cstddef>
@@ -12,20 +12,24 @@ namespace racebeam {
 
 class LineReader {
  public:
-  explicit LineReader(std::size_t longest) : longest_(longest) {}
+  explicit LineReader(std::size_t longest);
 
   void set_longest(std::size_t longest) { longest_ = longest; }
   std::size_t longest() const { return longest_; }
 
-  std::size_t growth() const;  // bytes of memory that space() would allocate
-  void cut_line();             // there is no memory for the incoming line: it counts as too long
+  // After next() has returned nothing: how many bytes of memory the rest of the line needs now, mostly 0. If
+  // there are so many, grow() allocates them, and may throw std::bad_alloc. Otherwise cut_line() makes next()
+  // return the line as kCut.
+  std::size_t growth() const;
+  void grow();
+  void cut_line() { cut_ = true; }
   std::size_t capacity() const { return buffer_.capacity(); }
-  std::span<char> space();        // where the next input goes; empty while a longest line waits
+  std::span<char> space();        // where the next input goes; empty only if next() has not been called
   void added(std::size_t count);  // this many bytes were added there
   void end() { ended_ = true; }   // there will be no more input
   bool ended() const { return ended_; }
 
-  enum class Kind { kLine, kTooLong, kHalf };
+  enum class Kind { kLine, kTooLong, kCut, kHalf };
   struct Line {
     Kind kind;
     std::string_view text;  // without LF, and without a CR before it; valid until space() is called
@@ -43,7 +47,7 @@ class LineReader {
   std::string buffer_;
   std::size_t begin_ = 0, end_ = 0;  // of what next() has not returned
   std::size_t searched_ = 0;         // bytes from begin_ that contain no LF
-  bool skipping_ = false;            // within a line that was too long
+  bool skipping_ = false;            // within a line that was too long, or cut
   bool cut_ = false;                 // there is no memory for the line
   bool ended_ = false;
 };

@@ -25,15 +25,18 @@ void observe(Slot& slot, const std::vector<Field>& fields) {
 
 LoadedMachine::LoadedMachine(const Cartridge& cartridge, const PlaySettings& settings,
                              std::vector<Field> fields, Pacer& pacer)
-    : pacer_(pacer), slot_(cartridge, slot_settings(settings), &pacer), view_({}) {
+    : pacer_(pacer), slot_(cartridge, slot_settings(settings), &pacer), view_({}), memory_(slot_) {
   for (const int action : slot_.actions()) allowed_ |= 1U << action;
   observe(std::move(fields));
 }
 
-// Measured: a machine takes 190 to 240 KiB, and 80 KiB more if objects flicker (docs/performance.md).
-std::size_t LoadedMachine::footprint(const std::vector<Field>& fields) {
-  constexpr std::size_t kMachine = std::size_t{384} << 10;
-  return kMachine + View::footprint(fields);
+std::size_t LoadedMachine::most_held(const std::vector<Field>& fields) {
+  return MachineMemory::kMost + View::most_held(fields);
+}
+
+void LoadedMachine::rest() {
+  memory_.rest(slot_);
+  view_.rest();
 }
 
 void LoadedMachine::observe(std::vector<Field> fields) {

@@ -10,6 +10,7 @@
 #include "games/catalogue.hpp"
 #include "protocol/line/action.hpp"
 #include "protocol/line/field.hpp"
+#include "protocol/line/machine_memory.hpp"
 #include "protocol/line/play_settings.hpp"
 #include "protocol/running/pacer.hpp"
 
@@ -28,8 +29,10 @@ class LoadedMachine {
   const Environment& machine() const { return slot_.environment(); }
   AllowedActions allowed() const { return {machine().game().name, allowed_}; }
 
-  // Estimates the bytes of memory that a machine with these fields takes.
-  static std::size_t footprint(const std::vector<Field>& fields);
+  // Bytes of memory that a machine with these fields may come to hold, and that this one holds.
+  static std::size_t most_held(const std::vector<Field>& fields);
+  std::size_t footprint() const { return memory_.held(slot_) + view_.footprint(); }
+  void rest();  // releases caches
 
   void observe(std::vector<Field> fields);
   void append_view(std::string& out, std::string& raw) { view_.append(out, raw, slot_); }
@@ -39,6 +42,7 @@ class LoadedMachine {
   Slot slot_;
   std::uint32_t allowed_ = 0;  // bit n: action n
   View view_;
+  MachineMemory memory_;
 };
 
 // The settings of a slot for these settings of `load`. Its steps are acts.

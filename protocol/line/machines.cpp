@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, 3> kAutoresets = {"next-step", "same-step
 struct Seat {
   Pacer pacer;
   std::optional<View> view;
+  std::optional<MachineMemory> memory;
   bool done = false;            // has finished the request
   std::exception_ptr no_fiber;  // why its fiber could not start; else null
   std::string text, raw;        // the machine's part of the reply; members to reuse their memory
@@ -45,6 +46,7 @@ class Machines::Host final : public VectorHost {
   void opened(std::size_t number, Slot& slot) override {
     racebeam::observe(slot, session_.fields);
     observe(number, session_.fields);
+    seats_[number]->memory.emplace(slot);
   }
   void ended(std::size_t number, const Slot& slot) override {
     seats_[number]->view->append_final(seats_[number]->text, seats_[number]->raw, slot);
@@ -83,7 +85,7 @@ Pacer& Machines::pacer(std::size_t number) { return opened_->host.seat(number).p
 
 void Machines::close() {
   if (empty()) return;
-  session_.discard(opened_, footprint(session_.fields));
+  session_.discard(opened_, footprint());
 }
 
 std::size_t Machines::number_of(std::string_view text) const {
@@ -108,7 +110,11 @@ void Machines::observe(const std::vector<Field>& fields) {
 void Machines::rest() {
   if (empty()) return;
   const std::size_t bytes = opened_->host.held();
-  for (std::size_t number = 0; number < size(); ++number) slot(number).environment().rest();
+  for (std::size_t number = 0; number < size(); ++number) {
+    Seat& seat = opened_->host.seat(number);
+    seat.memory->rest(slot(number));
+    seat.view->rest();
+  }
   auto texts = opened_->host.take_texts();
   session_.discard(texts, bytes);
 }
@@ -119,15 +125,19 @@ std::size_t Machines::check(const std::vector<Field>& fields, std::size_t count,
   const std::size_t once = text_size(fields, session_.loaded->machine());
   const std::size_t reply = count * (autoreset == Autoreset::kSameStep ? 2 * once : once);
   session_.check_reply(reply, std::to_string(count) + " machines with these fields");
-  session_.memory.check(count * (sizeof(Seat) + LoadedMachine::footprint(fields)) + 2 * reply,
+  session_.memory.check(count * (sizeof(Seat) + LoadedMachine::most_held(fields)) + 2 * reply,
                         std::to_string(count) + " machines with these fields");
   return reply;
 }
 
-std::size_t Machines::footprint(const std::vector<Field>& fields) const {
+std::size_t Machines::footprint() const {
   if (empty()) return 0;
-  std::size_t bytes = size() * (sizeof(Seat) + LoadedMachine::footprint(fields));
-  return bytes + opened_->host.held();
+  std::size_t bytes = opened_->host.held();
+  for (std::size_t number = 0; number < size(); ++number) {
+    const Seat& seat = opened_->host.seat(number);
+    bytes += sizeof seat + seat.memory->held(opened_->vector.slot(number)) + seat.view->footprint();
+  }
+  return bytes;
 }
 
 // A reply is put together from the machines' parts of it, which may have kept their memory.

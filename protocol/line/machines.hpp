@@ -36,7 +36,7 @@ class Machines {
   void append_view(std::size_t number);            // what this machine shows, to session.out
   void observe(const std::vector<Field>& fields);  // may throw RequestError, and changes nothing then
   void rest();                                     // releases caches
-  std::size_t footprint(const std::vector<Field>& fields) const;  // estimated bytes of memory
+  std::size_t footprint() const;                   // bytes of memory
 
   // Each appends its reply to session.out. All may throw RequestError; `open` then keeps the machines that
   // were there.

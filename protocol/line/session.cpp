@@ -19,8 +19,7 @@ constexpr std::size_t kLastRequests = 3;
 constexpr std::int64_t kFewReplies = 4;  // fewer are not worth waking the client twice
 
 constexpr std::size_t kShortLine = 4096;
-// Memory that a word of a request may take, as an action and as its reward. A word has at least two bytes,
-// with the space.
+// Memory that a word of a request may take, as an action and as its reward.
 constexpr std::size_t kBytesOfWord = 48;
 
 const LineLimits& limits(const LineService& service) { return service.limits; }
@@ -41,6 +40,13 @@ void append_printable(std::string& out, std::string_view sentence) {
   for (const char c : sentence) out += c < ' ' || c > '~' ? '?' : c;
 }
 
+std::size_t count_words(std::string_view line) {
+  std::size_t words = 0;
+  char before = ' ';
+  for (const char c : line) words += std::exchange(before, c) == ' ' && c != ' ';
+  return words;
+}
+
 void check_bytes(std::string_view line) {
   const std::size_t bad = first_unprintable(line);
   if (bad == line.size()) return;
@@ -52,12 +58,13 @@ void check_bytes(std::string_view line) {
 
 }  // namespace
 
-Session::Session(const LineService& with, const CommandTable& table, Meter* counting)
+Session::Session(const LineService& with, const CommandTable& table, Meter* counting,
+                 const std::shared_ptr<MemoryBudget>& budget)
     : service(with),
       input(longest_line(with, !with.admission)),
       admitted(!with.admission),
       fields(parse_fields(std::array<std::string_view, 3>{"reward", "ends", "lives"})),
-      memory(with.memory),
+      memory(budget ? budget : with.memory),
       machines(*this),
       table_(table),
       meter_(counting) {
@@ -159,7 +166,7 @@ bool Session::go_on(Clock::time_point end) {
   if (pacer.in_progress()) {
     pacer.go_on(end);
   } else {
-    const auto line = input.next();
+    const auto line = next_line();
     if (!line) {
       done_ = input.ended();
       return false;
@@ -216,6 +223,20 @@ void Session::begin_request() {
   refused_ = false;
 }
 
+// A line for which there is no memory is cut, so that it gets a reply, and its rest is skipped.
+std::optional<LineReader::Line> Session::next_line() {
+  const auto line = input.next();
+  const std::size_t growth = line || input.ended() ? 0 : input.growth();
+  if (growth == 0) return line;
+  try {
+    if (memory.grow(growth)) return input.grow(), std::nullopt;
+  } catch (const std::bad_alloc&) {
+    memory.set(footprint());
+  }
+  input.cut_line();
+  return input.next();
+}
+
 // Whether the line is a comment, which gets no reply.
 bool Session::ignores(const LineReader::Line& line) {
   const std::size_t first = line.text.find_first_not_of(' ');
@@ -230,12 +251,16 @@ void Session::take(const LineReader::Line& line) {
   if (line.kind == LineReader::Kind::kLine) return execute(line.text);
   if (line.kind == LineReader::Kind::kHalf)
     throw RequestError(ErrorCode::kHalfLine, "the input ended within a line; it was not carried out");
+  if (line.kind == LineReader::Kind::kCut) {
+    throw RequestError(ErrorCode::kLimit, "the server has no memory for a line of more than " +
+                                              std::to_string(input.capacity()) + " bytes; it was skipped");
+  }
   throw RequestError(ErrorCode::kLineTooLong,
                      "the line has more than " + std::to_string(input.longest()) + " bytes; it was skipped");
 }
 
 void Session::execute(std::string_view line) {
-  if (line.size() > kShortLine) memory.check(kBytesOfWord / 2 * line.size(), "a line of so many words");
+  if (line.size() > kShortLine) memory.check(kBytesOfWord * count_words(line), "a line of so many words");
   check_bytes(line);
   read_words(line);
   if (words_.empty()) throw RequestError(ErrorCode::kBadLine, "the line is empty; help lists the commands");
@@ -295,25 +320,22 @@ void Session::measure() {
   metered_frames_ = statistics.frames;
 }
 
-// Estimates the bytes of memory that the session holds. A request checks large allocations by itself.
+// The bytes of memory that the session holds. A request checks large allocations by itself; a long reply that
+// may come counts already.
 std::size_t Session::footprint() const {
-  constexpr std::size_t kSession = std::size_t{44} << 10;             // with fiber and buffers
-  constexpr std::size_t kShare = std::size_t{80} << 10;               // two copies of a screen
-  const std::size_t reply = loaded ? View::longest_text(fields) : 0;  // of one that may come
+  constexpr std::size_t kSession = std::size_t{6} << 10;  // the rest, measured
+  constexpr std::size_t kShare = std::size_t{80} << 10;   // two copies of a screen
+  constexpr std::size_t kLongReply = std::size_t{1} << 18;
+  std::size_t reply = loaded ? View::longest_text(fields) : 0;
+  if (reply < kLongReply) reply = 0;
   std::size_t bytes = kSession + std::max(reply, out.capacity() + raw.capacity()) + input.capacity() +
-                      states.footprint() + machines.footprint(fields) + actions.capacity() * sizeof(Action) +
+                      states.footprint() + machines.footprint() + actions.capacity() * sizeof(Action) +
                       step_acts.capacity() * sizeof(Act) + words_.capacity() * sizeof(std::string_view);
-  if (loaded) bytes += LoadedMachine::footprint(fields);
-  if (has_own_image) bytes += kOwnImage;
+  if (loaded) bytes += loaded->footprint();
+  if (own_image) bytes += cartridge.image->bytes->size() + own_image->bytes();
   if (sharing) bytes += kShare;
   for (const auto& [name, watched] : watching) bytes += watched.footprint();
   return bytes;
-}
-
-// If there is no memory for a longer line, the line is treated as too long.
-std::span<char> Session::space() {
-  if (const std::size_t growth = input.growth(); growth > 0 && !memory.grow(growth)) input.cut_line();
-  return input.space();
 }
 
 std::string_view Session::whole_replies() const {
@@ -322,6 +344,7 @@ std::string_view Session::whole_replies() const {
 
 void Session::sent(std::size_t count) {
   out.erase(0, count);
+  if (out.empty() && memory.is_short()) release();
   sent_frames_ = pacer.frames();
   sent_requests_ = statistics.requests;
   reply_ -= std::min(reply_, count);
@@ -336,16 +359,22 @@ void Session::cancel() {
 }
 
 void Session::rest() {
-  if (pacer.in_progress()) return;   // the request, whose words are in use, waits for its client to read
+  if (pacer.in_progress()) return;
   if (loaded && sharing) publish();  // a session that pauses shows what it stopped at
-  if (loaded) loaded->machine().rest();
+  release();
+}
+
+// Releases what the next request can make again.
+void Session::release() {
+  if (pacer.in_progress()) return;  // the request, whose words are in use, waits for its client to read
+  if (loaded) loaded->rest();
   machines.rest();
   if (out.empty()) discard(out);
   discard(raw);
   discard(actions, actions.capacity() * sizeof(Action));
   std::vector<Act>().swap(step_acts);
   std::vector<std::string_view>().swap(words_);
-  if (!pacer.in_progress()) memory.set(footprint());
+  memory.set(footprint());
 }
 
 }  // namespace racebeam

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "emulator/translator/code_owner.hpp"
 #include "protocol/line/line_reader.hpp"
 #include "protocol/line/line_service.hpp"
 #include "protocol/line/loaded_machine.hpp"
@@ -28,17 +29,16 @@ class SessionRecording;
 // Frames that a machine may run beyond those of the request. Power-on and an ordinary reset take about 130.
 constexpr std::int64_t kFreeResetFrames = 1000;
 
-// The most code, in bytes, that the translator makes of an image that the client sent.
-constexpr std::size_t kOwnImage = std::size_t{4} << 20;
-
 struct Statistics {
   std::int64_t requests = 0, errors = 0, acts = 0, frames = 0, episodes = 0, bytes_in = 0, bytes_out = 0;
 };
 
 class Session {
  public:
-  // All arguments must outlive the session. `counting` may be null.
-  Session(const LineService& with, const CommandTable& table, Meter* counting);
+  // All arguments must outlive the session. `counting` may be null. budget: of the session's memory; null:
+  // the service's.
+  Session(const LineService& with, const CommandTable& table, Meter* counting,
+          const std::shared_ptr<MemoryBudget>& budget = nullptr);
   ~Session();
 
   const LineService& service;
@@ -54,7 +54,7 @@ class Session {
 
   // The loaded game. `loaded` is null if there is none.
   Cartridge cartridge;
-  bool has_own_image = false;  // the client sent it; other sessions do not share it
+  std::unique_ptr<CodeOwner> own_image;  // null: the image is the server's
   PlaySettings settings;
   std::vector<Field> fields;  // selected by `observe`; they persist across `load`
   std::unique_ptr<LoadedMachine> loaded;
@@ -88,7 +88,6 @@ class Session {
   void stop_recording_machines();  // stops a recording of machines of `open`, which are about to go
   void run_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
 
-  std::span<char> space();
   bool run(std::chrono::microseconds slice);
   Pacer::Clock::duration worked() const { return worked_; }
   std::string_view whole_replies() const;  // without that of a request in progress, which may still fail
@@ -106,6 +105,7 @@ class Session {
   bool has_enough() const;
   bool pauses() const;
   bool go_on(Clock::time_point end);
+  std::optional<LineReader::Line> next_line();
   bool ignores(const LineReader::Line& line);
   void begin_request();
   void take(const LineReader::Line& line);
@@ -115,6 +115,7 @@ class Session {
   void refuse(ErrorCode code, std::string_view sentence);
   void refuse_fault(const std::string& what);
   std::size_t footprint() const;
+  void release();
   void finish_reply();
   void publish();  // to watchers
   void measure();

@@ -41,28 +41,20 @@ void Share::publish(Snapshot snapshot, std::int64_t frames) {
   newest_.swap(newest);
 }
 
-std::shared_ptr<Share> Shares::open(const std::string& name, int most_watchers) {
-  auto share = std::make_shared<Share>(name, most_watchers);
+bool Shares::add(const std::shared_ptr<Share>& share) {
   const std::lock_guard lock(mutex_);
-  return by_name_.try_emplace(name, share).second ? share : nullptr;
+  return by_name_.try_emplace(share->name(), share).second;
 }
 
-std::shared_ptr<Share> Shares::open_next(int most_watchers) {
-  std::shared_ptr<Share> share;
-  while (!share) {
-    std::int64_t number = 0;
-    {
-      const std::lock_guard lock(mutex_);
-      number = ++opened_;
-    }
-    share = open("session-" + std::to_string(number), most_watchers);
-  }
-  return share;
+void Shares::remove(const Share& share) {
+  const std::lock_guard lock(mutex_);
+  const auto found = by_name_.find(share.name());
+  if (found != by_name_.end() && found->second.get() == &share) by_name_.erase(found);
 }
 
-void Shares::close(const Share& share) {
+std::string Shares::next_name() {
   const std::lock_guard lock(mutex_);
-  by_name_.erase(share.name());
+  return "session-" + std::to_string(++named_);
 }
 
 std::shared_ptr<Share> Shares::find(std::string_view name) const {
@@ -76,6 +68,19 @@ std::vector<std::shared_ptr<Share>> Shares::all() const {
   std::vector<std::shared_ptr<Share>> shares;
   for (const auto& [name, share] : by_name_) shares.push_back(share);
   return shares;
+}
+
+// Everything is allocated before the name is taken, so that a failure leaves it free.
+std::unique_ptr<Sharing> Sharing::open(const std::shared_ptr<Shares>& all, const std::string& name,
+                                       int most_watchers) {
+  auto sharing = std::make_unique<Sharing>(all, std::make_shared<Share>(name, most_watchers));
+  return all->add(sharing->share_) ? std::move(sharing) : nullptr;
+}
+
+std::unique_ptr<Sharing> Sharing::open_next(const std::shared_ptr<Shares>& all, int most_watchers) {
+  std::unique_ptr<Sharing> sharing;
+  while (!sharing) sharing = open(all, all->next_name(), most_watchers);
+  return sharing;
 }
 
 }  // namespace racebeam

@@ -93,11 +93,9 @@ class Share {
 // The shared sessions of a server, by name. Thread-safe.
 class Shares {
  public:
-  // Null if the name is taken.
-  std::shared_ptr<Share> open(const std::string& name, int most_watchers);
-  // Under a name that is free: session-1, session-2 and so on.
-  std::shared_ptr<Share> open_next(int most_watchers);
-  void close(const Share& share);
+  bool add(const std::shared_ptr<Share>& share);  // false: its name is taken
+  void remove(const Share& share);                // if it is there
+  std::string next_name();                        // session-1, session-2 and so on
 
   std::shared_ptr<Share> find(std::string_view name) const;  // null: there is none
   std::vector<std::shared_ptr<Share>> all() const;
@@ -105,17 +103,22 @@ class Shares {
  private:
   mutable std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Share>, std::less<>> by_name_;
-  std::int64_t opened_ = 0;  // by open_next()
+  std::int64_t named_ = 0;  // by next_name()
 };
 
 // A session's share, which ends with it.
 class Sharing {
  public:
+  // Null if the name is taken.
+  static std::unique_ptr<Sharing> open(const std::shared_ptr<Shares>& all, const std::string& name,
+                                       int most_watchers);
+  // Under the next name that is free.
+  static std::unique_ptr<Sharing> open_next(const std::shared_ptr<Shares>& all, int most_watchers);
   Sharing(std::shared_ptr<Shares> all, std::shared_ptr<Share> share)
       : all_(std::move(all)), share_(std::move(share)) {}
   ~Sharing() {
     share_->end();
-    all_->close(*share_);
+    all_->remove(*share_);
   }
   Sharing(const Sharing&) = delete;
   Sharing& operator=(const Sharing&) = delete;

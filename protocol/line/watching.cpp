@@ -43,7 +43,7 @@ void Watched::choose(const std::vector<Field>& fields, int height) {
   height_ = height;
   encoders_.clear();
   for (const Field& field : fields) encoders_.emplace_back(field.encoding);
-  footprint_ = View::footprint(fields);
+  footprint_ = View::most_held(fields);
 }
 
 void Watched::append(std::string& out, std::string& raw, const std::vector<Field>& fields,

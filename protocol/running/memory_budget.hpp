@@ -1,35 +1,66 @@
-// A limit for the memory of all sessions together. Memory is estimated, generously; the allocator is not
-// asked.
+// A limit for the memory of all sessions together. Sessions count what they hold, from the sizes of their
+// buffers; the allocator is not asked. A budget has parts: of the server's, each client has one, and of a
+// client's, each session. So the server finds who holds much when the memory is short.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 
 namespace racebeam {
 
-// Shared by the sessions of a server. Thread-safe.
+// Thread-safe.
 class MemoryBudget {
  public:
   static constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
   explicit MemoryBudget(std::uint64_t most = kNoLimit) : most_(most) {}
+  explicit MemoryBudget(std::shared_ptr<MemoryBudget> whole);  // a part: what it takes is taken of `whole`
+  ~MemoryBudget();
+  MemoryBudget(const MemoryBudget&) = delete;
+  MemoryBudget& operator=(const MemoryBudget&) = delete;
 
-  bool take(std::uint64_t bytes);         // returns false, and takes nothing, if less is left
+  // The part of `whole` that has this name, as long as somebody holds it.
+  static std::shared_ptr<MemoryBudget> part(const std::shared_ptr<MemoryBudget>& whole,
+                                            const std::string& name);
+
+  // Returns false, and takes nothing, if less is left, or less than `spare` would remain.
+  bool take(std::uint64_t bytes, std::uint64_t spare = 0);
   void take_anyway(std::uint64_t bytes);  // for memory that is allocated already
-  bool has(std::uint64_t bytes) const { return taken_ <= most_ && bytes <= most_ - taken_; }
-  void give_back(std::uint64_t bytes) { taken_ -= bytes; }
+  bool has(std::uint64_t bytes) const { return all().taken_ <= most_ && bytes <= most_ - all().taken_; }
+  void give_back(std::uint64_t bytes);
 
-  std::uint64_t taken() const { return taken_; }
-  std::uint64_t most() const { return most_; }
+  std::uint64_t taken() const { return taken_; }  // by this part
+  std::uint64_t most() const { return most_; }    // of all parts together
+  std::size_t parts() const { return parts_; }
+  const MemoryBudget* whole() const { return whole_.get(); }                  // null: this is no part
+  const MemoryBudget& all() const { return whole_ ? whole_->all() : *this; }  // what all are parts of
+
+  // The last eighth is for sessions that hold little: others find it taken. So small requests and new
+  // sessions have room although large ones have all that they can get.
+  std::uint64_t reserve() const { return most_ / 8; }
+  std::uint64_t little() const { return std::max(most_ / 512, kLeastLittle); }
+  // How much is taken of the last sixteenth. Sessions then keep nothing that they can make again, and the
+  // server ends some.
+  std::uint64_t shortage() const;
+  bool is_short() const { return shortage() > 0; }
 
  private:
+  static constexpr std::uint64_t kLeastLittle = 1 << 20;
+
+  const std::shared_ptr<MemoryBudget> whole_;
   const std::uint64_t most_;
   std::atomic<std::uint64_t> taken_ = 0;
+  std::atomic<std::size_t> parts_ = 0;
+  std::mutex mutex_;
+  std::map<std::string, std::weak_ptr<MemoryBudget>> named_;
 };
 
 // The part of a budget that one owner has taken; its destructor returns it.
@@ -41,13 +72,17 @@ class MemoryShare {
   MemoryShare(const MemoryShare&) = delete;
   MemoryShare& operator=(const MemoryShare&) = delete;
 
-  void set(std::size_t bytes);   // what the owner holds
-  bool grow(std::size_t bytes);  // returns false, and takes nothing, if less is left
+  void set(std::size_t bytes);  // what the owner holds
+  bool grow(
+      std::size_t bytes);  // returns false, and takes nothing, if less is left for an owner of this size
   void check(std::size_t bytes, const std::string& what);  // as grow(), but throws RequestError
+  bool is_short() const { return budget_ != nullptr && budget_->is_short(); }
 
   std::size_t bytes() const { return bytes_; }
 
  private:
+  std::uint64_t spare_after(std::size_t bytes) const;
+
   const std::shared_ptr<MemoryBudget> budget_;
   std::size_t bytes_ = 0;
 };

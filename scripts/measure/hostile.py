@@ -1,9 +1,12 @@
-"""scripts/load --hostile: sessions that request as much as they can, and their effect on a bystander.
+"""scripts/load --hostile: sessions that request as much as they can, and their effect on others.
 
-A server with two threads and 512 MiB serves 64 attackers. Each repeats one of the ATTACKS of attacks.py: it connects,
-attacks and disconnects. A bystander with a game of its own acts every few milliseconds, and requests /healthz. At the end,
-the server is told to stop during the attacks. If one of GOALS is missed, the exit status is 1.
+A server with two threads and 512 MiB is attacked twice, each time a new one. The first attack is of 64 sessions. Each
+repeats one of the ATTACKS of attacks.py: it connects, attacks and disconnects. The second one is that of hoarders.py, on the
+memory. A bystander with a game of its own acts every few milliseconds, and requests /healthz. During the second attack,
+newcomers connect, load a game and act; the time counts until they have managed. At the end, the server is told to stop during
+the attack. If one of the goals is missed, the exit status is 1.
 """
+import itertools
 import multiprocessing
 import os
 import pathlib
@@ -15,11 +18,13 @@ import tempfile
 import threading
 import time
 
+import hoarders
 import processor
 from attacks import ATTACKS, STRANGERS, TOKEN, Session
 
 SESSIONS, THREADS, GRACE, MEMORY = 64, 2, 2, 512
-GOALS = {"bystander p99": 20, "/healthz p99": 50, "memory": MEMORY, "SIGTERM": GRACE + 1}  # ms, ms, MiB, s
+GOALS = {"bystander p99": 20, "/healthz p99": 50, "newcomer max": 1000, "memory": MEMORY, "SIGTERM": GRACE + 1}  # ms, MiB, s
+REQUESTS = [function for number, function in zip(range(SESSIONS), itertools.cycle(ATTACKS.values()))]
 
 
 def keep_attacking(function, port, folder):
@@ -39,12 +44,11 @@ def keep_attacking(function, port, folder):
         session.socket.close()
 
 
-def attack_all(port, folder, told, answers):
+def attack_all(functions, port, folder, told, answers):
     """A process of attackers. It reports their replies from time to time."""
     os.nice(5)
-    functions = list(ATTACKS.values())
-    for number in range(SESSIONS):
-        threading.Thread(target=keep_attacking, args=(functions[number % len(functions)], port, folder), daemon=True).start()
+    for function in functions:
+        threading.Thread(target=keep_attacking, args=(function, port, folder), daemon=True).start()
     told.recv()
     answers.send(dict(Session.replies))
     told.recv()
@@ -69,11 +73,16 @@ def watch(ask_once, pause, told, answers):
     answers.send(waits)
 
 
-class Bystander:
+class Refused(Exception):
+    pass
+
+
+class Player:
     def __init__(self, port):
         connection = socket.create_connection(("127.0.0.1", port))
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.lines = connection.makefile("rwb", buffering=0)
+        connection.close()  # once the lines are
         for line in (b"hello token=" + TOKEN, b"load beamfall max_episode_frames=0"):
             self.ask(line)
 
@@ -81,10 +90,38 @@ class Bystander:
         self.lines.write(line + b"\n")
         reply = self.lines.readline()
         if not reply.startswith(b"ok"):
-            sys.exit(f"load: the bystander got {reply!r}")
+            raise Refused(reply)
+
+
+class Bystander:
+    """Its session has begun before the attack. It is never refused."""
+
+    def __init__(self, port):
+        self.player = Player(port)
 
     def __call__(self):
-        self.ask(b"act NOOP")
+        try:
+            self.player.ask(b"act NOOP")
+        except (Refused, OSError) as error:
+            sys.exit(f"load: the bystander got {error!r}")
+
+
+class Newcomers:
+    """One after the other. Who is refused tries again, for half a minute."""
+
+    def __init__(self, port):
+        self.port = port
+
+    def __call__(self):
+        end = time.monotonic() + 30
+        while time.monotonic() < end:
+            try:
+                player = Player(self.port)
+                player.ask(b"act NOOP")
+                player.lines.close()
+                return
+            except (Refused, OSError):
+                time.sleep(0.02)
 
 
 class Health:
@@ -157,16 +194,18 @@ def time_to_end(server):
     return time.monotonic() - told
 
 
-def measure(server, port, http, records, seconds):
-    attackers = Helper(attack_all, port, records)
+def measure(attack, server, port, http, records, seconds):
     watchers = {"bystander": Helper(watch, Bystander(port), 0.003), "/healthz": Helper(watch, Health(http), 0.05)}
+    attackers = Helper(attack_all, attack, port, records)
+    if attack is hoarders.ALL:
+        watchers["newcomer"] = Helper(watch, Newcomers(port), 0.2)
     time.sleep(seconds)
     print(f"{'':14}{'asked':>8}" + "".join(f"{key:>10}" for key in ("p50 ms", "p99 ms", "max ms")))
     found = {}
     for name, watcher in watchers.items():
         waits = watcher.ask()
         show_waits(name, waits)
-        found[name + " p99"] = percentile(waits, 0.99)
+        found |= {name + " p99": percentile(waits, 0.99), name + " max": max(waits)}
     replies = attackers.ask()
     print("attackers got: " + ", ".join(f"{count} {kind}" for kind, count in sorted(replies.items())))
     found["memory"] = peak_memory(server)
@@ -175,22 +214,34 @@ def measure(server, port, http, records, seconds):
     return found
 
 
-def run(build, seconds):
-    """Returns the exit status."""
-    print(f"{SESSIONS} attackers, {THREADS} threads, {os.cpu_count()} processors ({processor.name()}), {seconds:g} seconds")
+def judge(found, limited):
+    """Prints whether each goal has been reached. Returns whether all have."""
+    units = {"memory": "MiB", "SIGTERM": "s"}
+    reached = {name: found[name] < goal or (name == "memory" and not limited) for name, goal in GOALS.items() if name in found}
+    for name, good in reached.items():
+        print(f"{name:14}{found[name]:10.2f} {units.get(name, 'ms'):4} below {GOALS[name]:4}: {'ok' if good else 'MISSED'}")
+    return all(reached.values())
+
+
+def attack_one(name, attack, build, seconds):
+    """Returns whether the server has withstood it."""
+    print(f"\n{name}: {len(attack)} attackers")
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         server, port, http, records, limited = start_server(build, folder)
         try:
-            found = measure(server, port, http, records, seconds)
+            found = measure(attack, server, port, http, records, seconds)
         finally:
             server.kill()
             status = server.wait()
     if not limited:
         print("this server has no --max-memory: its memory is not limited")
-    units = {"memory": "MiB", "SIGTERM": "s"}
-    missed = {name for name, goal in GOALS.items() if found[name] >= goal} - (set() if limited else {"memory"})
-    for name, goal in GOALS.items():
-        verdict = "MISSED" if name in missed else "ok"
-        print(f"{name:14}{found[name]:10.2f} {units.get(name, 'ms'):4} below {goal:4}: {verdict}")
+    reached = judge(found, limited)
     print(f"the server ended with status {status}")
-    return int(bool(missed) or status != 0)
+    return reached and status == 0
+
+
+def run(build, seconds):
+    """Returns the exit status."""
+    print(f"{THREADS} threads, {os.cpu_count()} processors ({processor.name()}), load {os.getloadavg()[0]:.1f}, {seconds:g} seconds each")
+    withstood = [attack_one(*attack, build, seconds) for attack in (("requests", REQUESTS), ("memory", hoarders.ALL))]
+    return int(not all(withstood))

@@ -1,13 +1,22 @@
 #include "server/connections/client.hpp"
 
+#include <algorithm>
+
+#include "server/connections/owner.hpp"
+
 namespace racebeam {
 
 using namespace std::chrono_literals;
 
 Client::Client(Socket connection, Loop& home, std::string who, const std::shared_ptr<MemoryBudget>& budget,
                std::size_t bytes)
-    : socket(std::move(connection)), loop(home), name(std::move(who)), memory_(budget) {
-  memory_.set(bytes);
+    : socket(std::move(connection)),
+      loop(home),
+      name(std::move(who)),
+      budget_(budget ? std::make_shared<MemoryBudget>(MemoryBudget::part(budget, owner_of(socket)))
+                     : nullptr),
+      carrier_(budget_) {
+  carrier_.set(bytes);
   ++loop.sessions;
 }
 
@@ -23,8 +32,14 @@ void Client::received(std::size_t bytes) {
   loop.meter.bytes_in.add(static_cast<std::int64_t>(bytes));
 }
 
+void Client::begin_sending(std::size_t bytes) {
+  unsent_ = bytes;
+  sends_since_ = Clock::now();
+}
+
 void Client::sent(std::size_t bytes) {
   is_active();
+  unsent_ -= std::min(unsent_, bytes);
   loop.meter.bytes_out.add(static_cast<std::int64_t>(bytes));
   if (quick_) loop.busy.begin();
 }

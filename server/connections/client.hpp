@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 // thread only.
 class Client {
  public:
-  // The budget is charged with `bytes` for what carries the session: a socket, TLS, HTTP.
+  // The budget is charged with `bytes` for what carries the session: a socket, TLS, HTTP. It may be null.
   Client(Socket connection, Loop& home, std::string who, const std::shared_ptr<MemoryBudget>& budget,
          std::size_t bytes);
   ~Client();
@@ -50,6 +50,15 @@ class Client {
   ErrorCode code() const { return code_; }                   // of the farewell
   const std::string& reason() const { return reason_; }      // for the log
 
+  // What the session takes of the budget is a part of what its owner takes: a user of this machine, or an
+  // address. Null if there is no limit.
+  const std::shared_ptr<MemoryBudget>& memory() const { return budget_; }
+
+  // A reply of so many bytes is being sent. sent() says how many have gone.
+  void begin_sending(std::size_t bytes);
+  std::size_t unsent() const { return unsent_; }
+  Clock::time_point sends_since() const { return sends_since_; }  // while there are unsent bytes
+
   // Called once in each pause: the session releases caches.
   void rest();
   std::function<void()> on_rest;  // empty: there is nothing to release
@@ -69,7 +78,10 @@ class Client {
   Usage usage{};                               // of the event loop
 
  private:
-  MemoryShare memory_;
+  const std::shared_ptr<MemoryBudget> budget_;
+  MemoryShare carrier_;
+  std::size_t unsent_ = 0;
+  Clock::time_point sends_since_{};
   Clock::time_point came_ = Clock::now(), active_ = came_, ended_{};
   bool rests_ = false;
   bool quick_ = false;  // its next request came at once

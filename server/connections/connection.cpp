@@ -214,6 +214,7 @@ Task<> serve_connection(Stream& stream, Client& client, LineSession& session, Me
     const bool sends = next == Next::kSend;
     if (sends) {
       const std::string_view text = loop.output();
+      client.begin_sending(text.size());
       const std::size_t count = send_at_once(stream, text);
       client.sent(count);
       if (count < text.size()) co_await send_rest(stream, client, text.substr(count));
@@ -271,8 +272,8 @@ class Resting {
 // A session of the classic protocol, which may leave thousands of states.
 class ClassicPlace {
  public:
-  explicit ClassicPlace(const ClassicService& service)
-      : disposal_(service.disposal), session_(std::make_unique<PacedClassic>(service)) {}
+  ClassicPlace(const ClassicService& service, const std::shared_ptr<MemoryBudget>& memory)
+      : disposal_(service.disposal), session_(std::make_unique<PacedClassic>(service, memory)) {}
   ~ClassicPlace() {
     session_->leave();
     const std::size_t bytes = session_->bytes();
@@ -291,7 +292,7 @@ class ClassicPlace {
 template <typename Stream>
 Task<> play(Stream& stream, Client& client, const ClassicService& service, Metrics& metrics) {
   count_admission(client, metrics);
-  ClassicPlace place(service);
+  ClassicPlace place(service, client.memory());
   PacedClassic& session = place.session();
   co_await work(client, session);
   session.check_machine();
@@ -302,7 +303,7 @@ Task<> play(Stream& stream, Client& client, const ClassicService& service, Metri
 
 template <typename Stream>
 Task<> play(Stream& stream, Client& client, const LineService& service, Metrics& metrics) {
-  LineSession session(service, &client.loop.meter);
+  LineSession session(service, &client.loop.meter, client.memory());
   log(client.name + ": came", {{"client", client.name}, {"event", "came"}});
   const Resting resting(client, [&session] { session.rest(); });
   co_await serve_connection(stream, client, session, metrics);

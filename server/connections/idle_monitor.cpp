@@ -3,6 +3,7 @@
 #include <chrono>
 #include <string>
 
+#include "server/connections/memory_relief.hpp"
 #include "server/operation/log.hpp"
 #include "server/scheduling/keep_running.hpp"
 
@@ -43,10 +44,13 @@ void IdleMonitor::end_all() {
 
 Task<> IdleMonitor::look_after(Loop& loop) {
   net::steady_timer timer(loop.context);
+  MemoryRelief relief(loops_.all().size());
   for (;;) {
     timer.expires_after(kBetweenLooks);
     co_await timer.async_wait(use_task);
     for (Client* client : loop.clients) look_at(*client);
+    metrics_.ended_busy += relief.look_at(loop.clients);
+    if (&loop == &loops_.first()) heap_keeper_.look_at(metrics_.sessions_open);
     write_log();
   }
 }

@@ -4,6 +4,7 @@
 
 #include "server/connections/client.hpp"
 #include "server/connections/settings.hpp"
+#include "server/operation/heap_keeper.hpp"
 
 namespace racebeam {
 
@@ -23,6 +24,7 @@ class IdleMonitor {
   const ServerSettings& settings_;
   Loops& loops_;
   Metrics& metrics_;
+  HeapKeeper heap_keeper_;  // used on the first loop's thread
 };
 
 }  // namespace racebeam

@@ -4,6 +4,7 @@
 
 #include "protocol/line/commands/command_table.hpp"
 #include "server/operation/log.hpp"
+#include "system/resources.hpp"
 
 namespace racebeam {
 namespace {
@@ -39,6 +40,15 @@ std::int64_t Metrics::sum(Part part) const {
   std::int64_t all = 0;
   for (const Meter& meter : meters_) all += part(meter).value();
   return all;
+}
+
+void Metrics::append_memory(std::string& out) const {
+  append_head(out, "memory_bytes", "gauge",
+              "Memory: what the system has given, what is counted, and the most that may be counted.");
+  append_value(out, "memory_bytes{kind=\"resident\"}", resident_memory());
+  if (memory == nullptr) return;
+  append_value(out, "memory_bytes{kind=\"counted\"}", memory->taken());
+  append_value(out, "memory_bytes{kind=\"limit\"}", memory->most());
 }
 
 void Metrics::append_requests(std::string& out) const {
@@ -92,6 +102,7 @@ std::string Metrics::text() const {
   append_head(out, "log_lines_lost_total", "counter",
               "Lines of the log that were dropped because its reader is slow.");
   append_value(out, "log_lines_lost_total", log_lines_lost());
+  append_memory(out);
   append_requests(out);
   append_latencies(out);
   return out;

@@ -4,9 +4,11 @@
 #include <atomic>
 #include <cstdint>
 #include <list>
+#include <memory>
 #include <string>
 
 #include "protocol/line/meter.hpp"
+#include "protocol/running/memory_budget.hpp"
 
 namespace racebeam {
 
@@ -28,6 +30,8 @@ class Metrics {
 
   std::string text() const;  // thread-safe
 
+  std::shared_ptr<const MemoryBudget> memory;  // of all sessions; null: there is no limit
+
   // Counted by any thread:
   std::atomic<std::int64_t> sessions_open = 0, sessions_classic = 0, sessions_line = 0;
   std::atomic<std::int64_t> refused_busy = 0, refused_tls = 0, wrong_tokens = 0;
@@ -38,6 +42,7 @@ class Metrics {
  private:
   template <typename Part>
   std::int64_t sum(Part part) const;
+  void append_memory(std::string& out) const;
   void append_requests(std::string& out) const;
   void append_latencies(std::string& out) const;
 

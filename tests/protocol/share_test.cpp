@@ -106,6 +106,13 @@ TEST_CASE("A session can replace its own share under the same name") {
   CHECK(code(server.watcher.ask("share room")) == "bad-value");
 }
 
+TEST_CASE("A share that is not the one of its name leaves that one alone") {
+  const auto shares = std::make_shared<Shares>();
+  const auto first = Sharing::open(shares, "one", 1);
+  CHECK(Sharing::open(shares, "one", 1) == nullptr);
+  CHECK(shares->find("one").get() == &first->share());
+}
+
 TEST_CASE("Without news there is no picture") {
   Server server;
   server.share();

@@ -100,8 +100,9 @@ LoadWords sorted(Words words) {
   return load;
 }
 
-std::shared_ptr<const Image> sent_image(const LoadWords& words) {
+std::shared_ptr<const Image> sent_image(Session& session, const LoadWords& words) {
   if (!words.image) throw RequestError(ErrorCode::kBadArguments, "load inline needs image=BASE64");
+  session.memory.check(words.image->size() / 4 * 3, "an image");
   auto bytes = bytes_of_base64(*words.image);
   if (!bytes)
     throw RequestError(ErrorCode::kBadImage, "the image is not base64 (A-Z a-z 0-9 + / and = at the end)");
@@ -112,10 +113,10 @@ std::shared_ptr<const Image> sent_image(const LoadWords& words) {
   }
 }
 
-Cartridge find_cartridge(const Session& session, std::string_view name, const LoadWords& words) {
+Cartridge find_cartridge(Session& session, std::string_view name, const LoadWords& words) {
   Cartridge cartridge;
   if (name == kInline) {
-    cartridge.image = sent_image(words);
+    cartridge.image = sent_image(session, words);
   } else {
     if (words.image) throw RequestError(ErrorCode::kBadArguments, "image= goes with load inline");
     const Cartridge* found = session.service.images->find(name);
@@ -131,6 +132,7 @@ Cartridge find_cartridge(const Session& session, std::string_view name, const Lo
   } else if (name == kInline) {
     cartridge.game = recognise(*cartridge.image).game;
   }
+  if (const auto known = session.service.images->same(*cartridge.image)) cartridge.image = known;
   return cartridge;
 }
 
@@ -177,13 +179,15 @@ void run_load(Session& session, Words arguments) {
                        "observe selects audio, which needs sound=1; load with it, or observe other fields");
   if (settings.machine.random_seed == 0) settings.machine.random_seed = parse_seed("random");
   // The cache of resets belongs to the process, and would keep the image when the session is gone.
-  settings.machine.copy_resets = arguments[0] != kInline;
   Cartridge cartridge = find_cartridge(session, arguments[0], words);
+  std::unique_ptr<CodeOwner> own_image;
+  if (session.service.images->same(*cartridge.image) == nullptr)
+    own_image = std::make_unique<CodeOwner>(cartridge.image->bytes);
+  settings.machine.copy_resets = own_image == nullptr;
   std::unique_ptr<LoadedMachine> loaded;
   try {
     session.allow_resets(1);
-    session.memory.check(LoadedMachine::footprint(session.fields) + View::longest_text(session.fields) +
-                             (arguments[0] == kInline ? kOwnImage : 0),
+    session.memory.check(LoadedMachine::most_held(session.fields) + View::longest_text(session.fields),
                          "a machine");
     loaded = std::make_unique<LoadedMachine>(cartridge, settings, session.fields, session.pacer);
   } catch (const InvalidInput& error) {
@@ -196,14 +200,12 @@ void run_load(Session& session, Words arguments) {
   session.discard(session.states, session.states.footprint());
   session.loaded = std::move(loaded);
   session.cartridge = std::move(cartridge);
-  session.has_own_image = arguments[0] == kInline;
+  session.own_image = std::move(own_image);
   session.settings = settings;
   session.episode = 1;
   session.last_action = 0;
-  if (session.service.share_all && !session.sharing) {
-    const auto& shares = session.service.shares;
-    session.sharing = std::make_unique<Sharing>(shares, shares->open_next(kUsualWatchers));
-  }
+  if (session.service.share_all && !session.sharing)
+    session.sharing = Sharing::open_next(session.service.shares, kUsualWatchers);
   append_loaded(session);
 }
 

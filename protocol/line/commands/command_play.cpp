@@ -64,7 +64,7 @@ void run_observe(Session& session, Words arguments) {
   if (!arguments.empty()) {
     std::vector<Field> fields = parse_fields(arguments);
     check_sound(session, fields);
-    session.memory.check(View::footprint(fields) + View::longest_text(fields), "a view of these fields");
+    session.memory.check(View::most_held(fields) + View::longest_text(fields), "a view of these fields");
     if (session.loaded) stack_of(fields, session.loaded->slot());  // it can be made
     session.machines.observe(fields);
     session.fields = std::move(fields);
@@ -86,7 +86,7 @@ void run_look(Session& session, Words arguments) {
   std::vector<Field> fields = parse_fields(arguments);
   check_sound(session, fields);
   check_look(fields);
-  session.memory.check(View::footprint(fields) + text_size(fields, loaded.machine()),
+  session.memory.check(View::most_held(fields) + text_size(fields, loaded.machine()),
                        "a look at these fields");
   const auto stack = stack_of(fields, loaded.slot());
   session.out += "ok";

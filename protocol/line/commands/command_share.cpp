@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <optional>
 #include <span>
 
@@ -96,14 +95,9 @@ void run_share(Session& session, Words arguments) {
         number_within(value_of(arguments[1], "watchers", "share"), "watchers", 1, kMostWatchers));
   }
   if (session.sharing && session.sharing->share().name() == name) session.sharing.reset();
-  const auto share = session.service.shares->open(name, most);
-  if (!share) throw RequestError(ErrorCode::kBadValue, "the name " + quote(name) + " is taken");
-  try {
-    session.sharing = std::make_unique<Sharing>(session.service.shares, share);
-  } catch (const std::bad_alloc&) {
-    session.service.shares->close(*share);
-    throw;
-  }
+  auto sharing = Sharing::open(session.service.shares, name, most);
+  if (!sharing) throw RequestError(ErrorCode::kBadValue, "the name " + quote(name) + " is taken");
+  session.sharing = std::move(sharing);
   session.out += "ok";
   append_pair(session.out, "share", name);
   append_pair(session.out, "watchers", most);
@@ -142,7 +136,7 @@ void run_watch(Session& session, Words arguments) {
     words = words.subspan(1);
   }
   const std::vector<Field> fields = parse_watched_fields(words);
-  session.memory.check(View::footprint(fields), "a view of these fields");
+  session.memory.check(View::most_held(fields), "a view of these fields");
   Watched& subject = watched(session, arguments[0]);
   const auto snapshot = subject.newest();
   if (!snapshot) refuse_unknown(session, arguments[0]);

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "protocol/encoding/base64.hpp"
 #include "protocol/request_error.hpp"
 #include "tests/protocol/line_client.hpp"
 
@@ -31,6 +32,43 @@ TEST_CASE("A budget gives what it has, and no more") {
   CHECK_FALSE(budget.has(51));
   budget.take_anyway(70);
   CHECK_FALSE(budget.has(0));
+}
+
+TEST_CASE("What a part takes, the whole has taken") {
+  const auto whole = std::make_shared<MemoryBudget>(100);
+  const auto owner = MemoryBudget::part(whole, "user 1");
+  {
+    const auto session = std::make_shared<MemoryBudget>(owner), other = std::make_shared<MemoryBudget>(owner);
+    CHECK(MemoryBudget::part(whole, "user 1") == owner);
+    CHECK(owner->parts() == 2);
+    CHECK(whole->parts() == 1);
+    CHECK(session->take(60));
+    CHECK_FALSE(other->take(41));
+    other->take_anyway(50);
+    CHECK(owner->taken() == 110);
+    CHECK(whole->taken() == 110);
+    CHECK_FALSE(session->has(0));
+    CHECK(session->shortage() == 16);
+    session->give_back(60);
+    other->give_back(50);
+    CHECK_FALSE(whole->is_short());
+  }
+  CHECK(owner->parts() == 0);
+  CHECK(whole->taken() == 0);
+}
+
+TEST_CASE("The last eighth is for owners that hold little") {
+  const auto budget = std::make_shared<MemoryBudget>(64 * kMiB);
+  MemoryShare large(budget), little(budget);
+  CHECK_FALSE(large.grow(57 * kMiB));
+  CHECK(large.grow(56 * kMiB));
+  CHECK_FALSE(large.grow(1));
+  CHECK_THROWS_WITH(
+      large.check(4096, "it"),
+      "it would take about 4 KiB of memory; the server's sessions hold 56 MiB, and may hold 56 MiB "
+      "for one of this size");
+  CHECK(little.grow(kMiB));
+  CHECK_FALSE(little.grow(1));
 }
 
 TEST_CASE("A share is given back when its owner ends") {
@@ -63,26 +101,71 @@ TEST_CASE("A request beyond the memory budget is refused, and the session contin
   CHECK(code(client.ask("branch s0 keep=leaf 0 1 2")) == "limit");
   CHECK_FALSE(client.ask("states").ends_with("leaf0"));
   CHECK(code(client.ask("act FIRE")) == "");
+  CHECK(code(other.ask("load beamfall")) == "");  // it holds little
+  const std::uint64_t left = 8 * kMiB - service.memory->taken();
+  service.memory->take_anyway(left);
   CHECK(code(other.ask("load beamfall")) == "limit");
   CHECK(code(client.ask("drop all")) == "");
   CHECK(code(other.ask("load beamfall")) == "");
+  service.memory->give_back(left);
 }
 
-TEST_CASE("An image that a client sends is charged with the code that it may be translated to") {
-  const LineService service = service_with(4 * kMiB);
+TEST_CASE("An image that a client sends is charged with the code that it is translated to") {
+  const LineService service = service_with(64 * kMiB);
   LineClient client(service);
-  CHECK(code(client.ask("load beamfall")) == "");
-  CHECK(code(client.ask("load inline image=" + std::string(5464, 'A'))) == "limit");
+  const std::string unknown = "load inline image=" + std::string(5464, 'A');
+  CHECK(code(client.ask(unknown)) == "");
+  const std::uint64_t loaded = service.memory->taken();
+  CHECK(code(client.ask("act NOOP*60")) == "");
+  CHECK(loaded > 8192);
+  CHECK(loaded < kMiB / 2);
+  CHECK(service.memory->taken() < 2 * kMiB);
 }
 
-TEST_CASE("A line without memory for it counts as too long") {
+TEST_CASE("An image that the server has is shared, also when a client sends it") {
+  const LineService service = service_with(64 * kMiB);
+  LineClient client(service), other(service);
+  CHECK(code(client.ask("load beamfall")) == "");
+  const std::uint64_t one = service.memory->taken();
+  std::string image;
+  append_base64(image, *service.images->find("beamfall")->image->bytes);
+  CHECK(code(other.ask("load inline image=" + image)) == "");
+  CHECK(service.memory->taken() < 2 * one);
+}
+
+TEST_CASE("A line without memory for it is skipped with an error, and the session goes on") {
   const LineService service = service_with(kMiB);
   LineClient client(service);
-  const std::string long_line(900'000, 'x');
-  CHECK(code(client.ask(long_line)) == "line-too-long");
-  CHECK(client.ask("games").starts_with("ok"));
+  // As a transport does: it reads into the space, and takes zero bytes for the end of the input.
+  std::string text = std::string(900'000, 'x') + "\ngames\n", answers;
+  while (!text.empty()) {
+    const std::span<char> space = client.session.space();
+    REQUIRE_FALSE(space.empty());
+    const std::size_t count = std::min(space.size(), text.size());
+    client.hand_in(text.substr(0, count));
+    text.erase(0, count);
+    answers += client.listen();
+  }
+  CHECK(code(answers) == "limit");
+  CHECK(answers.find("\nok count=") != std::string::npos);
   LineClient rich(service_with(64 * kMiB));
-  CHECK(code(rich.ask(long_line)) == "unknown-command");
+  CHECK(code(rich.ask(std::string(900'000, 'x'))) == "unknown-command");
+}
+
+TEST_CASE("A line is skipped where the memory is taken by others, and there is always space for the next") {
+  const LineService service = service_with(8 * kMiB);
+  LineClient client(service);
+  service.memory->take_anyway(8 * kMiB);
+  CHECK(code(client.ask(std::string(9'000, 'x'))) == "limit");
+  CHECK(client.ask("games").starts_with("ok"));
+  service.memory->give_back(8 * kMiB);
+}
+
+TEST_CASE("A long line of few words needs memory for its image, and not for half a million words") {
+  const LineService service = service_with(8 * kMiB);
+  LineClient client(service);
+  const std::string image((std::size_t{512} << 10) / 3 * 4, 'A');
+  CHECK(code(client.ask("load inline image=" + image)) != "limit");
 }
 
 TEST_CASE("A line of very many words is refused where there is no memory for them") {

@@ -1,0 +1,29 @@
+#include "protocol/line/machine_memory.hpp"
+
+#include "emulator/tia/line_cache/line_record.hpp"
+
+namespace racebeam {
+namespace {
+
+constexpr std::size_t kMachine = std::size_t{24} << 10;  // without pictures and lines, measured
+
+}  // namespace
+
+void MachineMemory::rest(Slot& slot) {
+  slot.environment().rest();
+  rested_ = frame_of(slot);
+}
+
+std::size_t MachineMemory::held(const Slot& slot) const {
+  const auto rows = static_cast<std::size_t>(slot.environment().height());
+  std::size_t bytes = kMachine;
+  if (frame_of(slot) != begun_) bytes += 2 * rows * (kScreenWidth + sizeof(LineNumber));
+  if (frame_of(slot) != rested_) bytes += rows * sizeof(LineRecord);
+  if (const ScreenStack* const stack = slot.stack()) {
+    const auto channels = static_cast<std::size_t>(stack->settings().channels());
+    bytes += stack->size() + channels * (rows * kScreenWidth + stack->screen_size());
+  }
+  return bytes;
+}
+
+}  // namespace racebeam

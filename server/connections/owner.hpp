@@ -1,0 +1,13 @@
+// Whose a connection is: a user of this machine, for a Unix socket, or an address.
+#pragma once
+
+#include <string>
+
+#include <boost/asio/generic/stream_protocol.hpp>
+
+namespace racebeam {
+
+// A client that has disconnected already is unknown: all of them are one owner.
+std::string owner_of(const boost::asio::generic::stream_protocol::socket& socket);
+
+}  // namespace racebeam

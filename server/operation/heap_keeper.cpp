@@ -1,0 +1,47 @@
+#include "server/operation/heap_keeper.hpp"
+
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
+#include <algorithm>
+#include <system_error>
+
+namespace racebeam {
+namespace {
+
+constexpr std::chrono::seconds kQuiet{1};
+constexpr std::int64_t kWorthwhile = 16;  // sessions; fewer leave little behind
+
+void trim_heap() {
+#if defined(M_TRIM_THRESHOLD)  // the GNU C library
+  ::malloc_trim(0);
+#endif
+}
+
+}  // namespace
+
+void HeapKeeper::look_at(std::int64_t sessions, Clock::time_point now) {
+  most_ = std::max(most_, sessions);
+  if (sessions != last_) changed_ = now;
+  last_ = sessions;
+  if (most_ - sessions < kWorthwhile || now - changed_ < kQuiet) return;
+  most_ = sessions;
+  give_back();
+}
+
+void HeapKeeper::give_back() {
+  finish();
+  try {
+    thread_ = std::thread(trim_heap);
+    ++times_;
+  } catch (const std::system_error&) {
+    // The system has no thread now. Later sessions are followed by another attempt.
+  }
+}
+
+void HeapKeeper::finish() {
+  if (thread_.joinable()) thread_.join();
+}
+
+}  // namespace racebeam

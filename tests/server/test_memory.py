@@ -1,0 +1,166 @@
+"""A server with little memory: what it counts, whom it serves, whom it ends, and what it gives back."""
+
+import re
+import socket
+import threading
+import time
+import unittest
+import urllib.request
+
+from harness import PATIENCE, Wire, ask, connect_tcp, main, sanitized, serve, thread_sanitized
+
+LONG = b"load beamfall as=tetris seed=1 sticky=0 max_episode_frames=0"
+QUICK = 1 if PATIENCE <= 60 else PATIENCE / 20  # seconds, for a newcomer
+
+
+def connect_from(address, port):
+    """From an address of this machine, which makes a client another owner of memory."""
+    connection = socket.create_connection(("127.0.0.1", port), timeout=PATIENCE, source_address=(address, 0))
+    connection.setblocking(True)
+    return Wire(connection.fileno(), connection.fileno(), connection)
+
+
+def fill(wire, states=40):
+    """Machines and states, as many as the server admits. Returns whether it has refused something."""
+    replies = [ask(wire, line) for line in (LONG, b"observe grey84x4:hex", b"open 16", b"step NOOP")]
+    replies += [ask(wire, b"save s%d" % number) for number in range(states)]
+    return any(reply.startswith(b"error limit ") for reply in replies)
+
+
+class Bystander:
+    """A session that plays all the time. Whatever it gets but `ok` is a failure."""
+
+    def __init__(self, port):
+        self.wire = connect_tcp(port)
+        self.replies = {ask(self.wire, b"load beamfall seed=1 max_episode_frames=0")[:2]}
+        self.ends = threading.Event()
+        self.thread = threading.Thread(target=self.play)
+        self.thread.start()
+
+    def play(self):
+        try:
+            while not self.ends.wait(0.005):
+                self.replies.add(ask(self.wire, b"act RIGHT")[:2])
+        except (AssertionError, OSError):
+            self.replies.add(b"the end")
+
+    def close(self):
+        self.ends.set()
+        self.thread.join()
+        self.wire.close()
+        return self.replies
+
+
+@unittest.skipIf(sanitized() or thread_sanitized(), "a sanitizer needs more memory")
+class Memory(unittest.TestCase):
+    def start(self, *options):
+        self.server = serve("--threads", "2", "--http", "127.0.0.1:0", *options)
+        self.addCleanup(self.server.__exit__)
+        self.http = int(self.server.wait_for(r"health and metrics on http://127\.0\.0\.1:(\d+)$").group(1))
+        return self.server.port()
+
+    def connect(self, port, address="127.0.0.1"):
+        wire = connect_from(address, port)
+        self.addCleanup(wire.close)
+        return wire
+
+    def memory(self, kind):
+        """In MiB."""
+        with urllib.request.urlopen(f"http://127.0.0.1:{self.http}/metrics") as page:
+            text = page.read().decode()
+        return int(re.search(rf'^racebeam_memory_bytes{{kind="{kind}"}} (\d+)$', text, re.MULTILINE).group(1)) / (1 << 20)
+
+    def check_newcomers(self, port, count=5, address="127.0.0.1"):
+        """Each connects, loads a game and plays, and has done so within a second."""
+        for _ in range(count):
+            asked = time.monotonic()
+            wire = connect_from(address, port)
+            for line in (b"load beamfall", b"act FIRE"):
+                self.assertRegex(ask(wire, line), b"^ok ")
+            wire.close()
+            self.assertLess(time.monotonic() - asked, QUICK)
+
+    def test_sessions_that_wait_do_not_keep_others_out(self):
+        port = self.start("--max-memory", "128M")
+        bystander = Bystander(port)
+        refused = [fill(self.connect(port)) for _ in range(24)]
+        self.assertIn(True, refused)
+        self.check_newcomers(port)
+        time.sleep(3)
+        self.check_newcomers(port)
+        self.assertEqual(bystander.close(), {b"ok"})
+        self.assertLess(self.memory("resident"), 128)
+
+    def test_many_that_hold_little_do_not_keep_others_out(self):
+        port = self.start("--max-memory", "80M")
+        bystander = Bystander(port)
+        crowd = []
+        for _ in range(400):
+            crowd.append(self.connect(port))
+            for line in (b"load beamfall", b"act FIRE*60"):
+                crowd[-1].send(line + b"\n")
+        for wire in crowd:
+            wire.read(1 << 16)
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end and self.memory("counted") > 76:
+            time.sleep(0.1)
+        self.check_newcomers(port)
+        self.assertEqual(bystander.close(), {b"ok"})
+
+    def test_who_does_not_read_is_ended_first(self):
+        port = self.start("--max-memory", "96M")
+        bystander, waiting = Bystander(port), self.connect(port)
+        self.assertRegex(ask(waiting, b"load beamfall"), b"^ok ")
+        for _ in range(30):
+            wire = self.connect(port)
+            wire.connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 14)
+            for line in (LONG, b"observe rgb:hex"):
+                ask(wire, line)
+            wire.send(b"open 8\n" + b"step NOOP\n" * 50)
+        time.sleep(3)
+        self.check_newcomers(port)
+        self.assertEqual(bystander.close(), {b"ok"})
+        self.assertRegex(ask(waiting, b"act FIRE"), b"^ok ")
+
+    def test_the_owner_who_holds_most_makes_room(self):
+        port = self.start("--max-memory", "80M")
+        waiting = self.connect(port)
+        self.assertRegex(ask(waiting, b"load beamfall"), b"^ok ")
+        self.assertRegex(ask(waiting, b"open 8"), b"^ok ")
+        many = []
+        for _ in range(300):
+            many.append(self.connect(port, "127.0.0.2"))
+            many[-1].send(b"load beamfall\nact FIRE*60\nsave a\nsave b\n")
+        self.check_newcomers(port)
+        time.sleep(4)
+        self.check_newcomers(port)
+        self.assertRegex(ask(waiting, b"step NOOP"), b"^ok ")
+
+    def test_a_long_line_without_memory_is_refused_and_the_session_goes_on(self):
+        port = self.start("--max-memory", "64M", "--max-line", "100000000")
+        wire = self.connect(port)
+        self.assertRegex(ask(wire, b"x" * 90_000_000), b"^error limit the server has no memory for a line of more than")
+        self.assertRegex(ask(wire, b"games"), b"^ok ")
+
+    def test_the_memory_of_ended_sessions_goes_back_to_the_system(self):
+        for options in ((), ("--max-memory", "0")):
+            with self.subTest(options=options):
+                port = self.start(*options)
+                wires = []
+                for _ in range(600):
+                    wires.append(connect_tcp(port))
+                    wires[-1].send(b"load beamfall\nact FIRE*60\nsave a\nact LEFT*20\n")
+                for wire in wires:
+                    wire.line()
+                    wire.line()
+                high = self.memory("resident")
+                for wire in wires:
+                    wire.close()
+                end = time.monotonic() + 20
+                while time.monotonic() < end and self.memory("resident") > high / 3:
+                    time.sleep(0.1)
+                self.assertLess(self.memory("resident"), high / 3)
+
+
+if __name__ == "__main__":
+    main()
