@@ -123,8 +123,8 @@ void Http::close_after(std::chrono::seconds limit, const Connection& connection)
 Task<> Http::serve(Connection connection) {
   try {
     co_await converse(connection);
-  } catch (const std::exception& error) {
-    log_warning("a client of " + name_ + " was left: " + error.what());
+  } catch (const std::exception&) {
+    report_failure(std::current_exception());
   }
   ended(connection);
 }

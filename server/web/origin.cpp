@@ -26,9 +26,9 @@ bool is_port(std::string_view text) {
 // as in USER@HOST.
 std::string_view host_of(std::string_view place) {
   const bool six = place.starts_with('[');
-  const std::size_t end = std::min(place.find(six ? ']' : ':'), place.size());
-  const std::string_view host = place.substr(six ? 1 : 0, six ? end - 1 : end);
-  const std::string_view port = place.substr(six ? std::min(end + 1, place.size()) : end);
+  const std::size_t end = six ? place.find(']') : std::min(place.find(':'), place.size());
+  if (end == std::string_view::npos) return {};
+  const std::string_view host = place.substr(six, end - six), port = place.substr(end + six);
   if (!port.empty() && !(port.front() == ':' && is_port(port.substr(1)))) return {};
   if (six) return is_ip_address(std::string(host)) && host.find(':') != std::string_view::npos ? host : "";
   return host.find_first_of("@/\\?#[] ") == std::string_view::npos ? host : "";
