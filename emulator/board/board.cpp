@@ -126,11 +126,31 @@ void Board::record_step(RecordedStep& step, const TiaState& start, std::int32_t 
   step.writes.assign(log->entry.data(), log->next);
 }
 
+// The state that returns after a step was replayed, even if memory ran out meanwhile.
+class Board::PresentState {
+ public:
+  explicit PresentState(Board& board)
+      : board_(board), tia_(board.state.tia), lines_(board.state.frame.lines) {}
+  ~PresentState() {
+    board_.state.tia = tia_;
+    board_.state.frame.lines = lines_;
+    board_.tia.forget();
+  }
+  PresentState(const PresentState&) = delete;
+  PresentState& operator=(const PresentState&) = delete;
+
+ private:
+  Board& board_;
+  const TiaState tia_;
+  const std::int32_t lines_;
+};
+
 Collisions Board::replay(const RecordedStep& step, FrameBuffer& picture, const FrameBuffer* other,
                          RenderMode mode) {
   thread_local WriteLog replayed;
-  const TiaState now = std::exchange(state.tia, step.start);
-  const std::int32_t lines = std::exchange(state.frame.lines, step.lines);
+  const PresentState present(*this);
+  state.tia = step.start;
+  state.frame.lines = step.lines;
   tia.forget();
   replayed.rewind(step.base);
   tia.begin_step(picture, other, replayed, mode, kAllPairs);
@@ -139,11 +159,7 @@ Collisions Board::replay(const RecordedStep& step, FrameBuffer& picture, const F
     tia.end_picture(step.last_access);
   else
     tia.catch_up(step.last_access);
-  const Collisions found = state.tia.collisions;
-  state.tia = now;
-  state.frame.lines = lines;
-  tia.forget();
-  return found;
+  return state.tia.collisions;
 }
 
 // An opcode that was fetched from a collision register depends on what a write in the same cycle drew ahead.

@@ -104,6 +104,7 @@ class Board {
 
  private:
   friend translator::Layout;
+  class PresentState;
 
   std::uint8_t read_cartridge(std::uint16_t address, std::int32_t cycle);
   [[gnu::noinline]] Delivery write_cartridge(std::uint16_t address, std::uint8_t value);

@@ -31,8 +31,8 @@ class FrameBuffer {
   std::size_t rows() const { return rows_.size(); }
   void make_room(std::size_t rows) {
     if (rows <= rows_.size()) return;
+    shows_.resize(rows, kAnyLine);  // first: if memory runs out, a row without its number must not exist
     rows_.resize(rows);
-    shows_.resize(rows, kAnyLine);
   }
 
   void blank() {
