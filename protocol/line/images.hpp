@@ -27,7 +27,6 @@ class Images {
   const Cartridge* find(std::string_view name) const;
   // The image of these bytes. Null if there is none.
   std::shared_ptr<const Image> same(const Image& image) const;
-  bool contains(const Image& image) const { return same(image).get() == &image; }
   std::vector<std::string_view> names() const;  // without the MD5s
 
  private:

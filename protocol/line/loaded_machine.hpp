@@ -1,6 +1,7 @@
 // The machine of `load`: a slot, and the fields that its client observes.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -29,9 +30,12 @@ class LoadedMachine {
   const Environment& machine() const { return slot_.environment(); }
   AllowedActions allowed() const { return {machine().game().name, allowed_}; }
 
-  // Bytes of memory that a machine with these fields may come to hold, and that this one holds.
+  // Bytes of memory that a machine with these fields may come to hold.
   static std::size_t most_held(const std::vector<Field>& fields);
-  std::size_t footprint() const { return memory_.held(slot_) + view_.footprint(); }
+  // Those that this one holds. Its view counts with at least so many.
+  std::size_t footprint(std::size_t least_of_view = 0) const {
+    return memory_.held(slot_) + std::max(view_.footprint(), least_of_view);
+  }
   void rest();  // releases caches
 
   void observe(std::vector<Field> fields);

@@ -5,7 +5,7 @@
 namespace racebeam {
 namespace {
 
-constexpr std::size_t kMachine = std::size_t{24} << 10;  // without pictures and lines, measured
+constexpr std::size_t kMachine = std::size_t{14} << 10;  // without pictures and lines, measured
 
 }  // namespace
 
@@ -16,8 +16,9 @@ void MachineMemory::rest(Slot& slot) {
 
 std::size_t MachineMemory::held(const Slot& slot) const {
   const auto rows = static_cast<std::size_t>(slot.environment().height());
+  const std::size_t pictures = slot.environment().drawing() == Drawing::kNone ? 1 : 2;
   std::size_t bytes = kMachine;
-  if (frame_of(slot) != begun_) bytes += 2 * rows * (kScreenWidth + sizeof(LineNumber));
+  if (frame_of(slot) != begun_) bytes += pictures * rows * (kScreenWidth + sizeof(LineNumber));
   if (frame_of(slot) != rested_) bytes += rows * sizeof(LineRecord);
   if (const ScreenStack* const stack = slot.stack()) {
     const auto channels = static_cast<std::size_t>(stack->settings().channels());

@@ -1,9 +1,10 @@
 // What a machine holds in memory. It is told from what the machine has done, since the emulator does not
-// count: it allocates pictures when it first draws on its own, and the records of lines when it draws after a
-// rest.
+// count: a machine allocates pictures when it plays, one if its screens are not observed. It holds the
+// records of lines until it rests, and from its next frame on.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "environment/vector/slot.hpp"
 
@@ -11,7 +12,7 @@ namespace racebeam {
 
 class MachineMemory {
  public:
-  explicit MachineMemory(const Slot& slot) : begun_(frame_of(slot)), rested_(begun_) {}
+  explicit MachineMemory(const Slot& slot) : begun_(frame_of(slot)) {}
 
   void rest(Slot& slot);                     // releases caches
   std::size_t held(const Slot& slot) const;  // bytes
@@ -21,7 +22,8 @@ class MachineMemory {
  private:
   static int frame_of(const Slot& slot) { return slot.environment().frame_number(); }
 
-  int begun_, rested_;  // frames
+  int begun_;                  // the frame when the machine was made
+  std::optional<int> rested_;  // that of the last rest
 };
 
 }  // namespace racebeam

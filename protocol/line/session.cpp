@@ -323,15 +323,15 @@ void Session::measure() {
 // The bytes of memory that the session holds. A request checks large allocations by itself; a long reply that
 // may come counts already.
 std::size_t Session::footprint() const {
-  constexpr std::size_t kSession = std::size_t{6} << 10;  // the rest, measured
+  constexpr std::size_t kSession = std::size_t{2} << 10;  // the rest, measured
   constexpr std::size_t kShare = std::size_t{80} << 10;   // two copies of a screen
   constexpr std::size_t kLongReply = std::size_t{1} << 18;
-  std::size_t reply = loaded ? View::longest_text(fields) : 0;
+  std::size_t reply = loaded ? View::longest_text(fields) : 0;  // that may come; only a long one counts
   if (reply < kLongReply) reply = 0;
   std::size_t bytes = kSession + std::max(reply, out.capacity() + raw.capacity()) + input.capacity() +
                       states.footprint() + machines.footprint() + actions.capacity() * sizeof(Action) +
                       step_acts.capacity() * sizeof(Act) + words_.capacity() * sizeof(std::string_view);
-  if (loaded) bytes += loaded->footprint();
+  if (loaded) bytes += loaded->footprint(reply > 0 ? View::most_held(fields) : 0);
   if (own_image) bytes += cartridge.image->bytes->size() + own_image->bytes();
   if (sharing) bytes += kShare;
   for (const auto& [name, watched] : watching) bytes += watched.footprint();

@@ -10,10 +10,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kPause = 250ms;                          // of a session that is told to release its caches
-constexpr auto kIdle = 2s;                              // of one that may be ended
-constexpr auto kSlow = 1s;                              // of a client that reads, for one reply
-constexpr std::size_t kUnread = std::size_t{64} << 10;  // less is on its way
+constexpr auto kPause = 250ms;                            // of a session that is told to release its caches
+constexpr auto kLongPause = 2s;                           // of one that may be ended
+constexpr auto kSlow = 1s;                                // of a client that reads, for one reply
+constexpr std::size_t kOnItsWay = std::size_t{64} << 10;  // bytes; more is not being read
 
 enum class Burden { kNone, kActive, kIdle, kUnread };  // the later, the sooner it is ended
 
@@ -29,11 +29,11 @@ bool crowds_others_out(const MemoryBudget& owner) {
 
 Burden burden_of(const Client& client, Clock::time_point now) {
   if (client.ending() || client.memory() == nullptr) return Burden::kNone;
-  if (client.unsent() >= kUnread && now - client.sends_since() > kSlow) return Burden::kUnread;
+  if (client.unsent() > kOnItsWay && now - client.sends_since() > kSlow) return Burden::kUnread;
   const MemoryBudget& session = *client.memory();
   const MemoryBudget& owner = *session.whole();
   if (!holds_the_mean(session) || !holds_the_mean(owner)) return Burden::kNone;
-  if (!client.working && now - client.active() > kIdle) return Burden::kIdle;
+  if (!client.working && now - client.active() > kLongPause) return Burden::kIdle;
   return crowds_others_out(owner) ? Burden::kActive : Burden::kNone;
 }
 

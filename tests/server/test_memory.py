@@ -21,10 +21,12 @@ def connect_from(address, port):
 
 
 def fill(wire, states=40):
-    """Machines and states, as many as the server admits. Returns whether it has refused something."""
-    replies = [ask(wire, line) for line in (LONG, b"observe grey84x4:hex", b"open 16", b"step NOOP")]
-    replies += [ask(wire, b"save s%d" % number) for number in range(states)]
-    return any(reply.startswith(b"error limit ") for reply in replies)
+    """Machines and states, as many as the server admits. Returns whether it has refused something, or ended the session."""
+    lines = [LONG, b"observe grey84x4:hex", b"open 16", b"step NOOP", *[b"save s%d" % number for number in range(states)]]
+    try:
+        return any([ask(wire, line).startswith((b"error limit ", b"error busy ")) for line in lines])
+    except (AssertionError, OSError):
+        return True
 
 
 class Bystander:
@@ -34,7 +36,7 @@ class Bystander:
         self.wire = connect_tcp(port)
         self.replies = {ask(self.wire, b"load beamfall seed=1 max_episode_frames=0")[:2]}
         self.ends = threading.Event()
-        self.thread = threading.Thread(target=self.play)
+        self.thread = threading.Thread(target=self.play, daemon=True)
         self.thread.start()
 
     def play(self):
