@@ -133,6 +133,8 @@ class Memory(unittest.TestCase):
         for _ in range(300):
             many.append(self.connect(port, "127.0.0.2"))
             many[-1].send(b"load beamfall\nact FIRE*60\nsave a\nsave b\n")
+        for wire in many:
+            wire.read(1 << 16)  # their work is done
         self.check_newcomers(port)
         time.sleep(4)
         self.check_newcomers(port)
