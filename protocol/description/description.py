@@ -21,7 +21,7 @@ class Row:
 
     @property
     def told(self):
-        """The summary, as `help` and PROTOCOL.md have it."""
+        """The summary, as `help` and the document have it."""
         text = next(getattr(self, name) for name in ("summary", "meaning", "source") if hasattr(self, name))
         return f"{text}; deprecated: use {self.deprecated}" if self.deprecated else text
 
