@@ -202,7 +202,7 @@ class RemoteInterface:
         if rom is None:
             self.ask(self.session.load, game, **settings)
         else:
-            named = {"as": game} if game is not None else {}
+            named = {"as_": game} if game is not None else {}
             self.ask(self.session.load, "inline", image=_read_image(rom), **named, **settings)
         self._loaded = rom, game, settings
         self._colours = np.array(self.session.palette(), np.uint8)
