@@ -59,10 +59,12 @@ class Seeds(unittest.TestCase):
         self.assertTrue(same(play(envs, 10), play(others, 10)))
 
     def test_the_first_reset_has_the_seed_of_the_constructor(self):
-        for settings in ({}, {"batch_size": 1}, {"repeat_action_probability": 0.5, "noop_max": 30}):
+        for settings in ({}, {"repeat_action_probability": 0.5, "noop_max": 30}):
             envs, others = AtariVectorEnv("beamfall", 2, seed=3, **settings), AtariVectorEnv("beamfall", 2, **settings)
             self.assertTrue(same([envs.reset()], [others.reset(seed=3)]))
             self.assertFalse(same([envs.reset(), envs.reset()], [others.reset(seed=3), others.reset(seed=3)]))
+        seen, info = AtariVectorEnv("beamfall", 2, batch_size=1, seed=3, **settings).reset()
+        self.assertTrue(np.array_equal(seen, others.reset(seed=3)[0][info["env_id"]]))
 
     def test_a_seed_of_the_constructor_ends_with_the_first_call_that_plays(self):
         for play_once in (lambda envs: envs.step([0, 0]), lambda envs: (envs.send([0, 0]), envs.recv()),
