@@ -1,5 +1,6 @@
 """The package as it is installed: what it imports, what its files say, and the program that comes with it."""
 
+import ast
 import importlib.metadata
 import os
 import pathlib
@@ -104,6 +105,27 @@ class Files(unittest.TestCase):
         told = re.findall('Revealed type is "(.*)"', done.stdout)
         self.assertRegex(told[0], r"tuple\[.*ndarray\[.*signedinteger\[numpy._typing._nbit_base._32Bit\].*bool")
         self.assertRegex("".join(told[1:]), "GymnasiumEnvPool.*TimeStep")
+
+
+class Structure(unittest.TestCase):
+    def test_modules_do_not_import_each_other_in_a_circle(self):
+        imports = {}
+        for file in FOLDER.rglob("*.py"):
+            if file.name != "__init__.py":  # these gather the names of their folders
+                imports[file] = {other for other in self.imported(file) if other.exists() and other.name != "__init__.py"}
+        while leaves := [file for file, others in imports.items() if not others & imports.keys()]:
+            for file in leaves:
+                del imports[file]
+        self.assertEqual(sorted(str(file.relative_to(FOLDER)) for file in imports), [])
+
+    def imported(self, file):
+        """The files that a module imports anywhere, also where only the types are checked."""
+        for node in ast.walk(ast.parse(file.read_text())):
+            if isinstance(node, ast.ImportFrom):
+                package_of = file.parents[node.level - 1] if node.level else FOLDER.parent
+                module = package_of.joinpath(*(node.module or "").split("."))
+                yield module.with_suffix(".py")
+                yield from ((module / name.name).with_suffix(".py") for name in node.names)
 
 
 class Program(unittest.TestCase):
