@@ -11,17 +11,7 @@
 namespace racebeam {
 namespace {
 
-constexpr int kMostInstances = 50;        // of a class; paper-notes
-constexpr std::uint32_t kApproaches = 4;  // not at all, in x, in y, in both
-
-bool approach(int distance, int velocity) {
-  return (distance > 0 && velocity < 0) || (distance < 0 && velocity > 0);
-}
-
-std::uint32_t approaches(const Velocity& distance, const Velocity& velocity) {
-  return static_cast<std::uint32_t>(approach(distance.x, velocity.x)) +
-         2 * static_cast<std::uint32_t>(approach(distance.y, velocity.y));
-}
+constexpr int kMostInstances = 50;  // of a class; paper-notes
 
 }  // namespace
 
@@ -81,7 +71,6 @@ Velocity InstanceFinder::velocity_by_class(std::uint32_t class_number, const Box
 ObjectFeatures::ObjectFeatures(const Background& background, const ObjectClasses& classes,
                                const ObjectSettings& settings)
     : finder_(background, classes, settings.reach),
-      velocity_(settings.velocity),
       count_instances_(settings.count_instances),
       places_(kFeatureWidth, kFeatureHeight, settings.tilings, settings.grid),
       distances_(2 * kFeatureWidth - 1, 2 * kFeatureHeight - 1, settings.tilings, settings.grid),
@@ -90,19 +79,7 @@ ObjectFeatures::ObjectFeatures(const Background& background, const ObjectClasses
       classes_(static_cast<std::uint32_t>(classes.size())),
       first_place_(classes_),
       first_pair_(first_place_ + classes_ * places_.size()),
-      size_(first_pair_ + pairs_of(classes_) * motions() * distances_.size()) {}
-
-// How many motions of a pair a tiling tells apart.
-std::uint32_t ObjectFeatures::motions() const {
-  return velocity_ == PairVelocity::kTiles ? velocities_.tiles() : kApproaches;
-}
-
-std::uint32_t ObjectFeatures::motion(std::uint32_t tiling, const Velocity& distance,
-                                     const Velocity& velocity) const {
-  if (velocity_ == PairVelocity::kApproach) return approaches(distance, velocity);
-  return velocities_.tile(tiling, velocity.x + fastest_, velocity.y + fastest_) -
-         tiling * velocities_.tiles();
-}
+      size_(first_pair_ + pairs_of(classes_) * velocities_.tiles() * distances_.size()) {}
 
 void ObjectFeatures::extract(Screen screen, ActiveFeatures& active) {
   active.clear();
@@ -153,10 +130,13 @@ void ObjectFeatures::add_pair(const Instance& one, const Instance& other) {
   const Velocity distance = way(from.box, to.box);
   const Velocity velocity{to.velocity.x - from.velocity.x, to.velocity.y - from.velocity.y};
   const std::uint32_t first =
-      first_pair_ + pair_index(from.class_number, to.class_number) * motions() * distances_.size();
-  for (std::uint32_t tiling = 0; tiling < distances_.tilings(); ++tiling)
-    add(first + motion(tiling, distance, velocity) * distances_.size() +
+      first_pair_ + pair_index(from.class_number, to.class_number) * velocities_.tiles() * distances_.size();
+  for (std::uint32_t tiling = 0; tiling < distances_.tilings(); ++tiling) {
+    const std::uint32_t motion =
+        velocities_.tile(tiling, velocity.x + fastest_, velocity.y + fastest_) - tiling * velocities_.tiles();
+    add(first + motion * distances_.size() +
         distances_.tile(tiling, distance.x + kFeatureWidth - 1, distance.y + kFeatureHeight - 1));
+  }
 }
 
 }  // namespace racebeam

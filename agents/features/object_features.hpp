@@ -37,17 +37,10 @@ class InstanceFinder {
   std::vector<Instance> instances_, before_;
 };
 
-// How a pair's features tell relative velocities apart (docs/paper-notes.md, "Objects").
-enum class PairVelocity {
-  kTiles,    // tiles of position and velocity together
-  kApproach  // tiles of the position, in four sets: the two approach in x, in y, in both, or in none
-};
-
 // Defaults: the paper, appendix C, where not said otherwise.
 struct ObjectSettings {
   int tilings = 8, grid = 8;
-  int reach = reach_of(5);  // of objects from decision to decision, in pixels
-  PairVelocity velocity = PairVelocity::kTiles;
+  int reach = reach_of(5);      // of objects from decision to decision, in pixels
   bool count_instances = true;  // paper-notes: a feature of several instances is there so often, or once
 };
 
@@ -61,8 +54,8 @@ class ObjectFeatures final : public FeatureSet {
     extract(screen_.of(machine), active);
   }
 
-  // Of C classes: that a class is absent; the tiles of its instances; for each pair of classes and each
-  // motion, the tiles of where the second one's instances are, as seen from the first.
+  // Of C classes: that a class is absent; the tiles of its instances; for each pair of classes, tiles of
+  // where the second one's instances are and how they move, as seen from the first.
   void extract(Screen screen, ActiveFeatures& active);
 
  private:
@@ -71,11 +64,7 @@ class ObjectFeatures final : public FeatureSet {
   void add_pair(const Instance& one, const Instance& other);
   void take_counts(ActiveFeatures& active);
 
-  std::uint32_t motions() const;
-  std::uint32_t motion(std::uint32_t tiling, const Velocity& distance, const Velocity& velocity) const;
-
   InstanceFinder finder_;
-  const PairVelocity velocity_;
   const bool count_instances_;
   const TileCoding places_, distances_, velocities_;
   const int fastest_;  // of relative velocities, in x and in y

@@ -27,8 +27,6 @@ constexpr std::array kPerturbSettings = {
 
 constexpr std::array<std::string_view, 3> kRewardScales = {"first", "none", "sign"};  // as RewardScale counts
 
-constexpr std::array<std::string_view, 2> kPairVelocities = {"tiles", "approach"};  // as PairVelocity counts
-
 constexpr double kLeastStep = 1e-9, kMostStep = 100;
 constexpr int kMostVectors = 65535, kMostOnes = 100000;
 constexpr int kMostBuckets = 20000;  // a sum of 100,000 hashes fits into 31 bits
@@ -59,19 +57,17 @@ constexpr std::array kTileSettings = {
     kRewardScale,
     AgentSetting{"grid_width", 16, 1, 160, true, "appendix C, BASS and Basic", {}, kFeatureWidth},
     AgentSetting{"grid_height", 14, 1, 210, true, "appendix C, BASS and Basic", {}, kFeatureHeight}};
-constexpr std::array kDiscoSettings = {
-    alpha(0.1, "appendix C, DISCO"),
-    lambda(0.9, "appendix C, DISCO"),
-    kGamma,
-    kEpsilon,
-    kEvaluationEpsilon,
-    kLeastTrace,
-    kClearTraces,
-    kRewardScale,
-    AgentSetting{"tilings", 8, 1, 64, true, "appendix C, DISCO"},
-    AgentSetting{"grid", 8, 1, 64, true, "appendix C, DISCO"},
-    AgentSetting{"velocity", 0, 0, 1, true, "docs/paper-notes.md, Objects", kPairVelocities},
-    AgentSetting{"count_instances", 1, 0, 1, true, "appendix A.3"}};
+constexpr std::array kDiscoSettings = {alpha(0.1, "appendix C, DISCO"),
+                                       lambda(0.9, "appendix C, DISCO"),
+                                       kGamma,
+                                       kEpsilon,
+                                       kEvaluationEpsilon,
+                                       kLeastTrace,
+                                       kClearTraces,
+                                       kRewardScale,
+                                       AgentSetting{"tilings", 8, 1, 64, true, "appendix C, DISCO"},
+                                       AgentSetting{"grid", 8, 1, 64, true, "appendix C, DISCO"},
+                                       AgentSetting{"count_instances", 1, 0, 1, true, "appendix A.3"}};
 constexpr std::array kLshSettings = {alpha(0.5, "appendix C, LSH"),
                                      lambda(0.5, "appendix C, LSH"),
                                      kGamma,
@@ -170,7 +166,6 @@ std::unique_ptr<Agent> make_disco(const AgentContext& context) {
   const ObjectSettings settings{.tilings = values.whole("tilings"),
                                 .grid = values.whole("grid"),
                                 .reach = reach_of(context.play.machine.frame_skip),
-                                .velocity = static_cast<PairVelocity>(values.whole("velocity")),
                                 .count_instances = values["count_instances"] != 0};
   return learner(context, std::make_unique<ObjectFeatures>(context.facts->background(),
                                                            context.facts->classes(), settings));
@@ -258,8 +253,7 @@ Effort effort_of_bass(const AgentValues& values) {
 }
 Effort effort_of_disco(const AgentValues& values) {
   const double tilings = values.growth("tilings"), tiles = values.growth("grid") * values.growth("grid");
-  const bool by_tiles = values.whole("velocity") == static_cast<int>(PairVelocity::kTiles);
-  return {tilings, tilings * tiles * (by_tiles ? tiles : 4.0 / 81)};  // 4 motions of a pair instead of 9 x 9
+  return {tilings, tilings * tiles * tiles};
 }
 // Half of the memory are the weights, and half the vectors.
 Effort effort_of_lsh(const AgentValues& values) {
@@ -324,8 +318,8 @@ constexpr std::array kKinds = {
               .role = Role::kLearner,
               .frame_skip = {},
               .settings = kDiscoSettings,
-              .decisions_per_second = 6500,
-              .megabytes = 40,
+              .decisions_per_second = 4000,
+              .megabytes = 540,
               .effort = effort_of_disco,
               .make = make_disco},
     AgentKind{.name = "lsh",

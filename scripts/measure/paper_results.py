@@ -27,7 +27,7 @@ SIMULATIONS = {10: "uct10", 50: "uct50", 150: "uct150", 500: "uct"}
 # Agents that have changed: the plan and the agent; whether settings are those of the agent as it is now; what it did.
 CHANGED = (
     ("baselines", "perturb", lambda settings: settings["frame_skip"] == 1, "an action for 5 frames; now for each frame"),
-    ("hour", "disco", lambda settings: "velocity" in settings,
+    ("hour", "disco", lambda settings: "count_instances" in settings,
      "left out objects that hardly move, followed others for 8 pixels a decision, and had two bits for a velocity"),
     ("full_tree", "full_tree", lambda settings: "reuse_tree" in settings, "of equal actions, could choose one that ends the episode"),
     ("iw1", "iw1", lambda settings: "reuse_tree" in settings,

@@ -13,8 +13,8 @@ namespace {
 const Pattern kArrow = {"## ", " ##"}, kArrowTurned = {" ##", "## "};
 const Pattern kBlock = {"###", "###", "###"};
 
-ObjectSettings settings(PairVelocity velocity, int tilings, int grid, int reach = 8) {
-  return {.tilings = tilings, .grid = grid, .reach = reach, .velocity = velocity, .count_instances = true};
+ObjectSettings settings(int tilings, int grid, int reach = 8) {
+  return {.tilings = tilings, .grid = grid, .reach = reach, .count_instances = true};
 }
 
 ObjectClasses two_classes() { return {{shape_of(kArrow)}, {shape_of(kBlock)}}; }
@@ -46,20 +46,18 @@ TEST_CASE("Tiles are as long as the side divided by the grid, and each tiling is
 
 TEST_CASE("DISCO has a feature for each absent class, tile of a class, and motion and tile of a pair") {
   constexpr std::size_t tiles = 8 * 9 * 9;
-  const auto size = [](const ObjectClasses& classes, PairVelocity velocity) {
-    return ObjectFeatures({}, classes, settings(velocity, 8, 8)).size();
+  const auto size = [](const ObjectClasses& classes) {
+    return ObjectFeatures({}, classes, ObjectSettings()).size();
   };
-  const ObjectClasses ten(10, {shape_of(kBlock)});
-  CHECK(size(two_classes(), PairVelocity::kApproach) == 2 + 2 * tiles + 4 * tiles);
-  CHECK(size(ten, PairVelocity::kApproach) == 10 + 10 * tiles + 45 * 4 * tiles);
-  CHECK(size(ten, PairVelocity::kTiles) == 10 + 10 * tiles + 45 * 9 * 9 * tiles);
-  CHECK(size({}, PairVelocity::kTiles) == 0);
+  CHECK(size(two_classes()) == 2 + 2 * tiles + 9 * 9 * tiles);
+  CHECK(size(ObjectClasses(10, {shape_of(kBlock)})) == 10 + 10 * tiles + 45 * 9 * 9 * tiles);
+  CHECK(size({}) == 0);
 }
 
 TEST_CASE("Every feature of a screen, with one tiling of 2 x 2") {
-  // 0 and 1: absent; 2 to 10 and 11 to 19: tiles of both classes; 20 to 55: tiles of the pair
-  ObjectFeatures set({}, two_classes(), settings(PairVelocity::kApproach, 1, 2));
-  REQUIRE(set.size() == 2 + 2 * 9 + 4 * 9);
+  // 0 and 1: absent; 2 to 10 and 11 to 19: tiles of both classes; 20 to 100: tiles of the pair
+  ObjectFeatures set({}, two_classes(), settings(1, 2));
+  REQUIRE(set.size() == 2 + 2 * 9 + 9 * 9);
   using Features = std::map<std::uint32_t, float>;
   CHECK(features(set, DrawnScreen()) == Features{{0, 1}, {1, 1}});
   CHECK(features(set, DrawnScreen().draw(10, 10, kArrow)) == Features{{1, 1}, {2, 1}});
@@ -68,31 +66,14 @@ TEST_CASE("Every feature of a screen, with one tiling of 2 x 2") {
   const auto three = [](int arrow, int blocks) {
     return DrawnScreen().draw(arrow, 10, kArrow).draw(blocks, 10, kBlock).draw(blocks, 200, kBlock);
   };
-  CHECK(features(set, three(10, 100)) ==
-        Features{{2, 1}, {11 + 1, 1}, {11 + 4, 1}, {20 + 1, 1}, {20 + 4, 1}});
-  CHECK(features(set, three(11, 99)) ==
-        Features{{2, 1}, {11 + 1, 1}, {11 + 4, 1}, {20 + 9 + 1, 1}, {20 + 9 + 4, 1}});  // they approach in x
-  CHECK(features(set, three(10, 100)) ==
-        Features{{2, 1}, {11 + 1, 1}, {11 + 4, 1}, {20 + 1, 1}, {20 + 4, 1}});  // they part
+  const Features at_rest{{2, 1}, {11 + 1, 1}, {11 + 4, 1}, {20 + 1, 1}, {20 + 4, 1}};
+  CHECK(features(set, three(10, 100)) == at_rest);
+  CHECK(
+      features(set, three(10, 101)) ==
+      Features{{2, 1}, {11 + 1, 1}, {11 + 4, 1}, {20 + 9 + 1, 1}, {20 + 9 + 4, 1}});  // they go to the right
+  CHECK(features(set, three(11, 99)) == at_rest);  // to the left, which is the tile of rest
   set.begin_episode();
-  CHECK(features(set, three(11, 99)) == Features{{2, 1}, {11 + 1, 1}, {11 + 4, 1}, {20 + 1, 1}, {20 + 4, 1}});
-}
-
-TEST_CASE("Objects approach in x, in y, or in both") {
-  // 2 and 2 x 4 features, then 4 x 4 of the pair
-  ObjectFeatures set({}, two_classes(), settings(PairVelocity::kApproach, 1, 1));
-  const auto approaches = [&](int right, int down) {
-    set.begin_episode();
-    features(set, DrawnScreen().draw(10, 10, kArrow).draw(60, 60, kBlock));
-    const auto active = features(set, DrawnScreen().draw(10, 10, kArrow).draw(60 + right, 60 + down, kBlock));
-    return (active.rbegin()->first - 10) / 4;
-  };
-  CHECK(approaches(0, 0) == 0);
-  CHECK(approaches(3, 3) == 0);
-  CHECK(approaches(-3, 3) == 1);
-  CHECK(approaches(3, -3) == 2);
-  CHECK(approaches(-8, -8) == 3);
-  CHECK(approaches(-9, -9) == 0);  // too fast to be followed
+  CHECK(features(set, three(10, 100)) == at_rest);
 }
 
 TEST_CASE("At most 50 objects of a class count, the largest first") {
@@ -133,7 +114,7 @@ TEST_CASE("An object that looks different has the velocity with which one of its
 
 TEST_CASE("The tiles of a pair's velocity select those of its position") {
   // 2 and 2 x 9 features, then 9 x 9 of the pair. Relative velocities from -80 to 80 have tiles of 80.5.
-  ObjectFeatures set({}, two_classes(), settings(PairVelocity::kTiles, 1, 2, 40));
+  ObjectFeatures set({}, two_classes(), settings(1, 2, 40));
   REQUIRE(set.size() == 2 + 2 * 9 + 9 * 9);
   const auto motion = [&](int right, int down, int left) {
     set.begin_episode();
@@ -152,7 +133,7 @@ TEST_CASE("The tiles of a pair's velocity select those of its position") {
 
 TEST_CASE("A feature of two instances is there once, or twice with counts") {
   for (const bool counted : {false, true}) {
-    ObjectSettings one_tile = settings(PairVelocity::kTiles, 1, 1);
+    ObjectSettings one_tile = settings(1, 1);
     one_tile.count_instances = counted;
     ObjectFeatures set({}, two_classes(), one_tile);
     ActiveFeatures active;
@@ -164,5 +145,5 @@ TEST_CASE("A feature of two instances is there once, or twice with counts") {
 
 TEST_CASE("Too many features are refused before they take memory") {
   const ObjectClasses ten(10, {shape_of(kBlock)});
-  CHECK(ObjectFeatures({}, ten, settings(PairVelocity::kTiles, 64, 64)).size() > std::size_t{40} << 30);
+  CHECK(ObjectFeatures({}, ten, settings(64, 64)).size() > std::size_t{40} << 30);
 }
