@@ -30,7 +30,7 @@ constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 // As the banks of a large image are seen, at several mirrors.
 std::size_t views_of(ImageCode& code, const Rom& rom) {
   std::size_t made = 0;
-  for (std::uint16_t first : {0x1000, 0x3000, 0x5000}) {
+  for (const std::uint16_t first : std::initializer_list<std::uint16_t>{0x1000, 0x3000, 0x5000}) {
     for (std::size_t bank = 0; bank + 2048 <= rom.size(); bank += 2048)
       made += code.view({rom.data() + bank, first, 2048}, rom, true) != nullptr;
   }
