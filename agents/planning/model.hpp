@@ -1,11 +1,14 @@
 // What a planner knows of the world: it can try actions from any state, and return.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 
 namespace racebeam {
+
+constexpr std::size_t kByteValues = 256;  // of a feature
 
 class Model {
  public:

@@ -6,11 +6,6 @@
 #include <utility>
 
 namespace racebeam {
-namespace {
-
-constexpr std::size_t kByteValues = 256;
-
-}  // namespace
 
 int RolloutSearch::choose(const Model::State& root) {
   const std::int64_t before = model_.frames();

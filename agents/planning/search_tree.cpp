@@ -6,11 +6,6 @@
 #include <utility>
 
 namespace racebeam {
-namespace {
-
-constexpr std::size_t kByteValues = 256;
-
-}  // namespace
 
 TreeSearch::TreeSearch(Model& model, const TreeSettings& settings, std::uint64_t seed)
     : model_(model),

@@ -69,6 +69,7 @@ TEST_CASE(
     machine->console.step();
     REQUIRE(machine->console.state().cpu.PC == 0x000E);
   }
+  looked_at.console.read_ram(127);
   written.console.set_ram(0, kJam);
   for (Machine* machine : {&looked_at, &written}) {
     machine->console.step();
