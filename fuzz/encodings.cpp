@@ -155,6 +155,7 @@ std::vector<std::string> lines_of(std::string_view text, std::size_t piece) {
   const auto listen = [&] {
     while (const auto line = reader.next())
       lines.push_back(std::to_string(int(line->kind)) + std::string(line->text));
+    if (reader.growth() > 0) reader.grow();
   };
   while (!text.empty()) {
     const auto space = reader.space();

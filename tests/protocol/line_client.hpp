@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -43,6 +44,7 @@ class LineClient {
   // Sends the text, without executing requests. There must be space for it.
   void hand_in(std::string_view text) {
     while (!text.empty()) {
+      if (session.space().empty()) session.run(std::chrono::microseconds(0));  // makes space for the line
       const std::size_t count = std::min(session.space().size(), text.size());
       if (count == 0) throw std::length_error("the session has no space for more input");
       std::copy_n(text.begin(), count, session.space().begin());

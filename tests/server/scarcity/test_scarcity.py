@@ -119,7 +119,7 @@ class Memory(Scarce):
             with self.subTest(allocation=number):
                 self.converse(port, said)
                 self.assertTrue(server.alive(), server.log()[-3:])
-            reached = self.scarcity.get("until_failure") <= 0
+            reached = self.scarcity.get("failures") < failures
             self.scarcity.set("until_failure", 0)
             self.assertEqual(self.converse(port, said), expected, number)
             if not reached:
