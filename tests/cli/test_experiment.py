@@ -214,7 +214,7 @@ class Experiment(unittest.TestCase):
         self.assertEqual((status, printed), (1, ""))
         self.assertEqual(errors, "racebeam: episode log cut.episode: its checksum is wrong; it was cut or altered\n")
         status, _, errors = run("verify", str(logs / "1.episode"), "--table", str(self.plan))
-        self.assertEqual((status, errors), (2, "racebeam: --table needs the folder of the results, and this is one log\n"))
+        self.assertEqual((status, errors), (2, "racebeam: --table needs the folder of the results, and this is one log (see racebeam verify --help)\n"))
 
     def test_the_results_in_the_tree_are_confirmed(self):
         kept = [plan.parent for plan in sorted((ROOT / "docs/results").glob("*/plan.toml"))]
