@@ -30,7 +30,7 @@ def comment(command, shape, told):
     lines += [f"@param {argument.name} {argument.about or argument.usage}" for argument in shape.required]
     if shape.others and not shape.only_key:
         about = [explained(argument) for argument in shape.others if argument.about]
-        lines.append(f"@param {shape.pack} {'; '.join(about) or ' '.join(argument.usage for argument in shape.others)}")
+        lines.append(f"@param {shape.pack} {'; '.join(about) or '`' + ' '.join(argument.usage for argument in shape.others) + '`'}")
     return "".join(f"  /// {line}\n" for line in lines)
 
 

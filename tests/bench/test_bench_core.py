@@ -74,6 +74,7 @@ class Reports(unittest.TestCase):
             bench_report.PAGE = pathlib.Path(folder) / "page.md"
             bench_report.FIGURES = pathlib.Path(folder) / "figures/figures.md"
             bench_report.PICTURE = pathlib.Path(folder) / "figures/picture.svg"
+            bench_report.SUMMARY = pathlib.Path(folder) / "figures/summary.svg"
             bench_report.PAGE.write_text(f"before\n{bench_report.BEGIN}\nold\n{bench_report.END}\nafter\n")
             bench_report.write(results({"one": 2}))
             page = bench_report.PAGE.read_text()
@@ -82,6 +83,7 @@ class Reports(unittest.TestCase):
             self.assertIn("| one | 100 | 200 | 2.00 |", bench_report.FIGURES.read_text())
             self.assertNotIn("old", page)
             self.assertTrue(bench_report.PICTURE.exists())
+            self.assertIn("means of 1 games", bench_report.SUMMARY.read_text())
             bench_report.PAGE.write_text("a page without markers")
             with self.assertRaisesRegex(OSError, "lacks the lines"):
                 bench_report.write(results({"one": 2}))

@@ -73,7 +73,7 @@ describe("a session", function()
   end)
 
   it("waits until TLS can write, if a read has to write first", function()
-    local game = prepared("ok reward=1\n")
+    local game, peer = prepared("")
     local receive, waited = game.connection.socket.receive, {}
     local wanted = { "wantwrite", "wantread" }
     game.connection.socket.receive = function(...)
@@ -86,6 +86,7 @@ describe("a session", function()
     game.connection.select = function(reads, writes)
       waited[#waited + 1] = (reads and "reads" or "") .. (writes and "writes" or "")
     end
+    peer:send("ok reward=1\n")
     assert.equal(1, game:request("act FIRE")[1].reward)
     assert.equal("writes reads", table.concat(waited, " "))
   end)

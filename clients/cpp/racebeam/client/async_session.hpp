@@ -231,12 +231,20 @@ inline asio::awaitable<AsyncSession> connected(std::string text, Options options
   }
 }
 
+// g++ 12 takes the operator delete of the coroutine's frame for a wrong one.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+#endif
 inline asio::awaitable<AsyncSession> launched(std::vector<std::string> command, Options options) {
   const asio::any_io_executor executor = co_await asio::this_coro::executor;
   auto connection = std::make_unique<ProcessConnection>(executor, std::move(command));
   const auto lines = std::make_shared<Lines>(std::move(connection), executor, options);
   co_return co_await opened(lines);
 }
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 }  // namespace detail
 

@@ -25,7 +25,7 @@ class CommandMethods {
   }
 
   /// List the games whose image is here, or all known games; or describe one. Returns a list.
-  /// @param words [all|GAME]
+  /// @param words `[all|GAME]`
   template <class... Words>
   auto games(const Words&... words) {
     return ask(list("games"), "games", words...);
@@ -55,14 +55,14 @@ class CommandMethods {
   }
 
   /// Show these fields once; without fields, the selected ones. Returns Group.
-  /// @param fields [FIELD[:ENCODING]...]
+  /// @param fields `[FIELD[:ENCODING]...]`
   template <class... Words>
   auto look(const Words&... fields) {
     return ask(first, "look", fields...);
   }
 
   /// Play actions until the episode ends. Returns Group.
-  /// @param actions A[@STRENGTH][/B[@STRENGTH]][*TIMES]...
+  /// @param actions `A[@STRENGTH][/B[@STRENGTH]][*TIMES]...`
   template <class... Words>
   auto act(const Words&... actions) {
     return ask(first, "act", actions...);
@@ -92,7 +92,7 @@ class CommandMethods {
   }
 
   /// Delete states.
-  /// @param names NAME...|all
+  /// @param names `NAME...|all`
   template <class... Words>
   auto drop(const Words&... names) {
     return ask(first, "drop", names...);
@@ -110,7 +110,7 @@ class CommandMethods {
   }
 
   /// Play one act on each machine: an action each, or one for all. Returns the Group of each.
-  /// @param actions ACTION...
+  /// @param actions `ACTION...`
   template <class... Words>
   auto step(const Words&... actions) {
     return ask(rest, "step", actions...);

@@ -87,6 +87,7 @@ class Commands : public CommandMethods<Derived> {
   }
 
   /// A state for later, or for another process: Bytes.
+  /// @param name of the state
   /// @param settings `"whole=1"` for the score, the progress of the episode and the stack of screens, too
   template <class... Settings>
   auto export_state(std::string_view name, const Settings&... settings) {
