@@ -79,6 +79,7 @@ class TaskResult<void> : public TaskFrame {
 template <typename T>
 class [[nodiscard]] Task {
  public:
+  // NOLINTNEXTLINE(readability-identifier-naming): the language has this name.
   struct promise_type : TaskResult<T> {
     Task get_return_object() noexcept { return Task(*this); }
   };
