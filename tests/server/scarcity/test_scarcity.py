@@ -214,7 +214,7 @@ class Files(unittest.TestCase):
                 time.sleep(0.005)
             if not server.alive():
                 self.assertEqual(server.wait(), 1, server.log())
-                self.assertRegex(server.log()[-1], "racebeam: .*files")
+                server.wait_for("racebeam: .*files")
                 return
             served.append(files)
             clients = []
