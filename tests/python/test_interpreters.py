@@ -55,6 +55,10 @@ except RuntimeError as error:
     print(type(error).__name__)
 """), [REFUSED, REFUSED, "1 (210, 160) 0 True", "InvalidInput"])
 
+    @unittest.expectedFailure  # the import fails after a sub-interpreter's; the cause is not known yet
+    def test_the_interpreter_that_is_first_has_it(self):
+        self.assertEqual(self.printed(f"in_second({IMPORT!r})\nexec({IMPORT!r})"), ["ALEInterface", REFUSED])
+
 
 if __name__ == "__main__":
     package.main()
