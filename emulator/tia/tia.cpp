@@ -286,8 +286,8 @@ void Tia::close_record() {
 void Tia::grey(FrameBuffer& picture, std::int32_t cycle) const {
   const int line = (3 * cycle - tia_.origin) / kLineClocks;
   const int first = std::clamp(line - video_.ystart, 0, video_.height);
-  const auto window = picture.pixels().first(static_cast<std::size_t>(video_.height * kLinePixels));
-  for (std::uint8_t& pixel : window.subspan(static_cast<std::size_t>(first * kLinePixels)))
+  const auto window = picture.pixels().first(static_cast<std::size_t>(video_.height) * kLinePixels);
+  for (std::uint8_t& pixel : window.subspan(static_cast<std::size_t>(first) * kLinePixels))
     pixel = (pixel & 15) >> 1;
   picture.forget_lines();
 }

@@ -1,8 +1,8 @@
 #include "games/game/rule.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <type_traits>
+#include <vector>
 
 #include "games/game/game.hpp"
 
@@ -40,11 +40,12 @@ int Rule::lives() const { return program_ ? evaluate(program_->lives, state_.val
 
 std::optional<int> Rule::last_byte() const {
   if (!program_) return std::nullopt;
-  for (const Instruction& instruction : std::views::reverse(program_->step.code)) {
-    if (instruction.op == Op::kRam) return instruction.value;
-    if (instruction.op == Op::kRamAt || instruction.op == Op::kMemAt) return std::nullopt;
-  }
-  return std::nullopt;
+  const auto reads_memory = [](const Instruction& instruction) {
+    return instruction.op == Op::kRam || instruction.op == Op::kRamAt || instruction.op == Op::kMemAt;
+  };
+  const std::vector<Instruction>& code = program_->step.code;
+  const auto last = std::find_if(code.rbegin(), code.rend(), reads_memory);
+  return last != code.rend() && last->op == Op::kRam ? std::optional(last->value) : std::nullopt;
 }
 
 bool Rule::keeps_variables() const {

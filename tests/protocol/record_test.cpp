@@ -178,6 +178,8 @@ TEST_CASE("An act that begins the next episode tells, too, that the recording ha
   studio.ask("load beamfall seed=7 sticky=0 autoreset=1 max_episode_frames=9");
   studio.ask("record y4m a");
   studio.ask("act FIRE*9");
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // until the writer has met the limit
+  // Until the writer has met the limit, which ends the recording.
+  for (int look = 0; look < 10'000 && !studio.client.service.recorder->idle(); ++look)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   CHECK(value(studio.ask("act FIRE"), "recording_ended") == "limit");
 }
