@@ -6,65 +6,73 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "emulator/translator/ticks.hpp"
+#include "emulator/base/stopwatch.hpp"
 
 namespace racebeam::translator {
 
+// All times are nanoseconds. Other programs can lengthen both a step and a batch. Of either, no more counts
+// than the longest takes on a quiet machine.
 class TranslationBudget {
  public:
   // unlimited: the budget covers every batch, whatever it costs.
-  explicit TranslationBudget(bool unlimited)
-      : balance_(unlimited ? kCapacity : -kStartCost), unlimited_(unlimited) {}
+  explicit TranslationBudget(bool unlimited, const Clocks& clocks = host_clocks())
+      : clocks_(clocks), balance_(unlimited ? kCapacity : -kStartCost), unlimited_(unlimited) {}
 
-  // Called around each step of the machine. While the budget is full, the counter is not read.
-  void begin_step() { began_ = is_full() ? 0 : ticks(), spent_ = 0; }
+  // Called around each step of the machine. While the budget is full, no clock is read.
+  void begin_step() {
+    spent_ = 0;
+    earns_ = !is_full();
+    if (earns_) began_ = clocks_.wall();
+  }
   void end_step() {
-    if (began_ != 0)
-      balance_ =
-          std::min(balance_ + std::min(ticks() - began_ - spent_, kLongestStep) * percent() / 100, kCapacity);
+    if (!earns_) return;
+    const std::int64_t ran = std::min(clocks_.wall() - began_ - spent_, kLongestStep);
+    balance_ = std::min(balance_ + ran * percent() / 100, kCapacity);
   }
 
   // Charges the time from its construction to its destruction.
   class Charge {
    public:
-    explicit Charge(TranslationBudget& from) : budget_(from) {}
+    explicit Charge(TranslationBudget& from) : budget_(from), watch_(from.clocks_) {}
     Charge(const Charge&) = delete;
     Charge& operator=(const Charge&) = delete;
-    ~Charge() { budget_.charge(ticks() - began_); }
+    ~Charge() { budget_.charge(watch_.elapsed()); }
 
    private:
     TranslationBudget& budget_;
-    const std::int64_t began_ = ticks();
+    const Stopwatch watch_;
   };
 
   bool covers_batch() const { return balance_ >= kBatchCost; }
   bool is_unlimited() const { return unlimited_; }
-  // What was charged in this step, in ticks.
+  // What translation took in this step.
   std::int64_t spent() const { return spent_; }
 
  private:
   void charge(std::int64_t cost) {
     spent_ += cost;
-    total_ += cost;
-    if (!unlimited_) balance_ -= cost;
+    if (unlimited_) return;
+    ++batches_;
+    balance_ -= std::min(cost, kLongestBatch);
   }
 
-  // The part of the machine's time that is added. Beyond what translation of most games takes, it is small:
-  // such a program is hardly worth the work.
-  std::int64_t percent() const { return total_ < kUsualTotal ? 20 : 5; }
+  // The part of the machine's time that is added. It is small beyond what the largest games need: such a
+  // program is hardly worth the work.
+  std::int64_t percent() const { return batches_ < kUsualBatches ? 20 : 5; }
 
-  static constexpr std::int64_t kUsualTotal = 12'000'000;
-  // Longer steps are cut: another thread used the processor.
-  static constexpr std::int64_t kLongestStep = 1'000'000;
-  static constexpr std::int64_t kCapacity = 10'000'000;
+  static constexpr int kUsualBatches = 256;  // Solaris has 200
+  static constexpr std::int64_t kLongestStep = 400'000, kLongestBatch = 400'000;
+  static constexpr std::int64_t kCapacity = 4'000'000;
   // What the system does for the memory of the code, beyond what is charged: pages of short-lived machines.
-  static constexpr std::int64_t kStartCost = 500'000;
-  static constexpr std::int64_t kBatchCost = 60'000;  // usual; a batch that costs more leaves a debt
+  static constexpr std::int64_t kStartCost = 200'000;
+  static constexpr std::int64_t kBatchCost = 25'000;  // usual; a batch that costs more leaves a debt
 
   bool is_full() const { return balance_ == kCapacity; }
 
-  std::int64_t balance_, began_ = 0, spent_ = 0, total_ = 0;  // ticks; charged in this step, and in all
-  bool unlimited_;
+  const Clocks& clocks_;
+  std::int64_t balance_, began_ = 0, spent_ = 0;  // spent in this step
+  int batches_ = 0;
+  bool unlimited_, earns_ = false;
 };
 
 }  // namespace racebeam::translator

@@ -130,6 +130,7 @@ struct Translator::Impl {
   static std::shared_ptr<translator::ImageCode> code_of(Board& board, bool make);
   bool has_code(Board& board);
   translator::View* current_view(Board& board);
+  translator::View* find_view(const CodeWindow& window, const Rom& rom);
   Entry find_entry(Board& board);
   bool interprets_step();
   bool enter(Board& board, const void* start);
@@ -142,7 +143,7 @@ struct Translator::Impl {
   InterpretedRun interpreted_run;
   StepBackoff step_backoff;
   translator::StepTrial trial;
-  std::int64_t trial_began = 0;  // tick at which a step of a trial began; 0 in other steps
+  std::optional<Stopwatch> trial_watch;  // in steps of a trial
 };
 
 std::shared_ptr<translator::ImageCode> Translator::Impl::code_of(Board& board, bool make) {
@@ -174,10 +175,17 @@ translator::View* Translator::Impl::current_view(Board& board) {
   CachedView& cached = views[(place ^ board.code.first / 1024U) % views.size()];
   if (cached.view == nullptr || !same(cached.window, board.code)) {
     if (!is_in_image(board.code, board.slot.rom)) return nullptr;
-    const translator::TranslationBudget::Charge charge(budget);
-    cached = {board.code, code->view(board.code, board.slot.rom, budget.covers_batch())};
+    cached = {board.code, find_view(board.code, board.slot.rom)};
   }
   return cached.view;
+}
+
+// Makes the view if the budget allows that.
+translator::View* Translator::Impl::find_view(const CodeWindow& window, const Rom& rom) {
+  translator::View* const known = code->view(window, rom, false);
+  if (known != nullptr || !budget.covers_batch()) return known;
+  const translator::TranslationBudget::Charge charge(budget);
+  return code->view(window, rom, true);
 }
 
 // Finds the block at PC, and translates it if the budget allows that.
@@ -233,10 +241,10 @@ std::unique_ptr<Translator> Translator::make(Board& board, CpuKind kind) {
 
 // Whether the interpreter runs the whole step that begins.
 bool Translator::Impl::interprets_step() {
-  trial_began = 0;
+  trial_watch.reset();
   if (code == nullptr || budget.is_unlimited()) return false;
   const bool interprets = trial.begin_step();
-  if (trial.measures()) trial_began = translator::ticks();
+  if (trial.measures()) trial_watch.emplace();
   return interprets;
 }
 
@@ -278,8 +286,7 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
 }
 
 void Translator::end_step() {
-  if (impl_->trial_began != 0)
-    impl_->trial.end_step(translator::ticks() - impl_->trial_began - impl_->budget.spent());
+  if (impl_->trial_watch) impl_->trial.end_step(impl_->trial_watch->elapsed() - impl_->budget.spent());
   impl_->budget.end_step();
 }
 
