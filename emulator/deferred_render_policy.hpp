@@ -1,40 +1,54 @@
 // Whether a frame that is not observed is followed without pixels or drawn all the same, whichever takes less
-// time. That depends on the game and the scene, so that a few frames of each period are run both ways.
+// time. That depends on the game and the scene. Some frames of each period are therefore run both ways, and
+// measured.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 
 namespace racebeam {
 
 class DeferredRenderPolicy {
  public:
-  // Whether the next frame is to be drawn. Advances to it.
+  // Whether the next frame, which is not observed, is to be drawn. Advances to it.
   bool next_is_drawn() {
-    number_ = (number_ + 1) % kPeriod;
-    if (number_ == 0) work_.fill(std::numeric_limits<std::uint32_t>::max());
-    draws_ = number_ < kProbe || (number_ >= 2 * kProbe && work_[1] < work_[0] - work_[0] / kMargin);
-    return draws_;
+    observed_ = 0;
+    if (++number_ == period_) number_ = 0, times_ = {};
+    if (number_ < 2 * kProbe) return draws_ = number_ < kProbe;
+    if (number_ == 2 * kProbe) decide();
+    return draws_ = choice_;
   }
 
-  // work: of the frame, Tia::work(). Not called for a frame that could not be run as planned.
-  void record(std::uint32_t work) {
-    if (number_ < 2 * kProbe) work_[draws_] = work;  // The last probe counts, when there are rows to recall.
+  // Called before each frame, after next_is_drawn() where that is called. Returns whether its time must be
+  // given to record(). Observed frames between others are measured, too: they take less time after frames
+  // that were drawn.
+  bool measures() {
+    return number_ < 2 * kProbe && number_ % kProbe >= kSettling && observed_++ <= kMostObserved;
   }
+  void record(std::int64_t nanoseconds) { times_[draws_] += nanoseconds; }
 
  private:
-  static constexpr unsigned kProbe = 4, kPeriod = 512;
-  // A frame is drawn if that takes less work by this part. The estimate counts instructions, and those that
-  // draw take longer: measured, games with equal estimates ran 5 to 12 % slower drawn (asterix, skiing,
-  // enduro).
-  static constexpr unsigned kMargin = 4;
+  void decide() {
+    const bool choice = times_[true] < times_[false];
+    period_ = choice == choice_ ? std::min(2 * period_, kLongestPeriod) : kShortestPeriod;
+    choice_ = choice;
+  }
+
+  // A probe has some frames until the rows that are recalled are those of the frames before, then the
+  // measured ones. Their number is a multiple of the common patterns: frame skip 2 to 5 with one or two
+  // frames observed, and games that do different work in each of two or four frames.
+  static constexpr unsigned kSettling = 4, kProbe = kSettling + 12;
+  static constexpr unsigned kShortestPeriod = 512, kLongestPeriod = 4096;
+  static constexpr unsigned kMostObserved = 2;  // in turn; more belong to another use of the machine
 
   // Frames are followed at first. Drawing takes memory, which a machine that has only been switched on may
   // never need.
-  unsigned number_ = 2 * kProbe;
-  bool draws_ = false;
-  std::array<std::uint32_t, 2> work_{};  // followed, drawn
+  unsigned number_ = 2 * kProbe;  // of the frame that is not observed, in its period
+  unsigned period_ = kShortestPeriod;
+  unsigned observed_ = 0;  // frames that were observed since
+  bool choice_ = false, draws_ = false;
+  std::array<std::int64_t, 2> times_{};  // followed, drawn
 };
 
 }  // namespace racebeam

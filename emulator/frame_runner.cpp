@@ -1,5 +1,6 @@
 // Runs a frame, with or without its pixels (docs/spec/tia.md, 2). A frame whose pixels are not observed
 // leaves its writes in the picture. They are played if the picture is read later.
+#include "emulator/base/stopwatch.hpp"
 #include "emulator/console_impl.hpp"
 #include "emulator/cpu/cpu.hpp"
 #include "emulator/tia/registers/motion.hpp"
@@ -16,8 +17,18 @@ constexpr std::int32_t kEndlessTurn =
 void Console::step(bool draw, bool follow) { impl_->step(draw, follow); }
 
 void Console::Impl::step(bool observed, bool follow) {
-  const bool deferred = !observed && !follow;  // the policy chooses, and learns
-  const bool draw = observed || (deferred && render_policy.next_is_drawn());
+  const bool draw = observed || (!follow && render_policy.next_is_drawn());
+  if (!follow && render_policy.measures()) {
+    const Stopwatch watch;
+    run_frame(draw);
+    render_policy.record(watch.elapsed());
+  } else {
+    run_frame(draw);
+  }
+  if (pace != nullptr) pace->frame();
+}
+
+void Console::Impl::run_frame(bool draw) {
   FrameState& frame = state().frame;
   const bool opens = !frame.open;
   if (opens) {
@@ -28,12 +39,11 @@ void Console::Impl::step(bool observed, bool follow) {
   }
   FrameStart start = frame_start();
   const bool keeps_old_pixels = draw && !pictures.current->is_undrawn && is_own(pictures.current);
-  if (!opens || keeps_old_pixels || !step_over(start, draw, deferred)) {
+  if (!opens || keeps_old_pixels || !step_over(start, draw)) {
     settle_latches(*pictures.previous);
     start = frame_start();
     draw_now(pictures.current);
     run_step(canvas(), start, RenderMode::kDrawn);
-    if (deferred && draw) render_policy.record(board.tia.work());
     latches.sought |= board.tia.asked();
     note_latches(start, kAllPairs);
   }
@@ -45,13 +55,12 @@ void Console::Impl::step(bool observed, bool follow) {
     frame.greyed = 1;
   }
   if (state().cycle >= kEndlessCycle) board.turn_back_clocks(kEndlessTurn);
-  if (pace != nullptr) pace->frame();
 }
 
 // Runs a frame on a buffer whose pixels will all be overwritten. Returns false, with the machine back at its
 // start, if the frame does not fill the whole window, does not close, or should be drawn later and has too
 // long a log.
-bool Console::Impl::step_over(FrameStart& start, bool draw, bool deferred) {
+bool Console::Impl::step_over(FrameStart& start, bool draw) {
   std::shared_ptr<FrameBuffer>& current = pictures.current;
   if (!spare.current) std::swap(spare.current, spare.previous);
   std::shared_ptr<FrameBuffer>& place = is_own(current) ? current : spare.current;
@@ -63,7 +72,6 @@ bool Console::Impl::step_over(FrameStart& start, bool draw, bool deferred) {
     rewind(start);
     return false;
   }
-  if (deferred) render_policy.record(board.tia.work());
   note_latches(start, draw ? kAllPairs : latches.sought);
   place->is_undrawn = !draw;
   if (!draw) board.record_step(place->undrawn, start.state.tia, start.state.frame.lines);

@@ -1,0 +1,120 @@
+#include "emulator/deferred_render_policy.hpp"
+
+#include <catch2/catch.hpp>
+#include <functional>
+
+using racebeam::DeferredRenderPolicy;
+
+namespace {
+
+// What a frame takes, in nanoseconds.
+struct Frame {
+  int number;
+  bool observed, drawn;
+  int drawn_before;  // frames in turn
+};
+using Cost = std::function<std::int64_t(const Frame&)>;
+
+struct Run {
+  int drawn = 0, measured = 0;  // of `deferred`, and of all
+  int deferred = 0;
+};
+
+// Runs frames, of which the last `looks` of every `skip` are observed.
+Run run(DeferredRenderPolicy& policy, int frames, int skip, int looks, const Cost& cost) {
+  Run counts;
+  int drawn_before = 0;
+  for (int number = 0; number < frames; ++number) {
+    const bool observed = number % skip >= skip - looks;
+    const bool drawn = observed || policy.next_is_drawn();
+    if (policy.measures()) {
+      policy.record(cost({number, observed, drawn, drawn_before}));
+      ++counts.measured;
+    }
+    if (!observed) ++counts.deferred, counts.drawn += drawn ? 1 : 0;
+    drawn_before = drawn ? drawn_before + 1 : 0;
+  }
+  return counts;
+}
+
+Run run_unobserved(DeferredRenderPolicy& policy, int frames, const Cost& cost) {
+  return run(policy, frames, 1, 0, cost);
+}
+
+TEST_CASE("Frames are drawn where that takes less time, however little") {
+  DeferredRenderPolicy policy;
+  const Run counts =
+      run_unobserved(policy, 10000, [](const Frame& frame) { return frame.drawn ? 6900 : 7900; });
+  CHECK(counts.drawn > 9300);
+}
+
+TEST_CASE("Frames are followed where that takes less time, with few exceptions") {
+  DeferredRenderPolicy policy;
+  const Run counts =
+      run_unobserved(policy, 10000, [](const Frame& frame) { return frame.drawn ? 7900 : 6900; });
+  CHECK(counts.drawn < 100);
+  CHECK(counts.measured < 200);
+}
+
+TEST_CASE("The first drawn frames, whose rows must all be drawn, do not count") {
+  DeferredRenderPolicy policy;
+  const Run counts = run_unobserved(policy, 10000, [](const Frame& frame) {
+    if (!frame.drawn) return 7000;
+    return frame.drawn_before < 2 ? 100000 : 6000;
+  });
+  CHECK(counts.drawn > 9300);
+}
+
+TEST_CASE("Frames that differ with their place among four are compared with their like") {
+  for (const int place : {0, 1, 2, 3}) {
+    const auto with = [place](int drawn) {
+      return [place, drawn](const Frame& frame) {
+        return (frame.number % 4 == place ? 5 : 1) * (frame.drawn ? drawn : 7000);
+      };
+    };
+    DeferredRenderPolicy faster, slower;
+    CHECK(run_unobserved(faster, 10000, with(6500)).drawn > 9300);
+    CHECK(run_unobserved(slower, 10000, with(7500)).drawn < 100);
+  }
+}
+
+TEST_CASE("What an observed frame saves after drawn ones counts for them") {
+  for (const int skip : {2, 3, 4, 5})
+    for (const int looks : {1, 2}) {
+      if (looks == skip) continue;
+      DeferredRenderPolicy policy;
+      const Run counts = run(policy, 20000, skip, looks, [](const Frame& frame) {
+        if (frame.observed) return frame.drawn_before > 0 ? 6000 : 20000;
+        return frame.drawn ? 7500 : 7000;
+      });
+      CHECK(counts.drawn > counts.deferred * 9 / 10);
+    }
+}
+
+TEST_CASE("A scene in which the other way is faster is noticed within one long period") {
+  DeferredRenderPolicy policy;
+  const Cost followed = [](const Frame& frame) { return frame.drawn ? 9000 : 7000; };
+  const Cost drawn = [](const Frame& frame) { return frame.drawn ? 6000 : 7000; };
+  run_unobserved(policy, 20000, followed);
+  run_unobserved(policy, 4200, drawn);
+  CHECK(run_unobserved(policy, 1000, drawn).drawn > 950);
+}
+
+TEST_CASE("A probe that another program lengthened is corrected by the next") {
+  DeferredRenderPolicy policy;
+  int disturbed = 0;
+  run_unobserved(policy, 5000, [&](const Frame& frame) {
+    if (frame.drawn) return 9000;
+    return ++disturbed == 30 ? 50'000'000 : 7000;
+  });
+  CHECK(run_unobserved(policy, 5000, [](const Frame& frame) { return frame.drawn ? 9000 : 7000; }).drawn <
+        150);
+}
+
+TEST_CASE("A machine whose frames are all observed from now on measures none") {
+  DeferredRenderPolicy policy;
+  while (!policy.measures()) policy.next_is_drawn();
+  CHECK(run(policy, 1000, 1, 1, [](const Frame&) { return 7000; }).measured <= 2);
+}
+
+}  // namespace
