@@ -162,6 +162,7 @@ class Memory(unittest.TestCase):
         for options in ((), ("--max-memory", "0")):
             with self.subTest(options=options):
                 port = self.start(*options)
+                low = self.memory("resident")
                 wires = []
                 for _ in range(600):
                     wires.append(connect_tcp(port))
@@ -169,13 +170,13 @@ class Memory(unittest.TestCase):
                 for wire in wires:
                     wire.line()
                     wire.line()
-                high = self.memory("resident")
+                bound = low + (self.memory("resident") - low) / 4
                 for wire in wires:
                     wire.close()
                 end = time.monotonic() + 20
-                while time.monotonic() < end and self.memory("resident") > high / 3:
+                while time.monotonic() < end and self.memory("resident") > bound:
                     time.sleep(0.1)
-                self.assertLess(self.memory("resident"), high / 3)
+                self.assertLess(self.memory("resident"), bound)
 
 
 if __name__ == "__main__":
