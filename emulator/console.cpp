@@ -171,6 +171,10 @@ void Console::rest() {
 
 std::span<const std::uint8_t, 128> Console::ram() const { return impl_->board.state.riot.ram; }
 
+std::int64_t Console::interpreted_cycles() const {
+  return impl_->translator != nullptr ? impl_->translator->interpreted_cycles() : 0;
+}
+
 std::uint8_t Console::read_ram(int index) {
   return impl_->board.state.cpu.latch = ram()[static_cast<std::size_t>(index)];
 }

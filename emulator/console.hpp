@@ -76,6 +76,9 @@ class Console {
   // A picture of a saved state with its pixels: the same buffer, or a drawn copy.
   std::shared_ptr<const FrameBuffer> drawn(std::shared_ptr<FrameBuffer> picture) const;
 
+  // Cycles that the translator has left to the interpreter, those of repeated steps included. 0 without it.
+  std::int64_t interpreted_cycles() const;
+
   std::span<const std::uint8_t, 128> ram() const;  // $80-$FF
   // Over the bus, on which the byte stays (docs/spec/console.md, 4).
   std::uint8_t read_ram(int index);

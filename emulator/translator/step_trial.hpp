@@ -3,12 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace racebeam::translator {
 
 // Steps run in one way, translated or interpreted. A trial has three steps: the usual way, the other way, and
 // the usual way. Four trials make a round. The usual way changes when the other has won three rounds in turn.
+// Of a step that rounds in turn repeat, the least cost counts: other programs lengthen some steps.
 class StepTrial {
  public:
   // Called before each step. Returns whether the interpreter should run it.
@@ -22,10 +26,8 @@ class StepTrial {
 
   // cost: of the step, in any unit. Time spent on translation does not belong to it.
   void end_step(std::int64_t cost) {
-    if (left_ == kOther)
-      other_ += 2 * cost;
-    else
-      usual_ += cost;
+    std::int64_t& least = least_[static_cast<std::size_t>(trials_ - 1)][static_cast<std::size_t>(left_)];
+    least = std::min(least, cost);
     if (left_ > 0) return;
     if (--trials_ == 0) end_round();
     left_ = pause_ + kSteps;
@@ -33,12 +35,17 @@ class StepTrial {
 
  private:
   void end_round() {
-    const bool other_wins = other_ + other_ / kMargin < usual_;
+    std::int64_t usual = 0, other = 0;
+    for (const Trial& trial : least_) {
+      usual += trial[0] + trial[2];
+      other += 2 * trial[kOther];
+    }
+    const bool other_wins = other + other / kMargin < usual;
     lost_ = other_wins ? lost_ + 1 : 0;
     pause_ = other_wins ? kShortestPause : std::min(2 * pause_, interprets_ ? kLongestTried : kLongestPause);
     if (lost_ == kMostLost) interprets_ = !interprets_, lost_ = 0;
     trials_ = kTrials;
-    usual_ = other_ = 0;
+    if (lost_ == 0) least_ = kUnknown;
   }
 
   static constexpr int kSteps = 3, kOther = 1, kTrials = 4, kMostLost = 3;
@@ -49,12 +56,20 @@ class StepTrial {
   static constexpr int kLongestTried = 64;  // while steps are interpreted: code that pays is soon found again
   static constexpr int kFirstPause = 128;   // translation of a game's inner loops needs some of these steps
 
+  using Trial = std::array<std::int64_t, kSteps>;  // by the steps that are left after it
+  using Round = std::array<Trial, kTrials>;
+  static constexpr Round kUnknown = [] {
+    Round round{};
+    for (Trial& trial : round) trial.fill(std::numeric_limits<std::int64_t>::max());
+    return round;
+  }();
+
   bool interprets_ = false;
-  int left_ = kFirstPause + kSteps;     // steps until this trial has ended
-  int pause_ = kShortestPause;          // steps between trials
-  int trials_ = kTrials;                // of this round, not ended
-  int lost_ = 0;                        // rounds in turn
-  std::int64_t usual_ = 0, other_ = 0;  // costs in this round
+  int left_ = kFirstPause + kSteps;  // steps until this trial has ended
+  int pause_ = kShortestPause;       // steps between trials
+  int trials_ = kTrials;             // of this round, not ended
+  int lost_ = 0;                     // rounds in turn
+  Round least_ = kUnknown;           // costs in the rounds in turn
 };
 
 }  // namespace racebeam::translator

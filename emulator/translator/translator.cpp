@@ -144,6 +144,7 @@ struct Translator::Impl {
   StepBackoff step_backoff;
   translator::StepTrial trial;
   std::optional<Stopwatch> trial_watch;  // in steps of a trial
+  std::int64_t interpreted_cycles = 0;
 };
 
 std::shared_ptr<translator::ImageCode> Translator::Impl::code_of(Board& board, bool make) {
@@ -251,7 +252,7 @@ bool Translator::Impl::interprets_step() {
 bool Translator::run(Board& board, std::int32_t instructions) {
   impl_->budget.begin_step();
   if (impl_->interprets_step() || impl_->step_backoff.skips_step() || !impl_->has_code(board)) {
-    interpret(board, instructions);
+    interpret_some(board, instructions, instructions);
     return true;
   }
   const bool begins_frame = board.state.cycle < board.overlong_cycle() - kMargin;
@@ -268,7 +269,7 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
   while (!board.stop && !board.state.cpu.jammed) {
     const std::int32_t left = instructions - (board.state.cycle - first_cycle) / kFewestCycles;
     if (board.state.cycle >= limit || left <= 0) {
-      interpret(board, left);
+      interpret_some(board, left, left);
       return board.stop || board.state.cpu.jammed || first_cycle >= limit;
     }
     const Impl::Entry entry = impl_->find_entry(board);
@@ -277,13 +278,20 @@ bool Translator::run_blocks(Board& board, std::int32_t instructions) {
             ? impl_->run_block(board, entry)
             : impl_->interpreted_run.next(entry.profitability != nullptr ? 1 : kOutsideImage);
     if (run == 0 || board.stop) continue;
-    if (run < kShortRun || left < run + kRunSlack)
-      interpret(board, std::min(run, left));
-    else
-      interpret(board, run + kRunSlack, run);
+    const bool ends_exactly = run < kShortRun || left < run + kRunSlack;
+    const std::int32_t enough = std::min(run, left);
+    interpret_some(board, ends_exactly ? enough : run + kRunSlack, enough);
   }
   return true;
 }
+
+void Translator::interpret_some(Board& board, std::int32_t most, std::int32_t enough) {
+  const std::int32_t first = board.state.cycle;
+  interpret(board, most, enough);
+  impl_->interpreted_cycles += board.state.cycle - first;
+}
+
+std::int64_t Translator::interpreted_cycles() const { return impl_->interpreted_cycles; }
 
 void Translator::end_step() {
   if (impl_->trial_watch) impl_->trial.end_step(impl_->trial_watch->elapsed() - impl_->budget.spent());

@@ -30,6 +30,9 @@ class Translator {
   // translation budget.
   void end_step();
 
+  // Cycles of the machine that run() has left to the interpreter.
+  std::int64_t interpreted_cycles() const;
+
   // Sets the most bytes of translated code for one image: at least 131072, 4 MiB by default. When they are
   // used up, translation starts again with new memory. Applies to images that are first translated
   // afterwards.
@@ -41,6 +44,7 @@ class Translator {
  private:
   struct Impl;
   bool run_blocks(Board& board, std::int32_t instructions);
+  void interpret_some(Board& board, std::int32_t most, std::int32_t enough);
   explicit Translator(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

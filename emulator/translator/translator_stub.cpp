@@ -21,6 +21,7 @@ std::unique_ptr<Translator> Translator::make(Board&, CpuKind kind) {
 
 bool Translator::run(Board&, std::int32_t) { return false; }
 void Translator::end_step() {}
+std::int64_t Translator::interpreted_cycles() const { return 0; }
 void Translator::set_code_capacity(std::size_t) {}
 const char* Translator::obstacle() { return "this build has no translator (RACEBEAM_TRANSLATOR=OFF)"; }
 

@@ -56,6 +56,19 @@ TEST_CASE("A single slow step changes nothing") {
         }) < 50);
 }
 
+TEST_CASE("Most steps are translated where other programs lengthen one of sixteen") {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    unsigned random = seed;
+    StepTrial trial;
+    const auto cost = [&random](int, bool interpreted) {
+      random = random * 1664525 + 1013904223;
+      return (interpreted ? 200 : 100) * (random >> 24 < 256 / 16 ? 20 : 1);
+    };
+    INFO(seed);
+    CHECK(run(trial, 6000, cost) < 600);
+  }
+}
+
 TEST_CASE("A scene that runs faster translated is translated again") {
   StepTrial trial;
   run(trial, 3000, [](int, bool interpreted) { return interpreted ? 100 : 200; });
