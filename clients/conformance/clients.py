@@ -1,5 +1,6 @@
 """The clients that hold the conformance conversation. A new client is a row of the table below."""
 
+import ast
 import dataclasses
 import os
 import pathlib
@@ -38,15 +39,25 @@ class Client:
         return f"clients/{self.language}/README.md"
 
     def lines_of_code(self):
-        """Lines of the client that are neither empty nor comments."""
+        """Lines of the client that are neither empty nor comments nor docstrings."""
         texts = [path.read_text() for path in ROOT.glob(self.sources)]
-        return sum(1 for text in texts for line in text.splitlines() if line.strip() and not line.strip().startswith(COMMENTS))
+        lines = sum(1 for text in texts for line in text.splitlines() if line.strip() and not line.strip().startswith(COMMENTS))
+        return lines - (docstring_lines(*texts) if self.language == "python" else 0)
 
 
+def docstring_lines(text):
+    """Lines of the docstrings of a Python source that are not empty."""
+    strings = [node.body[0].value for node in ast.walk(ast.parse(text))
+               if isinstance(node, DOCUMENTED) and ast.get_docstring(node) is not None]
+    lines = text.splitlines()
+    return sum(1 for string in strings for line in lines[string.lineno - 1:string.end_lineno] if line.strip())
+
+
+DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef)
 COMMENTS = ("//", "/*", "*", "#", "--")
 
 CLIENTS = (
-    Client("python", "python", ("python3", "-B", str(HERE / "runner.py")), "clients/python/racebeam/wire/client.py",
+    Client("python", "python", ("python3", "-B", str(HERE / "runner.py")), "clients/python/single_file/client.py",
            offers=EVERYTHING),
     Client("java", "java", ("java", "-cp", str(BUILT / "java"), str(HERE / "Runner.java")), "clients/java/src/main/java/racebeam/*.java",
            offers=EVERYTHING,

@@ -9,7 +9,7 @@ import sys
 import time
 import zlib
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "python/racebeam/wire"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "python/single_file"))
 import client  # noqa: E402
 
 LONGEST_REPLY = 1 << 20
@@ -46,7 +46,7 @@ class Runner:
     def reply(self):
         """The next reply, as it is printed."""
         command = self.sent.pop(0)
-        groups = self.session.received()
+        groups = self.session.receive_values()
         self.last = groups[0]
         if self.stack:
             self.follow(command, groups[0])
@@ -123,7 +123,7 @@ class Runner:
             for _ in range(int(ahead)):
                 self.session.send(*words)
             for _ in range(int(ahead)):
-                self.session.received()
+                self.session.receive_values()
         return f"time {ahead} {time.perf_counter() - start:.6f}"
 
     NAMES = {">": "ask", "timeout": "set_timeout", "stack": "set_stack"}

@@ -5,7 +5,7 @@ import argparse
 import pathlib
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "racebeam/wire"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "single_file"))
 from client import Refused, Session  # noqa: E402
 
 DEPTH = 20  # acts that a branch looks ahead

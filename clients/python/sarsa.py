@@ -12,7 +12,7 @@ import time
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "racebeam/wire"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "single_file"))
 from client import Refused, Session, connect  # noqa: E402
 
 ACTIONS = 18

@@ -1,12 +1,17 @@
-"""The tables and the methods of the client in Python."""
+"""The tables and the methods of the client in Python, and the client as a single file."""
 
 import itertools
 import textwrap
 
+import python_single_file
 from regions import with_region
 
-PATH = "clients/python/racebeam/wire/client.py"
+FOLDER = "clients/python/racebeam/wire"
+FIELDS, COMMANDS = f"{FOLDER}/fields.py", f"{FOLDER}/commands.py"
+SINGLE_FILE = "clients/python/single_file/client.py"
 WIDTH = 120
+RESULTS = {"first": "The values of the first group of the reply.", "groups": "The values of each group after the first.",
+           "list": "The list of the reply.", "ints": "The numbers of the reply."}
 TYPES = {"int": "int", "seed": "int | str", "flag": "bool | int", "text": "str", "fields": "str", "texts": "str", "actions": "object"}
 RETURNS = {"first": ("Values", "_first"), "groups": ("list[Values]", "_rest"), "nothing": ("None", "ask"),
            "list": ("list[str]", "list_of"), "ints": ("list[int]", "_ints_of")}
@@ -31,14 +36,14 @@ def in_request(argument):
     """The expression that puts a word into the request."""
     if argument.is_repeated:
         return f"*{argument.name}"
-    return f"*_words({argument.name})" if argument.optional else argument.name
+    return f"*optional_words({argument.name})" if argument.optional else argument.name
 
 
 def request_words(command):
     """The expressions of the arguments. Neighbouring pairs go together."""
     for has_key, arguments in itertools.groupby(command.arguments, key=lambda argument: bool(argument.key)):
         if has_key:
-            yield f"*_pairs({', '.join(f'{argument.key}={argument.name}' for argument in arguments)})"
+            yield f"*key_values({', '.join(f'{argument.key}={argument.name}' for argument in arguments)})"
         else:
             yield from map(in_request, arguments)
 
@@ -51,13 +56,21 @@ def signature(command, result):
     return f"    def {command.method}(\n" + "".join(f"        {one},\n" for one in parameters) + f"    ) -> {result}:\n"
 
 
+def explained(argument):
+    """The row of an argument in a docstring."""
+    name = f"*{argument.name}" if argument.is_repeated else argument.name
+    about = sentence(argument.about) if argument.about else f"`{argument.usage.strip('[]')}` of the request."
+    return folded(f"{name}: {about}", " " * 12, "    ")
+
+
 def docstring(command):
-    explained = [argument for argument in command.arguments if argument.about]
     text = folded(f'"""{sentence(command.summary)}', " " * 8)
-    if not explained:
-        return text[:-1] + '"""\n'
-    rows = "".join(folded(f"{argument.name}: {sentence(argument.about)}", " " * 12, "    ") for argument in explained)
-    return f'{text}\n        Args:\n{rows}        """\n'
+    if command.arguments:
+        text += "\n        Args:\n" + "".join(map(explained, [*command.words, *command.keys]))
+    result = RESULTS.get(command.returns.partition(" ")[0])
+    if result:
+        text += f"\n        Returns:\n            {result}\n"
+    return text + '        """\n' if "\n\n" in text else text[:-1] + '"""\n'
 
 
 def call(name, words):
@@ -87,10 +100,13 @@ def fields(protocol):
     usual = "".join(f'    "{field.name}": "{field.encoding}",\n' for field in protocol.byte_fields)
     shapes = "".join(f'    "{field.name}": ({", ".join(map(length, field.shape))}{"," * (len(field.shape) == 1)}),\n'
                      for field in protocol.byte_fields)
-    return (f"# What bytes are written in when `observe` does not say.\nUSUAL_ENCODING = {{\n{usual}}}\n"
+    return (f"# The encoding of each field when `observe` does not name one.\nUSUAL_ENCODING = {{\n{usual}}}\n"
             f"SHAPES: dict[str, tuple[int | str, ...]] = {{\n{shapes}}}\n")
 
 
 def files(protocol, read):
-    text = with_region(read(PATH), "", "#", "fields", fields(protocol))
-    return {PATH: with_region(text, "    ", "#", "commands", commands(protocol))}
+    written = {FIELDS: with_region(read(FIELDS), "", "#", "fields", fields(protocol)),
+               COMMANDS: with_region(read(COMMANDS), "    ", "#", "commands", commands(protocol))}
+    modules = {name: written.get(f"{FOLDER}/{name}.py") or read(f"{FOLDER}/{name}.py")
+               for name in python_single_file.MODULES}
+    return written | {SINGLE_FILE: python_single_file.joined(modules)}

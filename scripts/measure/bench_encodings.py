@@ -1,7 +1,7 @@
 """Measures the cost of each encoding of the line protocol for a client: bytes of a field, and the time to decode it.
 
 The games are played randomly, with four frames an act. The client in Python
-(clients/python/racebeam/wire/client.py) and one in C++ (tests/protocol/bench/decode_bench.cpp) decode the same texts, and
+(clients/python/single_file/client.py) and one in C++ (tests/protocol/bench/decode_bench.cpp) decode the same texts, and
 must get the same bytes. Times are processor time, the least of seven rounds. Prints the table of docs/performance.md.
 """
 import argparse
@@ -13,7 +13,7 @@ import time
 import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "clients/python/racebeam/wire"))
+sys.path.insert(0, str(ROOT / "clients/python/single_file"))
 import client as racebeam  # noqa: E402
 from bench_report import machine  # noqa: E402
 from bench_wire import image, name_of  # noqa: E402

@@ -12,7 +12,7 @@ import unittest
 
 from harness import BINARY, PATIENCE, SOURCE, main
 
-CLIENT = os.path.join(SOURCE, "clients", "python", "racebeam", "wire")
+CLIENT = os.path.join(SOURCE, "clients", "python", "single_file")
 PLAY = f"""import os, sys
 sys.path.insert(0, {CLIENT!r})
 import client

@@ -9,7 +9,7 @@ import tempfile
 import unittest
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(SOURCE, "tests", "server"), os.path.join(SOURCE, "clients", "python", "racebeam", "wire")]
+sys.path[:0] = [os.path.join(SOURCE, "tests", "server"), os.path.join(SOURCE, "clients", "python", "single_file")]
 
 import client as racebeam  # noqa: E402
 from harness import BINARY, GAME, PATIENCE, Server, main  # noqa: E402
@@ -155,7 +155,7 @@ class Files(unittest.TestCase):
             os.mkfifo(os.path.join(folder, "pipe"))
             for path in (folder, os.path.join(folder, "pipe"), "/dev/zero"):
                 for wait in ("", "?wait=60"):
-                    self.assertEqual(self.refusal(ValueError, f"file:{path}{wait}"), f"{path} is no regular file{tail}")
+                    self.assertEqual(self.refusal(ValueError, f"file:{path}{wait}"), f"{path} is not a regular file{tail}")
             for time in ("", "x", "-1", "1e3", "99999999999999999999"):
                 self.assertEqual(self.refusal(ValueError, f"file:{file}?wait={time}"),
                                  f"the address is 'file:{file}?wait={time}'; ?wait= takes seconds, from 0 to 999999999")

@@ -14,14 +14,14 @@ from harness import BINARY, main  # noqa: E402
 
 # The files of a client, and what its methods look like.
 METHODS = {
-    "python": (("python/racebeam/wire/client.py",), r"^    def (\w+)\("),
+    "python": (("python/racebeam/wire/commands.py",), r"^    def (\w+)\("),
     "java": (("java/src/main/java/racebeam/Session.java", "java/src/main/java/racebeam/Commands.java"), r"^  public [\w<>\[\], ]+ (\w+)\("),
     "lua": (("lua/racebeam/init.lua", "lua/racebeam/commands.lua"), r"^function (?:Session|methods):(\w+)\("),
     "c++": (("cpp/racebeam/client/commands.hpp", "cpp/racebeam/client/command_methods.hpp"), r"^  auto (\w+)\("),
     "javascript": (("js/src/session.js", "js/src/commands.js"), r"^  (?:async )?(\w+)\("),
     "typescript": (("js/src/index.d.ts",), r"^  (\w+)\("),
 }
-TABLES = ("python/racebeam/wire/client.py", "java/src/main/java/racebeam/FieldTable.java", "lua/racebeam/field_table.lua",
+TABLES = ("python/racebeam/wire/fields.py", "java/src/main/java/racebeam/FieldTable.java", "lua/racebeam/field_table.lua",
           "cpp/racebeam/client/field_table.hpp", "js/src/field_table.js", "shell/racebeam.bash")
 
 

@@ -8,7 +8,7 @@ import pathlib
 import sys
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "clients/python/racebeam/wire"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "clients/python/single_file"))
 import client
 
 ACTIONS = ("NOOP", "FIRE", "LEFT", "RIGHT")

@@ -10,7 +10,7 @@ import statistics
 import sys
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "clients/python/racebeam/wire"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "clients/python/single_file"))
 import client
 
 SHOWN = ("reward ends ram", "screen:zlib", "screen:rle", "screen:base64")

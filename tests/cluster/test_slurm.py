@@ -19,7 +19,7 @@ import slurm
 import speed
 from small_experiment import PLAN, files
 
-sys.path.insert(0, str(slurm.TOP / "clients/python/racebeam/wire"))
+sys.path.insert(0, str(slurm.TOP / "clients/python/single_file"))
 import client
 
 BINARY = os.environ.get("RACEBEAM_BINARY", str(slurm.TOP / "build/release/racebeam"))

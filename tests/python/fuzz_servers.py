@@ -79,7 +79,7 @@ class Servers:
                  lambda: session.send("act", word(WORDS)), session.flush, lambda: session.help(str(word(WORDS))), session.states,
                  lambda: session.save("here"), lambda: session.restore("here"), lambda: session.open(2), lambda: session.step(1)]
         if session.unanswered:
-            calls = [*calls, *[session.receive, session.received, session.receive_plain] * 4]
+            calls = [*calls, *[session.receive, session.receive_values, session.receive_plain] * 4]
         word([*calls, session.close_connection] if self.chance.random() < 0.05 else calls)()
 
     async def at_once(self):

@@ -21,7 +21,9 @@ from .images import find as find_image
 from .images import find_all as find_images
 from .images import games
 from .interface import ALEInterface
-from .wire.client import Refused, Session, connect, launch
+from .wire.messages import Refused
+from .wire.opening import connect, launch
+from .wire.session import Session
 
 if TYPE_CHECKING:
     from .env import AtariEnv

@@ -11,6 +11,7 @@ import unittest
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(SOURCE / "protocol/description"))
 import description  # noqa: E402
+import python_single_file  # noqa: E402
 import regions  # noqa: E402
 
 loader = importlib.machinery.SourceFileLoader("generate", str(SOURCE / "protocol/description/generate"))
@@ -48,7 +49,7 @@ class Rows(unittest.TestCase):
         files = changed('[[command]]\nname = "rewind"\nneeds = "game"\nsummary = "go back"\nreturns = "first"\n'
                         'arguments = [{ word = "count", text = "N", type = "int" }]\n')
         self.assertEqual(folders(files), set(CLIENTS) - {"shell"})
-        self.assertIn('def rewind(self, count: int) -> Values:', files["clients/python/racebeam/wire/client.py"])
+        self.assertIn('def rewind(self, count: int) -> Values:', files["clients/python/racebeam/wire/commands.py"])
         self.assertIn('public Group rewind(long count) throws', files["clients/java/src/main/java/racebeam/Commands.java"])
         self.assertIn("run_rewind},", files["protocol/description/command_rows.inc"])
 
@@ -78,6 +79,20 @@ class Mistakes(unittest.TestCase):
     def test_a_file_without_its_region_is_refused(self):
         with self.assertRaisesRegex(ValueError, "the file has no region fields"):
             regions.with_region("nothing\n", "", "#", "fields", "")
+
+
+class SingleFile(unittest.TestCase):
+    def test_it_has_the_definitions_of_the_modules_and_the_imports_of_all(self):
+        text = python_single_file.joined({"one": 'import re\n\nA = re.compile("a")\n',
+                                          "client": '"""What it is."""\n\nfrom typing import Any\n\nfrom .one import A\n\nB: Any = A\n\n__all__ = ["B"]\n'})
+        names = {}
+        exec(text, names)
+        self.assertIs(names["B"], names["A"])
+        self.assertEqual((names["__all__"], names["__doc__"]), (["B"], "What it is."))
+
+    def test_two_modules_that_define_one_name_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "two modules of the client in Python define A"):
+            python_single_file.joined({"one": "A = 1\n", "client": "A = 2\n"})
 
 
 class Versions(unittest.TestCase):

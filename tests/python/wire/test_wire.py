@@ -290,8 +290,7 @@ class Sessions(unittest.TestCase):
 
     def test_the_file_can_be_copied_alone(self):
         with tempfile.TemporaryDirectory() as folder:
-            source = pathlib.Path(racebeam.__file__).parent / "wire/client.py"
-            pathlib.Path(folder, "client.py").write_bytes(source.read_bytes())
+            pathlib.Path(folder, "client.py").write_bytes((package.SOURCE / "clients/python/single_file/client.py").read_bytes())
             script = "import client; s = client.launch(); print(s.load('beamfall', seed=1)['seed']); s.close_connection()"
             path = os.path.dirname(racebeam.program.path()) + ":" + os.environ["PATH"]
             done = subprocess.run([sys.executable, "-S", "-c", script], cwd=folder, capture_output=True, text=True,

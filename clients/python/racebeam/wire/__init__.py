@@ -1,1 +1,1 @@
-"""Games on a server. The file client.py needs the standard library only, and can be copied into other projects."""
+"""Games on a server. The module client and those that it imports need only the standard library."""

@@ -17,8 +17,12 @@ import ssl
 from collections.abc import Awaitable, Callable, Coroutine
 from typing import IO, Any, cast
 
-from . import client
-from .client import LONGEST_REPLY, Refused, Values
+from .addresses import reach
+from .exchange import LONGEST_REPLY
+from .messages import Refused, Values
+from .opening import not_serving, server_command
+from .session import Session
+from .transport import open_socket
 
 Read = Callable[[str], Coroutine[Any, Any, Any]]  # converts the line of a reply to a value
 
@@ -54,7 +58,7 @@ async def connect(
         TimeoutError: If no server answers in time.
         Refused: If the token is wrong.
     """
-    opened = await asyncio.to_thread(client.reached, address, lambda found: client.connected(found, timeout))
+    opened = await asyncio.to_thread(reach, address, lambda found: open_socket(found, timeout))
     (connection, host), found, announced = opened
     context = (tls or ssl.create_default_context()) if host else None
     opening = asyncio.open_connection(sock=connection, limit=longest_reply, ssl=context, server_hostname=host or None)
@@ -86,13 +90,13 @@ async def launch(*options: str, program: str | None = None, arrays: bool = False
         FileNotFoundError: If the program is not found.
         ConnectionError: If the program does not serve.
     """
-    pipe, command = asyncio.subprocess.PIPE, client.command_of(program, options)
+    pipe, command = asyncio.subprocess.PIPE, server_command(program, options)
     process = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, limit=LONGEST_REPLY)
     assert process.stdout is not None and process.stdin is not None
     try:
         return await _greet(AsyncSession(process.stdout, process.stdin, "", LONGEST_REPLY, arrays, process), None)
     except ConnectionError as error:
-        raise client.not_serving(command, error) from error
+        raise not_serving(command, error) from error
 
 
 async def _greet(session: AsyncSession, token: str | None) -> AsyncSession:
@@ -144,7 +148,7 @@ class AsyncSession:
         timeout: float | None = None,
     ) -> None:
         self._writer, self._process = writer, process
-        self._session = client.Session(cast(IO[bytes], None), cast(IO[bytes], writer), writer.close, arrays)
+        self._session = Session(cast(IO[bytes], None), cast(IO[bytes], writer), writer.close, arrays)
         self._session.address, self._session.longest_reply = address, longest_reply
         self._timeout = timeout
         self.again: Callable[[], Awaitable[AsyncSession]] | None = None
@@ -227,7 +231,7 @@ class AsyncSession:
             left = max(begin, self._replies.heard) + limit - clock()
             if left <= 0:
                 answer.cancel()
-                raise self._session.lost(TimeoutError())
+                raise self._session.fail(TimeoutError())
             await asyncio.wait([answer], timeout=left)
 
     async def reconnect(self) -> AsyncSession:
@@ -263,7 +267,7 @@ class _Replies:
         heard: Time of the last reply, on the clock of the event loop.
     """
 
-    def __init__(self, reader: asyncio.StreamReader, session: client.Session) -> None:
+    def __init__(self, reader: asyncio.StreamReader, session: Session) -> None:
         self._reader, self._session = reader, session
         self.awaited: collections.deque[tuple[asyncio.Future[Any], Read]] = collections.deque()
         self.heard = 0.0
@@ -275,9 +279,9 @@ class _Replies:
             while True:
                 await self._read_reply()
         except asyncio.IncompleteReadError:
-            error = self._session.lost(None)
+            error = self._session.fail(None)
         except (OSError, asyncio.LimitOverrunError) as why:
-            error = why if isinstance(why, ConnectionError) else self._session.lost(why)
+            error = why if isinstance(why, ConnectionError) else self._session.fail(why)
         finally:
             self._session.close_connection()
             for answer, _ in self.awaited:
@@ -301,10 +305,10 @@ class _Replies:
         Args:
             line: Line of the reply.
         """
-        words, groups, count = self._session.read_line(line)
+        words, groups, count = self._session.parse_reply(line)
         if count:
-            self._session.take_bytes(words, groups, await self._reader.readexactly(count))
-        return self._session.all_decoded(words, groups)
+            self._session.split_bytes(words, groups, await self._reader.readexactly(count))
+        return self._session.decode(words, groups)
 
     async def text(self, line: str) -> str:
         """Returns a reply without its status.
@@ -320,6 +324,6 @@ class _Replies:
         if (
             self.awaited and len(self.awaited) != len(self._session.unanswered) + 1
         ):  # Ctrl-C came between send() and append()
-            raise self._session.lost(ConnectionError("it was interrupted between a request and the end of its reply"))
+            raise self._session.fail(ConnectionError("it was interrupted between a request and the end of its reply"))
         if self.awaited and not (oldest := self.awaited.popleft()[0]).done():
             how(oldest)

@@ -19,7 +19,9 @@ from .. import images
 from .._core import Action, ALEState, View
 from ..errors import InvalidInput, MissingImage, UnknownGame
 from ..interface import ALEInterface, png
-from .client import Refused, Session, connect
+from .messages import Refused
+from .opening import connect
+from .session import Session
 
 Pixels = npt.NDArray[np.uint8]
 Method = TypeVar("Method", bound=Callable[..., Any])
@@ -57,7 +59,7 @@ def _exclusive(method: Method) -> Method:
                 return method(self, *words, **settings)
             except BaseException:
                 if self.session.unanswered:
-                    self.session.cut()
+                    self.session.abort()
                 raise
 
     return cast(Method, call)
@@ -348,7 +350,7 @@ class RemoteInterface:
             for _ in range(burst):
                 self.session.send("act", word)
             for _ in range(burst):
-                self.session.received()
+                self.session.receive_values()
             acts -= burst
 
     @_exclusive

@@ -16,7 +16,7 @@ from ..errors import InvalidInput
 from ..machines import Actions, Joysticks, Seeds
 from ..vector_options import VectorOptions
 from ..vector_results import Bools, Numbers, Pixels, Results
-from .client import Reply, Values
+from .messages import Reply, Values
 from .remote import STATE, RemoteInterface
 
 NO_LIMITS = (-(2**31), 2**31 - 1)
@@ -258,7 +258,7 @@ class RemoteMachines(Halves):
                 yield
             except BaseException:
                 if self.is_waiting():
-                    self._session.cut()
+                    self._session.abort()
                 raise
 
     def begin(self, *words: object, **settings: object) -> None:

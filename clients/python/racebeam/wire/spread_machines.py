@@ -20,7 +20,7 @@ from ..errors import InvalidInput
 from ..machines import Actions, Joysticks, Seeds
 from ..vector_options import VectorOptions
 from ..vector_results import Bools, Numbers, Pixels, Results
-from .client import Refused
+from .messages import Refused
 from .remote_machines import Halves, RemoteMachines, with_strengths
 
 LEAVING = ("stopping", "busy", "idle", "internal")  # the errors after which a server closes the session

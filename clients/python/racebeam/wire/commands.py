@@ -1,0 +1,408 @@
+"""The commands of the line protocol."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable
+
+from .encodings import decode_rewards
+from .exchange import Exchange
+from .messages import Values, key_values, optional_words, parse_number
+
+
+class Commands(Exchange):
+    """A method for each command. The commands whose request or reply needs more than its words come first.
+
+    The other methods follow in the order of the document. Each returns what `Exchange.request` returns, unless its
+    docstring says otherwise.
+    """
+
+    def help(self, *words: str) -> str:
+        """Explain.
+
+        Args:
+            *words: A command, a setting or a chapter. Default: all commands.
+
+        Returns:
+            The text of the reply.
+        """
+        return self._exchange(lambda: self.read_status(self._read_line())[1], "help", *words)
+
+    def game(self, name: str) -> Values:
+        """Describe one game.
+
+        Args:
+            name: Name of the game.
+        """
+        return self._first("games", name)
+
+    def load(self, game: str, image: bytes | None = None, **settings: object) -> Values:
+        """Power on and begin an episode.
+
+        Args:
+            game: Name of the game, MD5 of its image, or "inline".
+            image: The bytes of a cartridge, if `game` is "inline".
+            **settings: Settings of the protocol. `as_` is its setting `as`, the game whose rules apply.
+        """
+        rules = settings.pop("as_", None)
+        data = None if image is None else base64.b64encode(image).decode()
+        return self._first("load", game, *key_values(image=data, **{"as": rules}, **settings))
+
+    def two_player_modes(self) -> list[int]:
+        """List the modes of the game for two players."""
+        return self._ints_of("two_player_modes", "modes")
+
+    def actions(self) -> dict[int, str]:
+        """List the actions that act accepts.
+
+        Returns:
+            The names of the actions by their numbers.
+        """
+        pairs = (pair.split(":") for pair in self.list_of("actions", "actions"))
+        return {int(action): name for action, name in pairs}
+
+    def names(self) -> tuple[dict[int, str], list[str]]:
+        """List the names of bytes of the fields ram and tia.
+
+        Returns:
+            The names of bytes of `ram` by their indices, and the names of the bytes of `tia` in order.
+        """
+        found = self.ask("names")[0]
+        pairs = (pair.split(":") for pair in found["ram_names"].split(",") if pair)
+        return {int(index): name for index, name in pairs}, found["tia_names"].split(",")
+
+    def palette(self) -> list[tuple[int, int, int]]:
+        """List the colours of the field screen.
+
+        Returns:
+            Red, green and blue, 0 to 255, of each value of a pixel.
+        """
+        data = bytes.fromhex(self.ask("look", "palette:hex")[0]["palette"])
+        return [(data[at], data[at + 1], data[at + 2]) for at in range(0, len(data), 3)]
+
+    def peek(self, index: int, count: int = 1) -> bytes:
+        """Read bytes of RAM.
+
+        Args:
+            index: Index of the first byte, 0 to 127.
+            count: Number of bytes.
+        """
+        return bytes.fromhex(self.ask("peek", index, count)[0]["bytes"])
+
+    def poke(self, index: int, data: bytes) -> None:
+        """Write bytes of RAM.
+
+        Args:
+            index: Index of the first byte, 0 to 127.
+            data: The bytes.
+        """
+        self.ask("poke", index, data.hex().upper())
+
+    def export_state(self, name: str, whole: bool | int = False) -> bytes:
+        """Return a state, for later or for another process.
+
+        Args:
+            name: Name of the state.
+            whole: Whether the score, the progress of the episode and the stack of screens are included.
+        """
+        return base64.b64decode(self.ask("export", name, *key_values(whole=whole or None))[0]["data"])
+
+    def import_state(self, name: str, data: bytes) -> None:
+        """Save an exported state.
+
+        Args:
+            name: Name of the state.
+            data: What `export_state` returned.
+        """
+        self.ask("import", name, base64.b64encode(data).decode())
+
+    def branch(self, name: str, *sequences: Iterable[object], keep: str | None = None) -> list[Values]:
+        """Play lists of actions from a state; the session itself does not change.
+
+        Args:
+            name: Name of the state.
+            *sequences: Lists of actions.
+            keep: Prefix of the names under which the last states are saved: PREFIX0, PREFIX1 and so on.
+
+        Returns:
+            The values of each list. `rewards`, and `rewards_b` with two players, are lists of a reward for each act.
+        """
+        words = [*key_values(keep=keep), *(",".join(map(str, actions)) for actions in sequences)]
+        return [
+            {
+                key: decode_rewards(text) if key.startswith("rewards") else parse_number(text)
+                for key, text in texts.items()
+            }
+            for texts in self.ask("branch", name, *words)[1:]
+        ]
+
+    def close(self) -> None:
+        """Close the machines, as `close_machines` does. The session goes on."""
+        self.close_machines()
+
+    def stop_recording(self) -> Values:
+        """End the recording."""
+        return self._first("record", "stop")
+
+    # generated: commands, from protocol/protocol.toml
+
+    def hello(self, token: str | None = None) -> Values:
+        """The server's name, version and limits.
+
+        Args:
+            token: That the server requires.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("hello", *key_values(token=token))
+
+    def games(self, which: str | None = None) -> list[str]:
+        """List the games whose image is here, or all known games; or describe one.
+
+        Args:
+            which: `all|GAME` of the request.
+
+        Returns:
+            The list of the reply.
+        """
+        return self.list_of("games", "games", *optional_words(which))
+
+    def settings(self) -> Values:
+        """The settings in effect.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("settings")
+
+    def set(self, mode: int | None = None, difficulty: int | None = None) -> Values:
+        """Change the mode, from the next reset on, or the difficulty, at once.
+
+        Args:
+            mode: See modes.
+            difficulty: See difficulties.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("set", *key_values(mode=mode, difficulty=difficulty))
+
+    def modes(self) -> list[int]:
+        """The game's modes.
+
+        Returns:
+            The numbers of the reply.
+        """
+        return self._ints_of("modes", "modes")
+
+    def difficulties(self) -> list[int]:
+        """The game's difficulties.
+
+        Returns:
+            The numbers of the reply.
+        """
+        return self._ints_of("difficulties", "difficulties")
+
+    def observe(self, *fields: str) -> list[str]:
+        """Select the fields of replies.
+
+        Args:
+            *fields: Without them, asks for the selection.
+
+        Returns:
+            The list of the reply.
+        """
+        return self.list_of("fields", "observe", *fields)
+
+    def look(self, *fields: str) -> Values:
+        """Show these fields once; without fields, the selected ones.
+
+        Args:
+            *fields: `FIELD[:ENCODING]...` of the request.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("look", *fields)
+
+    def act(self, *actions: object) -> Values:
+        """Play actions until the episode ends.
+
+        Args:
+            *actions: `A[@STRENGTH][/B[@STRENGTH]][*TIMES]...` of the request.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("act", *actions)
+
+    def reset(self, seed: int | str | None = None) -> Values:
+        """Begin an episode; with a seed, power on anew with it.
+
+        Args:
+            seed: Powers on anew with it.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("reset", *key_values(seed=seed))
+
+    def save(self, name: str, random: bool | int | None = None, machine: int | None = None) -> None:
+        """Save the state; random=1: with the random generator.
+
+        Args:
+            name: `NAME` of the request.
+            random: 1: with the random generator.
+            machine: One of those of open, 0 the first.
+        """
+        self.ask("save", name, *key_values(random=random, machine=machine))
+
+    def restore(self, name: str, machine: int | None = None) -> Values:
+        """Restore a saved state.
+
+        Args:
+            name: `NAME` of the request.
+            machine: One of those of open, 0 the first.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("restore", name, *key_values(machine=machine))
+
+    def drop(self, *names: str) -> None:
+        """Delete states.
+
+        Args:
+            *names: `NAME...|all` of the request.
+        """
+        self.ask("drop", *names)
+
+    def states(self) -> list[str]:
+        """The names of the states.
+
+        Returns:
+            The list of the reply.
+        """
+        return self.list_of("states", "states")
+
+    def open(
+        self,
+        count: int,
+        autoreset: str | None = None,
+        steps: str | None = None,
+        start: str | None = None,
+        lives: str | None = None,
+        stack: str | None = None,
+        pool: bool | int | None = None,
+    ) -> list[Values]:
+        """Create N machines with the loaded game and settings; their seeds count up.
+
+        Args:
+            count: `N` of the request.
+            autoreset: What happens at the end of an episode.
+            steps: What a step is.
+            start: How an episode begins; with steps=frames.
+            lives: What a lost life does; with steps=frames.
+            stack: What a stack of screens begins with; with steps=frames.
+            pool: Which frames a stack shows; with steps=frames.
+
+        Returns:
+            The values of each group after the first.
+        """
+        return self._rest(
+            "open",
+            count,
+            *key_values(autoreset=autoreset, steps=steps, start=start, lives=lives, stack=stack, pool=pool),
+        )
+
+    def step(self, *actions: object) -> list[Values]:
+        """Play one act on each machine: an action each, or one for all.
+
+        Args:
+            *actions: `ACTION...` of the request.
+
+        Returns:
+            The values of each group after the first.
+        """
+        return self._rest("step", *actions)
+
+    def restart(self, mask: str | None = None, seed: int | str | None = None) -> list[Values]:
+        """Reset the machines that have a 1 in MASK, such as 0110, or all; seeds count up.
+
+        Args:
+            mask: `MASK` of the request.
+            seed: Powers on anew: machine 0 with N, machine 1 with N + 1, and so on.
+
+        Returns:
+            The values of each group after the first.
+        """
+        return self._rest("restart", *optional_words(mask), *key_values(seed=seed))
+
+    def close_machines(self) -> None:
+        """Close the machines."""
+        self.ask("close")
+
+    def record(self, kinds: str, name: str, machine: int | None = None) -> Values:
+        """Record frames, sound or both into the server's folder.
+
+        Args:
+            kinds: `png|gif|y4m|wav|webm|mp4[,...` of the request.
+            name: `NAME` of the request.
+            machine: One of those of open, 0 the first.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("record", kinds, name, *key_values(machine=machine))
+
+    def share(self, name: str, watchers: int | None = None) -> Values:
+        """Let other sessions watch the game under this name.
+
+        Args:
+            name: `NAME` of the request.
+            watchers: How many may watch at the same time.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("share", name, *key_values(watchers=watchers))
+
+    def unshare(self) -> None:
+        """End what share has begun."""
+        self.ask("unshare")
+
+    def shared(self) -> list[Values]:
+        """List the shared sessions.
+
+        Returns:
+            The values of each group after the first.
+        """
+        return self._rest("shared")
+
+    def watch(self, name: str, *fields: str, since: int | None = None) -> Values:
+        """Show a shared session as it was lately.
+
+        Args:
+            name: `NAME` of the request.
+            *fields: `FIELD[:ENCODING]...` of the request.
+            since: The frame of the last reply; the fields come only if there is a newer one.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("watch", name, *key_values(since=since), *fields)
+
+    def stats(self) -> Values:
+        """Counters of this session.
+
+        Returns:
+            The values of the first group of the reply.
+        """
+        return self._first("stats")
+
+    def quit(self) -> None:
+        """End the session."""
+        self.ask("quit")
+
+    # end of commands
